@@ -1,0 +1,182 @@
+"""Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
+
+from physics import checks
+from physics.tables import DYNAMIC, KINDS, STATIC
+
+
+def _column(name, doc):
+    return property(lambda self: self._row[name].item(), doc=doc)
+
+
+class Body:
+    """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second."""
+    __slots__ = ("world", "id")
+
+    def __init__(self, world, identity):
+        self.world = world
+        self.id = identity
+
+    def __eq__(self, other):
+        return isinstance(other, Body) and other.world is self.world and other.id == self.id
+
+    def __hash__(self):
+        return hash((id(self.world), self.id))
+
+    def __repr__(self):
+        return f"Body({self.id})"
+
+    @property
+    def _row(self):
+        return self.world._body_row(self.id)
+
+    angle = _column("angle", "Turn of the body [rad].")
+    mass = _column("mass", "Mass; 0 for a body without any.")
+    inertia = _column("inertia", "Inertia about the centre of mass.")
+    awake = _column("awake", "Whether it takes part in the simulation.")
+
+    @property
+    def position(self):
+        """The body's origin [px]."""
+        row = self._row
+        return (row["x"].item(), row["y"].item())
+
+    @property
+    def center(self):
+        """The centre of mass [px]."""
+        row = self._row
+        return (row["center_x"].item(), row["center_y"].item())
+
+    @property
+    def kind(self):
+        """static, kinematic or dynamic."""
+        return KINDS[self._row["kind"]]
+
+    @property
+    def velocity(self):
+        """Velocity of the centre of mass [px/s]. Raises ValueError when set on a static body to other than 0."""
+        row = self._row
+        return (row["vx"].item(), row["vy"].item())
+
+    @velocity.setter
+    def velocity(self, value):
+        self.world._unlocked()
+        value = checks.vector("velocity", value)
+        row = self._row
+        if row["kind"] == STATIC and value != (0.0, 0.0):
+            raise ValueError(f"velocity must be (0, 0) for static body {self.id} (got {value})")
+        row["vx"], row["vy"] = value
+
+    @property
+    def angular_velocity(self):
+        """[rad/s]. Raises ValueError when set to other than 0 without the rotation effect, or on a static body."""
+        return self._row["angular_velocity"].item()
+
+    @angular_velocity.setter
+    def angular_velocity(self, value):
+        self.world._unlocked()
+        value = checks.number("angular_velocity", value)
+        self.world._needs("rotation", "angular_velocity", value != 0.0)
+        row = self._row
+        if row["kind"] == STATIC and value != 0.0:
+            raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
+        row["angular_velocity"] = value
+
+    @property
+    def gravity_scale(self):
+        """Factor on the world's gravity."""
+        return self._row["gravity_scale"].item()
+
+    @gravity_scale.setter
+    def gravity_scale(self, value):
+        self.world._unlocked()
+        self._row["gravity_scale"] = checks.number("gravity_scale", value)
+
+    @property
+    def user(self):
+        """Anything the game wants to find again; not part of snapshots and digests."""
+        self._row
+        return self.world._users.get(self.id)
+
+    @user.setter
+    def user(self, value):
+        self._row
+        self.world._users[self.id] = value
+
+    @property
+    def shapes(self):
+        """The shapes as they were given; with a tier, what they are replaced by."""
+        self._row
+        return self.world._shapes_of[self.id]
+
+    @property
+    def filter(self):
+        """The filter of the shapes."""
+        return self.world._filter_of(self.id)
+
+    @filter.setter
+    def filter(self, value):
+        self.world._set_filter(self.id, value)
+
+    @property
+    def tier(self):
+        """How exactly its sprite collides: one of TIERS, or None for the shapes as given."""
+        self._row
+        return self.world._tiers.get(self.id)
+
+    @tier.setter
+    def tier(self, value):
+        self.world._set_tier(self.id, value)
+
+    def apply_force(self, force, point=None):
+        """Add a force for the coming step, at the centre of mass or at a world point [px]."""
+        self.world._unlocked()
+        force = checks.vector("force", force)
+        self.world._needs_velocities("apply_force")
+        row = self._dynamic("apply_force")
+        row["force_x"] += force[0]
+        row["force_y"] += force[1]
+        if point is not None:
+            x, y = checks.vector("point", point)
+            row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
+
+    def apply_impulse(self, impulse, point=None):
+        """Change the velocity at once by impulse / mass; with a point [px] outside the centre also the spin."""
+        self.world._unlocked()
+        impulse = checks.vector("impulse", impulse)
+        row = self._dynamic("apply_impulse")
+        row["vx"] += row["inverse_mass"] * impulse[0]
+        row["vy"] += row["inverse_mass"] * impulse[1]
+        if point is not None and self.world.effects.rotation:
+            x, y = checks.vector("point", point)
+            row["angular_velocity"] += row["inverse_inertia"] * ((x - row["center_x"]) * impulse[1]
+                                                                 - (y - row["center_y"]) * impulse[0])
+
+    def apply_torque(self, torque):
+        """Add a torque for the coming step. Raises ValueError without the rotation effect."""
+        self.world._unlocked()
+        torque = checks.number("torque", torque)
+        self.world._needs("rotation", "apply_torque", True)
+        self._dynamic("apply_torque")["torque"] += torque
+
+    def _dynamic(self, what):
+        row = self._row
+        if row["kind"] != DYNAMIC:
+            raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
+        return row
+
+    def move_to(self, position, angle=None):
+        """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
+        self.world._move_to(self.id, checks.vector("position", position),
+                            None if angle is None else checks.number("angle", angle))
+
+    def set_shapes(self, *shapes):
+        """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""
+        self.world._set_shapes(self.id, shapes)
+
+    def set_kind(self, kind):
+        """static, kinematic or dynamic. A body that becomes static stops."""
+        self.world._set_kind(self.id, checks.choice("kind", kind, KINDS))
+
+    def restore(self):
+        """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
+        self.world._restore_body(self.id)

@@ -1,0 +1,53 @@
+"""Brute force: every changed proxy against every other. The baseline that all others are measured against.
+
+Exact, no state, O(changed · n). Best for a few dozen bodies; the truth the other strategies are tested with.
+"""
+
+from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+from physics.jit import kernel
+
+
+@kernel
+def find_all(
+    # read
+    proxies, changed,
+    # write
+    pairs_out, work_inout,
+):
+    """List the pairs of which at least one side changed.
+
+    proxies PROXY rows, free slots have row -1; changed: slots. Returns the number found. O(changed · n).
+    """
+    found = 0
+    for i in range(len(changed)):
+        a = changed[i]
+        if proxies[a].row < 0:
+            continue
+        for b in range(len(proxies)):
+            q = proxies[b]
+            if q.row < 0 or b == a or (q.changed and b < a):
+                continue
+            if overlaps(proxies, a, b, work_inout):
+                found = write_pair(a, b, found, pairs_out)
+    return found
+
+
+class BruteForce:
+    """Tests all pairs: O(n²) for the first step, O(moved · n) after it."""
+
+    name = "brute"
+
+    def find_pairs(self, lower, upper):
+        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        return find_pairs(BruteForce(), lower, upper)
+
+    def fresh(self):
+        """A copy without state."""
+        return BruteForce()
+
+    def update(self, arena):
+        """Nothing to keep."""
+
+    def query(self, arena):
+        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)

@@ -1,0 +1,122 @@
+"""The candidate pairs, kept from step to step: only pairs of which a side changed are found again."""
+
+import numpy as np
+
+from physics.broadphase.proxies import Arena, keep_pairs, merge_pairs, pair_keys
+from physics.motion.rectangles import mark_settled
+from physics.profile import CANDIDATES
+from physics.tables import PROXY
+
+
+class PairList:
+    """Proxies for the shapes of a world, and the sorted list of their pairs.
+
+    `rows` (n, 2): shape rows of the candidates of this step; `ids`: their shape ids.
+    """
+
+    def __init__(self):
+        self.arena = Arena()
+        self.free = []                 # slots that a new shape may take
+        self.freed = []                # slots freed since the last update: strategies have not heard yet
+        self.slots = np.zeros((64, 2), np.int32)
+        self.spare = np.zeros((64, 2), np.int32)
+        self.candidates = np.zeros((64, 2), np.int64)
+        self.keys = np.zeros(64, np.int64)
+        self.changed = np.zeros(64, np.int64)
+        self.count = 0
+        self.rows = self.candidates[:0]
+        self.ids = self.candidates[:0]
+        self.everything = False        # the strategy is new: tell it about all proxies
+
+    @property
+    def proxies(self):
+        return self.arena.proxies
+
+    def add_proxies(self, shapes, rows, still):
+        """Give the shapes at these rows of a SHAPE array a slot each; still: whether each is static."""
+        while len(self.free) < len(rows):
+            used = len(self.proxies)
+            grown = np.zeros(max(64, 2 * used, used + len(rows)), PROXY)
+            grown[:used] = self.proxies
+            grown["row"][used:] = -1
+            self.arena.proxies = grown
+            self.free += range(len(grown) - 1, used - 1, -1)
+        slots = np.array([self.free.pop() for _ in range(len(rows))], np.int64)
+        shapes["proxy"][rows] = slots
+        for name in ("body", "membership", "mask"):
+            self.proxies[name][slots] = shapes[name][rows]
+        self.proxies["still"][slots] = still
+        self.proxies["row"][slots] = -1              # until its rectangle is known
+
+    def free_proxies(self, slots):
+        """Take shapes out of the broad phase."""
+        slots = slots[slots >= 0]
+        self.proxies["row"][slots] = -1
+        self.proxies["changed"][slots] = True
+        self.freed += slots.tolist()
+
+    def touch(self, slots):
+        """Have the pairs of these slots found anew: the rectangle pass lists what is flagged."""
+        slots = slots[slots >= 0]
+        self.proxies["changed"][slots] = True
+
+    def set_filter(self, slots, value):
+        """Change the filter of slots."""
+        self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
+        self.touch(slots)
+
+    def set_still(self, slots, still):
+        """Change whether slots are static."""
+        self.proxies["still"][slots] = still
+        self.touch(slots)
+
+    def start_over(self):
+        """A new strategy knows nothing yet."""
+        self.everything = True
+
+    def update(self, strategy, shapes, changed_count, work):
+        """Bring the candidates up to date with `changed_count` slots in `self.changed`, and those freed."""
+        arena = self.arena
+        arena.work = work
+        if self.everything:
+            arena.changed = np.flatnonzero(self.proxies["row"] >= 0)
+            self.proxies["changed"][arena.changed] = True
+            self.everything = False
+        else:
+            arena.changed = self.changed[:changed_count]
+            if self.freed:
+                arena.changed = np.concatenate([arena.changed, np.array(self.freed, np.int64)])
+        if len(arena.changed):
+            strategy.update(arena)
+            self._collect(strategy, shapes)
+            mark_settled(arena.changed, self.proxies)
+            self.free += self.freed
+            self.freed = []
+        elif len(self.rows):
+            self._rename(shapes)
+        work[CANDIDATES] += self.count
+
+    def _collect(self, strategy, shapes):
+        arena, proxies = self.arena, self.proxies
+        found = arena.collect(strategy.query(arena))
+        if len(self.spare) < self.count:
+            self.spare = np.zeros_like(self.slots)
+        kept = keep_pairs(proxies, self.slots, self.count, self.spare)
+        if len(self.keys) < found:
+            self.keys = np.zeros(2 * found, np.int64)
+        pair_keys(proxies, arena.pairs, found, arena.pairs, self.keys)
+        self.keys[:found].sort()
+        total = kept + found
+        if len(self.slots) < total:
+            self.slots = np.zeros((2 * total, 2), np.int32)
+            self.candidates = np.zeros((2 * total, 2), np.int64)
+        merge_pairs(proxies, shapes, self.spare, kept, self.keys, found, self.slots, self.candidates)
+        self.count = total
+        self.rows = self.candidates[:total]
+        self.ids = shapes["id"][self.rows]
+
+    def _rename(self, shapes):
+        """Rows may have moved though nothing changed: a body without proxies was removed."""
+        self.candidates[:self.count] = self.proxies["row"][self.slots[:self.count]]
+        self.rows = self.candidates[:self.count]
+        self.ids = shapes["id"][self.rows]

@@ -1,0 +1,198 @@
+"""The boxes that every broad phase works on, and the test of one pair of them.
+
+A proxy is a slot of the PROXY table: box, filter, owner. Strategies differ in which pairs they test, never in the
+test: so the list of pairs is the same from all of them.
+"""
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.profile import COUNTERS, FILTERED, PAIRS_TESTED
+from physics.tables import PROXY
+
+
+@subkernel
+def overlaps(
+    # read
+    proxies,
+    # scalars
+    a, b,
+    # write
+    work_inout,
+):
+    """Whether two proxies may pair: filters agree and the closed boxes touch.
+
+    proxies PROXY rows, boxes in px; a, b are slots; work_inout: counters. O(1).
+    """
+    p = proxies[a]
+    q = proxies[b]
+    if (p.still and q.still) or p.body == q.body:
+        return False
+    work_inout[PAIRS_TESTED] += 1
+    if p.lower_x > q.upper_x or q.lower_x > p.upper_x or p.lower_y > q.upper_y or q.lower_y > p.upper_y:
+        return False
+    if (p.membership & q.mask) == 0 or (q.membership & p.mask) == 0:
+        work_inout[FILTERED] += 1
+        return False
+    return True
+
+
+@subkernel
+def write_pair(
+    # scalars
+    a, b, found,
+    # write
+    pairs_out,
+):
+    """Write a pair of slots when there is room, and return the count, which goes on past the capacity.
+
+    pairs_out (capacity, 2) int32. A caller that gets more than the capacity grows the array and asks again. O(1).
+    """
+    if found < pairs_out.shape[0]:
+        pairs_out[found, 0] = a
+        pairs_out[found, 1] = b
+    return found + 1
+
+
+class Arena:
+    """What a strategy is given in each update: proxies, which of them changed, where to write pairs, and counters."""
+
+    def __init__(self):
+        self.proxies = np.zeros(0, PROXY)
+        self.changed = np.zeros(0, np.int64)         # slots, ascending: box, filter or existence changed
+        self.pairs = np.zeros((64, 2), np.int32)     # slots, in any order
+        self.work = np.zeros(len(COUNTERS), np.int64)
+
+    def collect(self, query) -> int:
+        """Run query(pairs, work) -> count, once more with room where the first run found more than fits."""
+        work = self.work.copy()
+        count = query(self.pairs, self.work)
+        if count > len(self.pairs):
+            self.pairs = np.zeros((max(count, 2 * len(self.pairs)), 2), np.int32)
+            self.work[:] = work
+            count = query(self.pairs, self.work)
+        return count
+
+
+def find_pairs(strategy, lower, upper) -> np.ndarray:
+    """All pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each once.
+
+    strategy: a broad phase without state; lower, upper (n, 2) px. Raises ValueError on NaN, infinity where it is
+    out of order, or lower > upper.
+    """
+    lower, upper = _corners("lower", lower), _corners("upper", upper)
+    if len(lower) != len(upper):
+        raise ValueError(f"lower and upper must have as many rows (got {len(lower)} and {len(upper)})")
+    wrong = (lower > upper).any(axis=1)
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise ValueError(f"lower[{row}] must be <= upper[{row}] (got {lower[row].tolist()} and {upper[row].tolist()})")
+    arena = Arena()
+    arena.proxies = np.zeros(len(lower), PROXY)
+    arena.proxies["lower_x"], arena.proxies["lower_y"] = lower.T
+    arena.proxies["upper_x"], arena.proxies["upper_y"] = upper.T
+    for name in ("row", "body"):
+        arena.proxies[name] = np.arange(len(lower))
+    arena.proxies["membership"] = arena.proxies["mask"] = 1
+    arena.proxies["changed"] = True
+    arena.changed = np.arange(len(lower), dtype=np.int64)
+    strategy.update(arena)
+    count = arena.collect(strategy.query(arena))
+    pairs = np.sort(arena.pairs[:count], axis=1)
+    order = np.argsort(pairs[:, 0].astype(np.int64) << 32 | pairs[:, 1])
+    return np.ascontiguousarray(pairs[order])
+
+
+def _corners(name, value):
+    try:
+        array = np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be an (n, 2) array of numbers (got {type(value).__name__})") from None
+    if array.size == 0:
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"{name} must have shape (n, 2) (got {array.shape})")
+    if np.isnan(array).any():
+        row = int(np.argwhere(np.isnan(array))[0][0])
+        raise ValueError(f"{name}[{row}] must not be NaN (got {array[row].tolist()})")
+    return array
+
+
+@kernel
+def keep_pairs(
+    # read
+    proxies, old, old_count,
+    # write
+    kept_out,
+):
+    """Copy the pairs of which neither side changed or was freed, in their order.
+
+    proxies PROXY rows; old, kept_out (capacity, 2) int32 slots. Returns how many were kept. O(pairs).
+    """
+    kept = 0
+    for i in range(old_count):
+        a = old[i, 0]
+        b = old[i, 1]
+        if not (proxies[a].changed or proxies[b].changed):
+            kept_out[kept, 0] = a
+            kept_out[kept, 1] = b
+            kept += 1
+    return kept
+
+
+@kernel
+def pair_keys(
+    # read
+    proxies, pairs, count,
+    # write
+    pairs_inout, keys_out,
+):
+    """Order each pair by shape row and write a key that sorts by both rows.
+
+    pairs, pairs_inout: the same (capacity, 2) int32 slots; keys_out int64. O(pairs).
+    """
+    for i in range(count):
+        a = pairs[i, 0]
+        b = pairs[i, 1]
+        row_a = proxies[a].row
+        row_b = proxies[b].row
+        if row_a > row_b:
+            pairs_inout[i, 0] = b
+            pairs_inout[i, 1] = a
+            row_a, row_b = row_b, row_a
+        keys_out[i] = (row_a << 32) | row_b
+
+
+@kernel
+def merge_pairs(
+    # read
+    proxies, shapes, kept, kept_count, keys, new_count,
+    # write
+    pairs_out, candidates_out,
+):
+    """Merge the kept pairs with the sorted keys of the new ones.
+
+    proxies PROXY and shapes SHAPE rows; kept (n, 2) slots in row order; keys int64 row << 32 | row, sorted;
+    pairs_out (capacity, 2) int32 slots, candidates_out (capacity, 2) int64 shape rows, both in row order. O(pairs).
+    """
+    i = 0
+    j = 0
+    low = 0xFFFFFFFF
+    for at in range(kept_count + new_count):
+        take_kept = False
+        row_a = 0
+        row_b = 0
+        if i < kept_count:
+            row_a = proxies[kept[i, 0]].row
+            row_b = proxies[kept[i, 1]].row
+            take_kept = j >= new_count or ((row_a << 32) | row_b) < keys[j]
+        if take_kept:
+            i += 1
+        else:
+            row_a = keys[j] >> 32
+            row_b = keys[j] & low
+            j += 1
+        pairs_out[at, 0] = shapes[row_a].proxy
+        pairs_out[at, 1] = shapes[row_b].proxy
+        candidates_out[at, 0] = row_a
+        candidates_out[at, 1] = row_b

@@ -1,0 +1,310 @@
+"""A uniform grid in a hash table, with coarser grids above it for what outgrows a cell.
+
+A proxy sits in the level whose cells are at least as large as its box, so it touches at most four cells, whatever its
+size: a giant sits in one coarse cell and floods nothing. A box that spans more cells of a finer level than its
+outline is long walks the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2.
+O(cells touched + candidates). Suits many things of one size, moving or not.
+"""
+
+import math
+
+import numpy as np
+
+from physics import checks
+from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+from physics.jit import kernel, subkernel
+from physics.profile import CELLS_TOUCHED, NODES_VISITED, REINSERTS
+
+LEVELS = 24                # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
+CELL_OF_MEDIAN = 2.0       # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
+CELL_RANGE = 1e9           # cells from the origin up to which coordinates are hashed exactly in 64 bits
+
+
+@subkernel
+def cell_of(coordinate, inverse_size):
+    """The cell a coordinate [px] lies in."""
+    return math.floor(coordinate * inverse_size)
+
+
+@subkernel
+def bucket_at(level, cell_x, cell_y, mask):
+    """The bucket of a cell. Products stay below 2^62 for cells within CELL_RANGE. Source: Teschner 2003."""
+    return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
+
+
+@subkernel
+def level_of(lower_x, lower_y, upper_x, upper_y, base):
+    """The finest level whose cells hold the box; LEVELS when none does or the box lies too far out."""
+    extent = max(upper_x - lower_x, upper_y - lower_y)
+    size = base
+    level = 0
+    while level < LEVELS and size < extent:
+        size *= 2.0
+        level += 1
+    reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
+    if not reach < CELL_RANGE * size:
+        return LEVELS
+    return level
+
+
+@subkernel
+def take_out(
+    # scalars
+    slot,
+    # write
+    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+):
+    """Unlink a slot from its cells and from the list of its level. O(4)."""
+    level = levels_inout[slot]
+    if level < 0:
+        return
+    for k in range(4 * slot, 4 * slot + 4):
+        e = entries_inout[k]
+        if e.bucket >= 0:
+            work_inout[CELLS_TOUCHED] += 1
+            if e.previous >= 0:
+                entries_inout[e.previous].next = e.next
+            else:
+                heads_inout[e.bucket] = e.next
+            if e.next >= 0:
+                entries_inout[e.next].previous = e.previous
+            e.bucket = -1
+    before = lists_inout[slot, 0]
+    after = lists_inout[slot, 1]
+    if before >= 0:
+        lists_inout[before, 1] = after
+    else:
+        level_heads_inout[level] = after
+    if after >= 0:
+        lists_inout[after, 0] = before
+    level_counts_inout[level] -= 1
+    levels_inout[slot] = -1
+
+
+@subkernel
+def put_in(
+    # read
+    proxies,
+    # scalars
+    slot, level, base, mask,
+    # write
+    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+):
+    """Link a slot into the cells its box touches and into the list of its level. O(4)."""
+    p = proxies[slot]
+    levels_inout[slot] = level
+    lists_inout[slot, 0] = -1
+    lists_inout[slot, 1] = level_heads_inout[level]
+    if level_heads_inout[level] >= 0:
+        lists_inout[level_heads_inout[level], 0] = slot
+    level_heads_inout[level] = slot
+    level_counts_inout[level] += 1
+    if level == LEVELS:
+        return
+    inverse = 1.0 / (base * (1 << level))
+    k = 4 * slot
+    for cell_y in range(cell_of(p.lower_y, inverse), cell_of(p.upper_y, inverse) + 1):
+        for cell_x in range(cell_of(p.lower_x, inverse), cell_of(p.upper_x, inverse) + 1):
+            bucket = bucket_at(level, cell_x, cell_y, mask)
+            e = entries_inout[k]
+            e.cell_x = cell_x
+            e.cell_y = cell_y
+            e.bucket = bucket
+            e.previous = -1
+            e.next = heads_inout[bucket]
+            if e.next >= 0:
+                entries_inout[e.next].previous = k
+            heads_inout[bucket] = k
+            work_inout[CELLS_TOUCHED] += 1
+            k += 1
+
+
+@kernel
+def place_changed(
+    # read
+    proxies, changed, base,
+    # write
+    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+):
+    """Move the changed proxies to the cells they touch now; those that stay in theirs are left alone.
+
+    changed: slots; levels_inout (slots) level or -1; heads_inout: first entry of each bucket; entries_inout four per
+    slot; lists_inout (slots, 2) previous and next of the level. Returns 1 when a box spans more than four cells,
+    which rounding alone cannot do, else 0. O(changed).
+    """
+    mask = len(heads_inout) - 1
+    for i in range(len(changed)):
+        slot = changed[i]
+        p = proxies[slot]
+        if p.row < 0:
+            take_out(slot, levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout,
+                     level_counts_inout, work_inout)
+            continue
+        level = level_of(p.lower_x, p.lower_y, p.upper_x, p.upper_y, base)
+        if level < LEVELS:
+            inverse = 1.0 / (base * (1 << level))
+            columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
+            rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
+            if columns > 2 or rows > 2:      # a box as wide as a cell, with both ends on borders
+                level += 1
+                inverse *= 0.5
+                columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
+                rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
+            if level == levels_inout[slot] and level < LEVELS:
+                first = entries_inout[4 * slot]
+                last = entries_inout[4 * slot + columns * rows - 1]
+                if (first.bucket >= 0 and first.cell_x == cell_of(p.lower_x, inverse)
+                        and first.cell_y == cell_of(p.lower_y, inverse) and last.bucket >= 0
+                        and last.cell_x == cell_of(p.upper_x, inverse) and last.cell_y == cell_of(p.upper_y, inverse)
+                        and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)):
+                    continue
+        take_out(slot, levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout,
+                 level_counts_inout, work_inout)
+        put_in(proxies, slot, level, base, mask, levels_inout, heads_inout, entries_inout, lists_inout,
+               level_heads_inout, level_counts_inout, work_inout)
+        work_inout[REINSERTS] += 1
+
+
+@kernel
+def find_in_cells(
+    # read
+    proxies, changed, base, levels, heads, entries, lists, level_heads, level_counts,
+    # write
+    pairs_out, work_inout,
+):
+    """List the pairs of which a side changed: per level through the cells its box touches, or through the level's list.
+
+    A pair that shares several cells is reported in the one that holds the lower corner of the shared rectangle.
+    Returns the number of pairs. O(cells + candidates); cells are at most in proportion to the outline of the box.
+    """
+    mask = len(heads) - 1
+    found = 0
+    for i in range(len(changed)):
+        a = changed[i]
+        p = proxies[a]
+        if p.row < 0:
+            continue
+        for level in range(LEVELS + 1):
+            if level_counts[level] == 0:
+                continue
+            by_list = level == LEVELS or levels[a] == LEVELS
+            first_x = 0
+            first_y = 0
+            last_x = -1
+            last_y = -1
+            inverse = 1.0
+            if not by_list:
+                inverse = 1.0 / (base * (1 << level))
+                if (p.upper_x - p.lower_x) * inverse + (p.upper_y - p.lower_y) * inverse > level_counts[level] + 4:
+                    by_list = True
+                else:
+                    first_x = cell_of(p.lower_x, inverse)
+                    last_x = cell_of(p.upper_x, inverse)
+                    first_y = cell_of(p.lower_y, inverse)
+                    last_y = cell_of(p.upper_y, inverse)
+                    columns = last_x - first_x + 1
+                    rows = last_y - first_y + 1
+                    by_list = columns * rows > 4 * (columns + rows)
+            if by_list:
+                b = level_heads[level]
+                while b >= 0:
+                    if b != a and not (proxies[b].changed and b < a) and overlaps(proxies, a, b, work_inout):
+                        found = write_pair(a, b, found, pairs_out)
+                    b = lists[b, 1]
+                continue
+            for cell_y in range(first_y, last_y + 1):
+                for cell_x in range(first_x, last_x + 1):
+                    work_inout[NODES_VISITED] += 1
+                    k = heads[bucket_at(level, cell_x, cell_y, mask)]
+                    while k >= 0:
+                        e = entries[k]
+                        b = k // 4
+                        k = e.next
+                        if b == a or e.cell_x != cell_x or e.cell_y != cell_y or levels[b] != level:
+                            continue
+                        q = proxies[b]
+                        if q.changed and b < a:
+                            continue
+                        if (cell_of(max(p.lower_x, q.lower_x), inverse) != cell_x
+                                or cell_of(max(p.lower_y, q.lower_y), inverse) != cell_y):
+                            continue
+                        if overlaps(proxies, a, b, work_inout):
+                            found = write_pair(a, b, found, pairs_out)
+    return found
+
+
+ENTRY = np.dtype([("cell_x", np.int64), ("cell_y", np.int64), ("bucket", np.int64), ("next", np.int64),
+                  ("previous", np.int64)])
+
+
+class SpatialHashGrid:
+    """cell: size of the finest cells [px]; None tunes itself to the bodies. Raises ValueError for a cell not > 0."""
+
+    name = "hash"
+
+    def __init__(self, cell=None):
+        self.cell = None if cell is None else checks.number("cell", cell, above=0.0)
+        self.base = self.cell or 0.0
+        self.tuned_for = 0
+        self._clear(0, 16)
+
+    def _clear(self, slots, buckets):
+        self.levels = np.full(slots, -1, np.int64)
+        self.heads = np.full(buckets, -1, np.int64)
+        self.entries = np.zeros(4 * slots, ENTRY)
+        self.entries["bucket"] = -1
+        self.lists = np.full((slots, 2), -1, np.int64)
+        self.level_heads = np.full(LEVELS + 1, -1, np.int64)
+        self.level_counts = np.zeros(LEVELS + 1, np.int64)
+
+    def find_pairs(self, lower, upper):
+        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        return find_pairs(self.fresh(), lower, upper)
+
+    def fresh(self):
+        """A copy without state."""
+        return SpatialHashGrid(self.cell)
+
+    def update(self, arena):
+        """Move what changed to its cells; grow, and tune the cell size anew, when the number of bodies doubled."""
+        proxies = arena.proxies
+        changed = arena.changed
+        alive = int(self.level_counts.sum()) + len(changed)      # an upper bound, cheap, good enough to double by
+        coarse = int(self.level_counts[2:LEVELS].sum())
+        retune = self.cell is None and (alive > 2 * self.tuned_for or 2 * coarse > max(alive, 8))
+        if retune or alive > len(self.heads) or len(proxies) > len(self.levels):
+            rows = np.flatnonzero(proxies["row"] >= 0)
+            if self.cell is None and retune and len(rows):
+                self.base = self._tuned(proxies[rows])
+                self.tuned_for = max(len(rows), 8)
+            buckets = len(self.heads)
+            while buckets < 2 * alive:
+                buckets *= 2
+            self._clear(max(len(proxies), 2 * len(self.levels) if len(proxies) > len(self.levels) else len(self.levels)),
+                        buckets)
+            changed = rows
+        place_changed(proxies, changed, self.base, *self._state(), arena.work)
+
+    def _state(self):
+        return self.levels, self.heads, self.entries, self.lists, self.level_heads, self.level_counts
+
+    @staticmethod
+    def _tuned(boxes):
+        """Twice the median box, in finite boxes that have a size; 1 when there is none."""
+        extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
+        extent = extent[np.isfinite(extent) & (extent > 0.0)]
+        return CELL_OF_MEDIAN * float(np.median(extent)) if len(extent) else 1.0
+
+    def query(self, arena):
+        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        return lambda pairs, work: find_in_cells(arena.proxies, arena.changed, self.base, *self._state(), pairs, work)
+
+    def cells(self):
+        """Occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
+        used = self.entries[self.entries["bucket"] >= 0]
+        level = np.repeat(self.levels, 4)[self.entries["bucket"] >= 0]
+        cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0) if len(used) else \
+            np.zeros((0, 3), np.int64)
+        size = self.base * 2.0 ** cells[:, 0]
+        low = cells[:, 1:] * size[:, None]
+        return np.concatenate([low, low + size[:, None]], axis=1), cells[:, 0]

@@ -1,0 +1,275 @@
+"""Sort and sweep: sort the boxes along an axis and test only those whose intervals overlap there.
+
+`axes="auto"` sorts the axis along which the centres vary more and tests the other; `axes="both"` sweeps x and y and
+intersects the two lists: the dimension reduction taken literally. Insertion sort keeps the order from step to step,
+so slow movers cost as many swaps as they pass neighbours. Source: Baraff 1992; Ericson, Real-Time Collision
+Detection, 7.5. O(n + swaps + interval overlaps of the changed). Suits slow movers spread along one axis.
+"""
+
+import numpy as np
+
+from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+from physics.jit import kernel
+from physics.profile import FILTERED, PAIRS_TESTED, SWAPS
+
+AXIS_SWITCH = 2.0          # the other axis must vary this much more before the order is sorted anew
+SWAP_BUDGET = 16           # swaps per body after which a full sort is cheaper than going on inserting
+
+
+@kernel
+def refresh_order(
+    # read
+    proxies, axis,
+    # write
+    order_inout, lower_out,
+):
+    """Drop freed slots from the order and read the lower ends along the axis.
+
+    order_inout: slots; lower_out [px]. Returns how many are left. O(n).
+    """
+    count = 0
+    for i in range(len(order_inout)):
+        slot = order_inout[i]
+        p = proxies[slot]
+        if p.row >= 0:
+            order_inout[count] = slot
+            lower_out[count] = p.lower_x if axis == 0 else p.lower_y
+            count += 1
+    return count
+
+
+@kernel
+def insertion_sort(
+    # scalars
+    count, budget,
+    # write
+    order_inout, lower_inout, work_inout,
+):
+    """Restore the order of nearly sorted lower ends. Returns 0, or 1 when the budget of swaps ran out.
+
+    order_inout: slots; lower_inout [px]. O(n + swaps).
+    """
+    left = budget
+    for i in range(1, count):
+        value = lower_inout[i]
+        slot = order_inout[i]
+        j = i - 1
+        while j >= 0 and lower_inout[j] > value:
+            lower_inout[j + 1] = lower_inout[j]
+            order_inout[j + 1] = order_inout[j]
+            j -= 1
+            left -= 1
+        lower_inout[j + 1] = value
+        order_inout[j + 1] = slot
+        work_inout[SWAPS] += i - 1 - j
+        if left < 0:
+            return 1
+    return 0
+
+
+@kernel
+def sort_boxes(
+    # read
+    proxies, order, count, axis,
+    # write
+    boxes_out, next_changed_out,
+):
+    """Copy boxes and owners into sorted order, where the sweep reads them one after another.
+
+    boxes_out (n, 2) float64 [px] interval along the axis; next_changed_out: place of the next changed proxy. O(n).
+    """
+    following = count
+    for k in range(count):
+        i = count - 1 - k
+        p = proxies[order[i]]
+        boxes_out[i, 0] = p.lower_x if axis == 0 else p.lower_y
+        boxes_out[i, 1] = p.upper_x if axis == 0 else p.upper_y
+        next_changed_out[i] = following
+        if p.changed:
+            following = i
+
+
+@kernel
+def sweep_one(
+    # read
+    proxies, order, count, boxes, next_changed,
+    # write
+    pairs_out, work_inout,
+):
+    """Sweep the sorted intervals; test each overlap of which a side changed. Returns the number of pairs.
+
+    order: slots; boxes (n, 2) [px]; next_changed: places. An unchanged proxy jumps from one changed neighbour to the
+    next, so few movers among many cost few tests.
+    """
+    found = 0
+    for i in range(count):
+        a = order[i]
+        upper = boxes[i, 1]
+        changed = proxies[a].changed
+        j = i + 1 if changed else next_changed[i]
+        while j < count and boxes[j, 0] <= upper:
+            if overlaps(proxies, a, order[j], work_inout):
+                found = write_pair(a, order[j], found, pairs_out)
+            j = j + 1 if changed else next_changed[j]
+    return found
+
+
+@kernel
+def sweep_intervals(
+    # read
+    proxies, order, count, boxes, next_changed,
+    # write
+    keys_out, work_inout,
+):
+    """List the interval overlaps along one axis as keys slot << 32 | slot. Returns their number."""
+    found = 0
+    for i in range(count):
+        a = order[i]
+        p = proxies[a]
+        upper = boxes[i, 1]
+        j = i + 1 if p.changed else next_changed[i]
+        while j < count and boxes[j, 0] <= upper:
+            b = order[j]
+            q = proxies[b]
+            if not ((p.still and q.still) or p.body == q.body):
+                work_inout[PAIRS_TESTED] += 1
+                if found < len(keys_out):
+                    low = min(a, b)
+                    high = max(a, b)
+                    keys_out[found] = (low << 32) | high
+                found += 1
+            j = j + 1 if p.changed else next_changed[j]
+    return found
+
+
+@kernel
+def intersect(
+    # read
+    proxies, keys_x, count_x, keys_y, count_y,
+    # write
+    pairs_out, work_inout,
+):
+    """Pairs that stand in both sorted key lists and pass the filter. Returns their number. O(both lists)."""
+    found = 0
+    i = 0
+    j = 0
+    low = 0xFFFFFFFF
+    while i < count_x and j < count_y:
+        if keys_x[i] < keys_y[j]:
+            i += 1
+        elif keys_x[i] > keys_y[j]:
+            j += 1
+        else:
+            a = keys_x[i] >> 32
+            b = keys_x[i] & low
+            if (proxies[a].membership & proxies[b].mask) == 0 or (proxies[b].membership & proxies[a].mask) == 0:
+                work_inout[FILTERED] += 1
+            else:
+                found = write_pair(a, b, found, pairs_out)
+            i += 1
+            j += 1
+    return found
+
+
+class Axis:
+    """The proxies in order of their lower ends along one axis, kept from step to step."""
+
+    def __init__(self, axis):
+        self.axis = axis
+        self.order = np.zeros(0, np.int64)
+        self.known = np.zeros(0, bool)          # slot -> is in the order
+        self.boxes = np.zeros((0, 2))
+        self.next_changed = np.zeros(0, np.int64)
+        self.keys = np.zeros(64, np.int64)
+
+    def update(self, arena):
+        """Bring the order up to date with the changed proxies."""
+        proxies, changed = arena.proxies, arena.changed
+        if len(self.known) < len(proxies):
+            self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
+        alive = proxies["row"][changed] >= 0
+        self.known[changed[~alive]] = False
+        added = changed[alive & ~self.known[changed]]
+        self.known[added] = True
+        lower = np.empty(len(self.order))
+        count = refresh_order(proxies, self.axis, self.order, lower)
+        order = np.concatenate([self.order[:count], added])
+        lower = np.concatenate([lower[:count], proxies["lower_x" if self.axis == 0 else "lower_y"][added]])
+        few = len(added) * 8 <= len(order)
+        if not few or insertion_sort(len(order), SWAP_BUDGET * len(order) + 64, order, lower, arena.work):
+            order = order[np.argsort(lower, kind="stable")]
+        self.order = order
+        if len(self.boxes) < len(order):
+            room = max(len(order), 2 * len(self.boxes))
+            self.boxes, self.next_changed = np.zeros((room, 2)), np.zeros(room, np.int64)
+        sort_boxes(proxies, order, len(order), self.axis, self.boxes, self.next_changed)
+
+    def sweep(self, arena, pairs, work):
+        return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
+
+    def intervals(self, arena, work):
+        """Sorted keys of the interval overlaps along this axis."""
+        before = work.copy()
+        count = sweep_intervals(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work)
+        if count > len(self.keys):
+            self.keys = np.zeros(count, np.int64)
+            work[:] = before
+            sweep_intervals(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work)
+        self.keys[:count].sort()
+        return self.keys, count
+
+
+class SweepAndPrune:
+    """Sorts along x, y, or both. Raises ValueError for other axes than "auto" and "both"."""
+
+    name = "sweep"
+
+    def __init__(self, axes="auto"):
+        if axes not in ("auto", "both"):
+            raise ValueError(f"axes must be auto or both (got {axes!r})")
+        self.axes = axes
+        self.sorted = [Axis(0), Axis(1)] if axes == "both" else [Axis(0)]
+
+    def find_pairs(self, lower, upper):
+        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        return find_pairs(self.fresh(), lower, upper)
+
+    def fresh(self):
+        """A copy without state."""
+        return SweepAndPrune(self.axes)
+
+    def update(self, arena):
+        """Sort what changed into its place."""
+        if self.axes == "auto":
+            best = self._best_axis(arena.proxies)
+            if best != self.sorted[0].axis:
+                everything = arena.changed
+                self.sorted = [Axis(best)]
+                arena.changed = np.arange(len(arena.proxies), dtype=np.int64)
+                self.sorted[0].update(arena)
+                arena.changed = everything
+                return
+        for axis in self.sorted:
+            axis.update(arena)
+
+    def _best_axis(self, proxies):
+        alive = proxies[proxies["row"] >= 0]
+        now = self.sorted[0].axis
+        if not len(alive):
+            return now
+        with np.errstate(over="ignore", invalid="ignore"):
+            spread = [float(np.var(alive["lower_x"] + alive["upper_x"])),
+                      float(np.var(alive["lower_y"] + alive["upper_y"]))]
+        needed = AXIS_SWITCH if len(self.sorted[0].order) else 1.0
+        return 1 - now if spread[1 - now] > needed * spread[now] else now
+
+    def query(self, arena):
+        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        if self.axes == "auto":
+            return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
+
+        def both(pairs, work):
+            keys_x, count_x = self.sorted[0].intervals(arena, work)
+            keys_y, count_y = self.sorted[1].intervals(arena, work)
+            return intersect(arena.proxies, keys_x, count_x, keys_y, count_y, pairs, work)
+        return both

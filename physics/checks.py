@@ -1,0 +1,78 @@
+"""Checks of what a user hands in: every message names the argument, its value and what is allowed."""
+
+import math
+import numbers
+
+import numpy as np
+
+
+def number(name, value, low=None, above=None, high=None):
+    """A finite float; `low`/`high` inclusive bounds, `above` exclusive. Raises TypeError or ValueError."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number (got {value!r})")
+    value = float(value)
+    allowed = "finite"
+    if above is not None:
+        allowed = f"finite and > {above}"
+    if low is not None:
+        allowed = f"finite and >= {low}"
+    if high is not None:
+        allowed += f" and <= {high}"
+    if (not math.isfinite(value) or (above is not None and not value > above) or (low is not None and value < low)
+            or (high is not None and value > high)):
+        raise ValueError(f"{name} must be {allowed} (got {value!r})")
+    return value
+
+
+def vector(name, value):
+    """Two finite floats from any pair. Raises TypeError or ValueError."""
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {value!r})") from None
+    return number(f"{name}[0]", x), number(f"{name}[1]", y)
+
+
+def whole(name, value, low, high):
+    """An int within bounds. Raises TypeError or ValueError."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} must be a whole number (got {value!r})")
+    if not low <= value <= high:
+        raise ValueError(f"{name} must be {low}..{high} (got {value})")
+    return int(value)
+
+
+def flag(name, value):
+    """A bool. Raises TypeError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False (got {value!r})")
+    return bool(value)
+
+
+def choice(name, value, allowed):
+    """One of the allowed strings. Raises ValueError (TypeError when it is no string)."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {value!r})")
+    if value not in allowed:
+        raise ValueError(f"{name} must be one of {', '.join(allowed)} (got {value!r})")
+    return value
+
+
+def columns(name, value, count=None, width=2):
+    """A finite float64 array (n, width) or (n,) for width 1, as a C-ordered copy. Raises TypeError or ValueError."""
+    try:
+        array = np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be an array of numbers (got {type(value).__name__})") from None
+    shape = f"(n, {width})" if width > 1 else "(n,)"
+    if width > 1 and array.size == 0:
+        array = array.reshape(0, width)
+    if array.ndim != (2 if width > 1 else 1) or (width > 1 and array.shape[1] != width):
+        raise ValueError(f"{name} must have shape {shape} (got {array.shape})")
+    if count is not None and len(array) != count:
+        raise ValueError(f"{name} must have {count} rows, as positions has (got {len(array)})")
+    bad = ~np.isfinite(array)
+    if bad.any():
+        row = int(np.argwhere(bad)[0][0])
+        raise ValueError(f"{name}[{row}] must be finite (got {array[row]!r})")
+    return array

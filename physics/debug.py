@@ -1,0 +1,142 @@
+"""What is under a scene, as arrays in world pixels. Only reads; drawing is somebody else's."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from physics import tables
+from physics.broadphase.dynamic_tree import DynamicTree
+from physics.broadphase.spatial_hash import SpatialHashGrid
+from physics.broadphase.sweep_and_prune import SweepAndPrune
+from physics.narrowphase.placement import refresh_aabbs
+from physics.stages import add_missing_rasters
+
+ROW = np.dtype([("shape", np.int64), ("body", np.int64), ("kind", np.int64), ("membership", np.int64),
+                ("mask", np.int64), ("sensor", np.bool_), ("awake", np.bool_)])
+
+
+class Structure(NamedTuple):
+    """What a broad phase keeps: cells or node boxes with their depth, or intervals (axis, low, high, shape id)."""
+    kind: str                   # brute, sweep, hash, tree
+    rects: np.ndarray           # (m, 4) min_x min_y max_x max_y
+    depth: np.ndarray           # (m,) level of a cell, depth of a node
+    intervals: np.ndarray       # (k, 4)
+
+
+def bounds(world) -> np.ndarray:
+    """(n, 4) tight AABB of every shape at the present poses, in the order of shape ids."""
+    add_missing_rasters(world, 0.0)
+    refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+    return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
+
+
+def shape_rows(world) -> np.ndarray:
+    """Who each shape is: id, body id, kind of body, filter, sensor, awake."""
+    shapes = world.shapes
+    rows = np.zeros(len(shapes), ROW)
+    rows["shape"], rows["body"] = shapes["id"], shapes["body"]
+    rows["membership"], rows["mask"], rows["sensor"] = shapes["membership"], shapes["mask"], shapes["sensor"]
+    rows["kind"], rows["awake"] = world.bodies["kind"][shapes["body_row"]], world.bodies["awake"][shapes["body_row"]]
+    return rows
+
+
+def motion(world) -> np.ndarray:
+    """(n, 4) bounding motion rectangles of the last step, of the shapes that can move."""
+    proxies = world.pairs.proxies
+    rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
+    return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
+
+
+def structure(world) -> Structure:
+    """What the broad phase keeps from step to step."""
+    strategy = world.broadphase
+    rects, depth, intervals = np.zeros((0, 4)), np.zeros(0, int), np.zeros((0, 4))
+    if isinstance(strategy, SpatialHashGrid):
+        rects, depth = strategy.cells()
+    elif isinstance(strategy, DynamicTree):
+        rects, depth = strategy.boxes()
+    elif isinstance(strategy, SweepAndPrune):
+        parts = []
+        for axis in strategy.sorted:
+            slots = axis.order[world.pairs.proxies["row"][axis.order] >= 0]
+            shapes = world.shapes["id"][world.pairs.proxies["row"][slots]]
+            ends = axis.boxes[:len(axis.order)][world.pairs.proxies["row"][axis.order] >= 0]
+            parts.append(np.column_stack([np.full(len(slots), axis.axis), ends, shapes]))
+        intervals = np.concatenate(parts) if parts else intervals
+    return Structure(strategy.name, rects, depth, intervals)
+
+
+def pairs(world) -> np.ndarray:
+    """(m, 5) x0 y0 x1 y1 hit: from centre to centre of the AABBs of every candidate pair; hit is 1 for a contact."""
+    boxes = bounds(world)
+    rows = _candidate_rows(world)
+    centers = (boxes[:, :2] + boxes[:, 2:]) / 2.0
+    contacts = world.contacts
+    touching = set(zip(contacts["shape_a"].tolist(), contacts["shape_b"].tolist()))
+    ids = world.shapes["id"][rows].tolist()
+    hit = np.array([(a, b) in touching for a, b in ids], float)
+    return np.column_stack([centers[rows[:, 0]], centers[rows[:, 1]], hit]) if len(rows) else np.zeros((0, 5))
+
+
+def _candidate_rows(world):
+    """Shape rows of the last step's candidates whose shapes are still there."""
+    ids = world.pairs.ids
+    known = np.ascontiguousarray(world.shapes["id"])
+    if not len(ids) or not len(known):
+        return np.zeros((0, 2), np.int64)
+    rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
+    return rows[(known[rows] == ids).all(axis=1)]
+
+
+def outlines(world) -> list:
+    """One entry per shape: ("circle", x, y, r), ("polygon", (k, 2)), ("mask", shape id) or ("tiles", shape id)."""
+    found = []
+    boxes = bounds(world)
+    for row, shape in enumerate(world.shapes):
+        body = world.bodies[shape["body_row"]]
+        cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
+        origin = np.array([body["x"], body["y"]])
+        turn = np.array([[cosine, sine], [-sine, cosine]])
+        if shape["kind"] == tables.CIRCLE:
+            center = origin + np.array([shape["local_x"], shape["local_y"]]) @ turn
+            found.append(("circle", float(center[0]), float(center[1]), float(shape["radius"])))
+        elif shape["kind"] == tables.POLYGON:
+            found.append(("polygon", origin + np.array(world.library.outlines[shape["geometry"]].points) @ turn))
+        elif shape["kind"] == tables.BOUNDS:
+            x0, y0, x1, y1 = boxes[row]
+            found.append(("polygon", np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])))
+        else:
+            found.append(("mask" if shape["kind"] == tables.MASK else "tiles", int(shape["id"])))
+    return found
+
+
+def masks(world) -> list:
+    """(shape id, left, top, solid[row, col]) of every mask as drawn."""
+    return [(int(shape["id"]), *_drawn(world, shape)) for shape in world.shapes if shape["kind"] == tables.MASK]
+
+
+def _drawn(world, shape):
+    body = world.bodies[shape["body_row"]]
+    turned = world.library.masks[shape["geometry"]].turned(float(body["angle"]))
+    left = int(np.floor(body["x"] - turned.origin[0] + 0.5))
+    top = int(np.floor(body["y"] - turned.origin[1] + 0.5))
+    return left, top, turned.solid
+
+
+def mask_hits(world) -> list:
+    """(left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the ANDed pixels."""
+    found = []
+    rows = _candidate_rows(world)
+    both = (world.shapes["kind"][rows] == tables.MASK).all(axis=1) if len(rows) else np.zeros(0, bool)
+    for a, b in rows[both].tolist():
+        left_a, top_a, solid_a = _drawn(world, world.shapes[a])
+        left_b, top_b, solid_b = _drawn(world, world.shapes[b])
+        left, top = max(left_a, left_b), max(top_a, top_b)
+        right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
+        bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])
+        if left < right and top < bottom:
+            shared = (solid_a[top - top_a:bottom - top_a, left - left_a:right - left_a]
+                      & solid_b[top - top_b:bottom - top_b, left - left_b:right - left_b])
+            if shared.any():
+                found.append((left, top, shared))
+    return found

@@ -1,0 +1,57 @@
+"""What a scene asks the physics for: the stages that no effect needs do not exist in its world."""
+
+from dataclasses import dataclass, fields, replace
+
+NEEDS_RESPONSE = ("friction", "restitution", "one_way")
+
+
+@dataclass(frozen=True)
+class Effects:
+    """The effects a scene calls for. All off but `narrowphase`, which off stops the collision test at AABBs.
+
+    Raises TypeError for a value that is not a bool, ValueError for an effect whose foundation is not declared.
+    """
+    narrowphase: bool = True
+    response: bool = False       # overlaps are pushed apart
+    gravity: bool = False
+    drag: bool = False
+    wind: bool = False
+    rotation: bool = False       # angular velocity turns bodies, impulses spin them
+    friction: bool = False
+    restitution: bool = False
+    continuous: bool = False     # fast bodies stop at what is in their way
+    sensors: bool = False
+    persist: bool = False        # the `persist` event: pairs that go on touching
+    one_way: bool = False        # tiles open from below
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not isinstance(value, bool):
+                raise TypeError(f"effect {field.name} must be True or False (got {value!r})")
+        for name in NEEDS_RESPONSE:
+            if getattr(self, name) and not self.response:
+                raise ValueError(f"effect {name} needs response: declare both, or neither")
+
+    @classmethod
+    def detection(cls) -> "Effects":
+        """Contacts are found and reported; nothing is pushed."""
+        return cls()
+
+    @classmethod
+    def rigid_bodies(cls) -> "Effects":
+        """All that bodies which fall, bounce, rub and trigger need."""
+        return cls(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True,
+                   sensors=True)
+
+    def with_(self, **changes) -> "Effects":
+        """A copy with some effects changed."""
+        unknown = set(changes) - {field.name for field in fields(self)}
+        if unknown:
+            raise TypeError(f"no effect {', '.join(sorted(unknown))}; there are "
+                            f"{', '.join(field.name for field in fields(self))}")
+        return replace(self, **changes)
+
+    def names(self) -> list[str]:
+        """The declared effects, in the order of the fields."""
+        return [field.name for field in fields(self) if getattr(self, field.name)]

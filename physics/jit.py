@@ -1,0 +1,238 @@
+"""The only place that imports numba: compiles kernels, or runs them as they are.
+
+A kernel is a plain function over tables and scalars. With numba it is compiled on first call and cached on disk.
+Without numba the same source runs: structured arrays are handed over as row views, arrays as memoryviews, which
+return Python numbers and are several times faster to index than NumPy arrays.
+
+Two decorators: `kernel` for functions that a stage calls with arrays, `subkernel` for functions that only kernels
+call. Both compile alike; only the first converts its arguments when nothing is compiled.
+"""
+
+import ast
+import hashlib
+import os
+import shutil
+import sys
+import tempfile
+import warnings
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+WORD_MASK = 0xFFFFFFFFFFFFFFFF
+
+try:
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        raise ImportError("NUMBA_DISABLE_JIT is set")
+    # Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
+    os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
+    import numba
+    from numba.core import caching
+    from numba.extending import intrinsic
+    JIT = True
+except ImportError:
+    numba = None
+    JIT = False
+
+registry = []                  # every compiled kernel, in the order of definition: warm-up and tests read it
+
+
+# --- where compiled kernels are kept -----------------------------------------------------------------------------
+
+def cache_home() -> Path:
+    """The user's cache folder by the platform's rule, without creating it."""
+    override = os.environ.get("HITBOX_CACHE_DIR")
+    if override:
+        return Path(override)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local")) / "hitbox" / "kernels"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "hitbox" / "kernels"
+    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "hitbox" / "kernels"
+
+
+@lru_cache(maxsize=None)
+def _imports_of(path: Path) -> tuple[Path, ...]:
+    """Files of this package that the file at `path` imports, from its import statements."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == HERE.name and node.level == 0:
+            module = HERE.parent.joinpath(*node.module.split("."))
+            names = [module] + [module / alias.name for alias in node.names]
+            found += [name.with_suffix(".py") for name in names if name.with_suffix(".py").is_file()]
+    return tuple(sorted(set(found)))
+
+
+def source_stamp(path: Path) -> str:
+    """Hash of a kernel module and of everything it imports from this package, whatever the depth."""
+    todo, seen = [Path(path).resolve()], set()
+    while todo:
+        at = todo.pop()
+        if at not in seen:
+            seen.add(at)
+            todo += _imports_of(at)
+    digest = hashlib.sha1()
+    for each in sorted(seen):
+        digest.update(each.name.encode() + each.read_bytes())
+    versions = f"{sys.version_info[:3]} {np.__version__} {numba.__version__ if JIT else ''}"
+    bounds = os.environ.get("NUMBA_BOUNDSCHECK", "0")
+    digest.update(f"{versions} bounds={bounds} {numba.config.CPU_NAME if JIT else ''}".encode())
+    return digest.hexdigest()[:16]
+
+
+@lru_cache(maxsize=None)
+def _writable_home() -> Path | None:
+    for home in (cache_home(), Path(tempfile.gettempdir()) / f"hitbox-kernels-{os.getuid() if hasattr(os, 'getuid') else 0}"):
+        try:
+            home.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=home):
+                return home
+        except OSError:
+            continue
+    warnings.warn("no folder can be written for compiled kernels: they are compiled anew at every start", stacklevel=2)
+    return None
+
+
+@lru_cache(maxsize=None)
+def _folder_for(path: Path) -> str:
+    """The cache folder of one kernel module; folders of older sources of the same module are purged."""
+    home = _writable_home()
+    if home is None:
+        return ""
+    name = ".".join(path.resolve().relative_to(HERE).with_suffix("").parts)
+    stamp = source_stamp(path)
+    old = sorted((each for each in home.glob(f"{name}-*") if each.name != f"{name}-{stamp}"),
+                 key=lambda each: each.stat().st_mtime if each.exists() else 0.0)
+    for each in old[:-3]:        # a few stay: a bounds-checked run and another checkout are not enemies
+        shutil.rmtree(each, ignore_errors=True)
+    folder = home / f"{name}-{stamp}"
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError:
+        return ""
+    return str(folder)
+
+
+if JIT:
+    class _SafeCache(caching.FunctionCache):
+        """A disk cache that treats a damaged or unwritable entry as a miss, and says so."""
+
+        def load_overload(self, sig, target_context):
+            try:
+                return super().load_overload(sig, target_context)
+            except Exception as error:       # pickle raises anything on damaged bytes; the entry is compiled again
+                warnings.warn(f"compiled kernel {self._name} in {self._cache_path} is damaged ({error!r}): recompiled",
+                              stacklevel=2)
+                shutil.rmtree(self._cache_path, ignore_errors=True)
+                os.makedirs(self._cache_path, exist_ok=True)
+                return None
+
+        def save_overload(self, sig, data):
+            try:
+                super().save_overload(sig, data)
+            except OSError as error:
+                warnings.warn(f"compiled kernel {self._name} could not be kept ({error})", stacklevel=2)
+
+    @intrinsic
+    def popcount(typing_context, word):
+        """Number of set bits of a uint64."""
+        def generate(context, builder, signature, args):
+            return builder.zext(builder.ctpop(args[0]), context.get_value_type(signature.return_type)) \
+                if signature.args[0].bitwidth < 64 else builder.ctpop(args[0])
+        return numba.types.int64(numba.types.uint64), generate
+
+    @numba.njit(inline="always")
+    def word(value):
+        """The value as an unsigned 64-bit word."""
+        return np.uint64(value)
+else:
+    def popcount(word):
+        return word.bit_count()
+
+    def word(value):
+        return value & WORD_MASK
+
+
+def _compile(function):
+    if not JIT:
+        return function
+    dispatcher = numba.njit(function, error_model="numpy", fastmath=False)
+    folder = _folder_for(Path(function.__code__.co_filename))
+    if folder:
+        before = numba.config.CACHE_DIR
+        numba.config.CACHE_DIR = folder
+        try:
+            dispatcher._cache = _SafeCache(function)
+        finally:
+            numba.config.CACHE_DIR = before
+    registry.append(dispatcher)
+    return dispatcher
+
+
+def subkernel(function):
+    """A function that kernels call: compiled, or left as it is."""
+    function.is_kernel = True
+    return _compile(function)
+
+
+def kernel(function):
+    """A function that a stage calls with tables, arrays and scalars: compiled, or given views of its arguments."""
+    function.is_kernel = True
+    if JIT:
+        return _compile(function)
+
+    def run(*arguments):
+        return function(*[_view(each) for each in arguments])
+    run.__name__, run.__doc__, run.__wrapped__ = function.__name__, function.__doc__, function
+    return run
+
+
+# --- tables without numba ----------------------------------------------------------------------------------------
+
+class TableView:
+    """A structured array as a sequence of row objects; `view[i].x = 1.0` writes the array."""
+    __slots__ = ("make", "columns", "length")
+
+    def __init__(self, array):
+        self.make = _row_class(array.dtype)
+        self.columns = tuple(memoryview(array[name]) for name in array.dtype.names)
+        self.length = len(array)
+
+    def __getitem__(self, index):
+        if not 0 <= index < self.length:
+            raise IndexError(f"row {index} of a table of {self.length}")
+        return self.make(self.columns, index)
+
+    def __len__(self):
+        return self.length
+
+
+@lru_cache(maxsize=None)
+def _row_class(dtype):
+    members = {"__slots__": ("_columns", "_index")}
+
+    def __init__(self, columns, index):
+        self._columns = columns
+        self._index = index
+    members["__init__"] = __init__
+    for number, name in enumerate(dtype.names):
+        def read(self, number=number):
+            return self._columns[number][self._index]
+
+        def write(self, value, number=number):
+            self._columns[number][self._index] = value
+        members[name] = property(read, write)
+    return type("Row", (), members)
+
+
+def _view(argument):
+    if type(argument) is np.ndarray:
+        return TableView(argument) if argument.dtype.names else memoryview(argument)
+    if isinstance(argument, tuple):
+        views = [_view(each) for each in argument]
+        return type(argument)(*views) if hasattr(argument, "_fields") else tuple(views)
+    if isinstance(argument, np.generic):
+        return argument.item()
+    return argument

@@ -1,0 +1,123 @@
+"""Velocities from forces, poses from velocities: semi-implicit Euler, velocities first.
+
+Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC 2015.
+"""
+
+import math
+
+from physics.jit import kernel
+from physics.math2d import turned
+from physics.profile import BODIES_INTEGRATED
+from physics.tables import DYNAMIC, STATIC
+
+
+def make_velocity_pass(gravity: bool, drag: bool, rotation: bool):
+    """The pass over the dynamic bodies for a world with these effects; `drag` also serves wind."""
+    @kernel
+    def integrate_velocities(
+        # read, scalars
+        gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt,
+        # write
+        bodies_inout,
+    ):
+        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities; O(bodies)."""
+        for i in range(len(bodies_inout)):
+            b = bodies_inout[i]
+            if b.kind != DYNAMIC or b.quarantined:
+                continue
+            b.vx += dt * b.inverse_mass * b.force_x
+            b.vy += dt * b.inverse_mass * b.force_y
+            if gravity:
+                b.vx += dt * b.gravity_scale * gravity_x
+                b.vy += dt * b.gravity_scale * gravity_y
+            if rotation:
+                b.angular_velocity += dt * b.inverse_inertia * b.torque
+            if drag:
+                keep = 1.0 / (1.0 + drag_rate * dt)
+                b.vx = keep * (b.vx + drag_rate * dt * wind_x)
+                b.vy = keep * (b.vy + drag_rate * dt * wind_y)
+                if rotation:
+                    b.angular_velocity = keep * b.angular_velocity
+            b.force_x = 0.0
+            b.force_y = 0.0
+            b.torque = 0.0
+    return integrate_velocities
+
+
+def make_position_pass(rotation: bool):
+    """The pass over the moving bodies; with rotation they turn about their centres of mass."""
+    @kernel
+    def integrate_positions(
+        # read, scalars
+        dt,
+        # write
+        bodies_inout, work_inout,
+    ):
+        """Move every body by the free fraction of its motion in dt [s], keeping the pose it came from; O(bodies)."""
+        for i in range(len(bodies_inout)):
+            b = bodies_inout[i]
+            b.previous_x = b.x
+            b.previous_y = b.y
+            b.previous_angle = b.angle
+            if b.kind == STATIC or b.quarantined:
+                continue
+            work_inout[BODIES_INTEGRATED] += 1
+            h = dt * b.fraction
+            if rotation and b.angular_velocity != 0.0:
+                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                center_x = b.x + u + h * b.vx
+                center_y = b.y + v + h * b.vy
+                b.angle += h * b.angular_velocity
+                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                b.x = center_x - u
+                b.y = center_y - v
+            else:
+                b.x += h * b.vx
+                b.y += h * b.vy
+    return integrate_positions
+
+
+@kernel
+def refresh_centers(bodies_inout):
+    """Write the world centres of mass [px] at the present poses. O(bodies)."""
+    for i in range(len(bodies_inout)):
+        b = bodies_inout[i]
+        u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+        b.center_x = b.x + u
+        b.center_y = b.y + v
+
+
+@kernel
+def find_broken(
+    # read, scalars
+    speed_limit, dt,
+    # write
+    bodies_inout, broken_out,
+):
+    """List the rows of bodies that are no longer finite, or faster than the limit [px/s], and put them to rest.
+
+    Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (bodies) rows.
+    """
+    found = 0
+    for i in range(len(bodies_inout)):
+        b = bodies_inout[i]
+        if b.quarantined:
+            continue
+        reach = speed_limit
+        finite = (abs(b.vx) < reach and abs(b.vy) < reach and abs(b.x) < math.inf and abs(b.y) < math.inf
+                  and abs(b.angle) < math.inf and abs(b.angular_velocity) < math.inf
+                  and abs(b.x + dt * b.vx) < math.inf and abs(b.y + dt * b.vy) < math.inf)
+        if not finite:
+            broken_out[found] = i
+            found += 1
+            b.x = b.previous_x
+            b.y = b.previous_y
+            b.angle = b.previous_angle
+            b.vx = 0.0
+            b.vy = 0.0
+            b.angular_velocity = 0.0
+            b.force_x = 0.0
+            b.force_y = 0.0
+            b.torque = 0.0
+            b.quarantined = True
+    return found

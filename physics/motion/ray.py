@@ -1,0 +1,216 @@
+"""A ray against every shape: closed forms for circles and polygons, cell by cell for tiles and pixels.
+
+Source of the cell walk: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987.
+"""
+
+import math
+
+from physics.jit import kernel, subkernel
+from physics.masks.bits import is_set
+from physics.math2d import turned, unit
+from physics.motion.time_of_impact import MISS, sweep_circle_polygon, sweep_circles
+from physics.narrowphase.placement import corners_at, raster_at, snapped
+from physics.narrowphase.sat import ALL_EDGES
+from physics.narrowphase.tiles import tile_at
+from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, SOLID, TILES
+
+
+@subkernel
+def enter_box(x, y, dx, dy, width, height):
+    """Where a ray enters and leaves the box 0..width, 0..height: (enter, leave), enter > leave when it misses."""
+    enter = 0.0
+    leave = 1.0
+    for axis in range(2):
+        position = x if axis == 0 else y
+        step = dx if axis == 0 else dy
+        size = width if axis == 0 else height
+        if step == 0.0:
+            if position < 0.0 or position > size:
+                return 1.0, 0.0
+        else:
+            near = (0.0 - position) / step
+            far = (size - position) / step
+            enter = max(enter, min(near, far))
+            leave = min(leave, max(near, far))
+    return enter, leave
+
+
+@subkernel
+def next_border(position, step, cell, size):
+    """Fraction at which a ray leaves a cell along one axis; infinite when it runs along the other."""
+    if step > 0.0:
+        return ((cell + 1) * size - position) / step
+    if step < 0.0:
+        return (cell * size - position) / step
+    return math.inf
+
+
+@subkernel
+def start_cell(position, step, size, count):
+    """The cell a ray starts in, or enters first; on a border it is the one that it moves into."""
+    at = position / size
+    cell = math.floor(at)
+    if step < 0.0 and cell == at:
+        cell -= 1
+    return max(0, min(count - 1, cell))
+
+
+@subkernel
+def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
+    """A ray, seen from the grid's origin [px], against its tiles: (fraction or MISS, normal). One-way tiles from above."""
+    g = geometry.grids[grid]
+    size = g.tile_size
+    enter, leave = enter_box(x, y, dx, dy, g.columns * size, g.rows * size)
+    if enter > leave:
+        return MISS, 0.0, -1.0
+    column = start_cell(x + enter * dx, dx, size, g.columns)
+    row = start_cell(y + enter * dy, dy, size, g.rows)
+    while 0 <= column < g.columns and 0 <= row < g.rows:
+        kind = geometry.cells[g.offset + row * g.columns + column].kind
+        if kind != EMPTY and (kind != ONE_WAY or (dy > 0.0 and y <= row * size)):
+            count, edges = tile_at(geometry, grid, 0.0, 0.0, row, column, corners_inout)
+            fraction, nx, ny = sweep_circle_polygon(corners_inout, count, ALL_EDGES, x, y, dx, dy, 0.0)
+            if fraction <= 1.0:
+                return fraction, nx, ny
+        across = next_border(x, dx, column, size)
+        down = next_border(y, dy, row, size)
+        if min(across, down) > leave:
+            break
+        if across < down:
+            column += 1 if dx > 0.0 else -1
+        else:
+            row += 1 if dy > 0.0 else -1
+    return MISS, 0.0, -1.0
+
+
+@subkernel
+def cast_on_mask(rasters, words, mask, x, y, dx, dy):
+    """A ray, seen from the raster's corner [px], against its solid pixels: (fraction or MISS, normal)."""
+    r = rasters[mask]
+    enter, leave = enter_box(x, y, dx, dy, float(r.width), float(r.height))
+    if enter > leave or r.area == 0:
+        return MISS, 0.0, -1.0
+    column = start_cell(x + enter * dx, dx, 1.0, r.width)
+    row = start_cell(y + enter * dy, dy, 1.0, r.height)
+    fraction = enter
+    nx, ny = unit(-dx, -dy, 0.0, -1.0)
+    if enter > 0.0:
+        # The face of the raster through which it came in.
+        if dx != 0.0 and (0.0 - x) / dx == enter or dx != 0.0 and (r.width - x) / dx == enter:
+            nx = -1.0 if dx > 0.0 else 1.0
+            ny = 0.0
+        else:
+            nx = 0.0
+            ny = -1.0 if dy > 0.0 else 1.0
+    while 0 <= column < r.width and 0 <= row < r.height:
+        if is_set(words, r.offset + row * r.stride, column):
+            return fraction, nx, ny
+        across = next_border(x, dx, column, 1.0)
+        down = next_border(y, dy, row, 1.0)
+        fraction = min(across, down)
+        if fraction > leave:
+            break
+        if across < down:
+            column += 1 if dx > 0.0 else -1
+            nx = -1.0 if dx > 0.0 else 1.0
+            ny = 0.0
+        else:
+            row += 1 if dy > 0.0 else -1
+            nx = 0.0
+            ny = -1.0 if dy > 0.0 else 1.0
+    return MISS, 0.0, -1.0
+
+
+@subkernel
+def inside_polygon(corners, count, x, y):
+    """Whether a point lies in a closed convex polygon, clockwise on the screen."""
+    for k in range(count):
+        n = k + 1 if k + 1 < count else 0
+        ex = corners[n, 0] - corners[k, 0]
+        ey = corners[n, 1] - corners[k, 1]
+        if ey * (x - corners[k, 0]) - ex * (y - corners[k, 1]) > 0.0:
+            return False
+    return True
+
+
+@subkernel
+def point_in_tiles(geometry, grid, x, y, corners_inout):
+    """Whether a point, seen from the grid's origin [px], lies in a solid tile or slope. A shared edge has one owner."""
+    g = geometry.grids[grid]
+    column = math.floor(x / g.tile_size)
+    row = math.floor(y / g.tile_size)
+    if not (0 <= column < g.columns and 0 <= row < g.rows):
+        return False
+    kind = geometry.cells[g.offset + row * g.columns + column].kind
+    if kind == EMPTY or kind == ONE_WAY:
+        return False
+    count, edges = tile_at(geometry, grid, 0.0, 0.0, row, column, corners_inout)
+    return kind == SOLID or inside_polygon(corners_inout, count, x, y)
+
+
+@subkernel
+def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
+    """A ray from (x, y) by (dx, dy) [px] against one shape: (fraction or MISS, normal). Zero length asks for the point."""
+    s = shapes[row]
+    b = bodies[s.body_row]
+    point = dx == 0.0 and dy == 0.0
+    back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+        rx = x - b.x - u
+        ry = y - b.y - v
+        if rx * rx + ry * ry <= s.radius * s.radius:
+            return 0.0, back_x, back_y
+        return sweep_circles(rx, ry, dx, dy, s.radius)
+    if s.kind == TILES:
+        if point_in_tiles(geometry, s.geometry, x - b.x, y - b.y, corners_inout):
+            return 0.0, back_x, back_y
+        if point:
+            return MISS, 0.0, -1.0
+        return cast_on_tiles(geometry, s.geometry, x - b.x, y - b.y, dx, dy, corners_inout)
+    if s.kind == MASK:
+        mask = raster_at(geometry, s.geometry, b.angle)
+        r = geometry.rasters[mask]
+        left = snapped(b.x, r.origin_x)
+        top = snapped(b.y, r.origin_y)
+        if point:
+            column = math.floor(x - left)
+            line = math.floor(y - top)
+            if 0 <= column < r.width and 0 <= line < r.height and is_set(geometry.words, r.offset + line * r.stride, column):
+                return 0.0, back_x, back_y
+            return MISS, 0.0, -1.0
+        return cast_on_mask(geometry.rasters, geometry.words, mask, x - left, y - top, dx, dy)
+    count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_inout)
+    if inside_polygon(corners_inout, count, x, y):
+        return 0.0, back_x, back_y
+    if point:
+        return MISS, 0.0, -1.0
+    return sweep_circle_polygon(corners_inout, count, ALL_EDGES, x, y, dx, dy, 0.0)
+
+
+@kernel
+def cast_ray_at_all(
+    # read
+    geometry, bodies, shapes, x, y, dx, dy, membership, mask, sensors,
+    # write
+    corners_inout, hits_out,
+):
+    """Write (row, fraction, normal) of every shape the ray meets, in the order of rows. Returns their number.
+
+    x, y, dx, dy [px]; membership, mask: the ray's filter; sensors: 1 to meet them too; hits_out (shapes, 4). O(shapes).
+    """
+    found = 0
+    for row in range(len(shapes)):
+        s = shapes[row]
+        if (s.sensor and sensors == 0) or (s.membership & mask) == 0 or (s.mask & membership) == 0:
+            continue
+        if bodies[s.body_row].quarantined:
+            continue
+        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout)
+        if fraction <= 1.0:
+            hits_out[found, 0] = float(row)
+            hits_out[found, 1] = fraction
+            hits_out[found, 2] = nx
+            hits_out[found, 3] = ny
+            found += 1
+    return found

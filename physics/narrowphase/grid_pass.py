@@ -1,0 +1,96 @@
+"""The pass over the candidate pairs with a tile grid, tile by tile."""
+
+import math
+
+from physics.jit import kernel
+from physics.masks.shapes import collide_mask_polygon
+from physics.narrowphase.circles import collide_polygon_circle
+from physics.narrowphase.contacts import GRID_ANY, circle_at, corners_of, write_contact
+from physics.narrowphase.placement import aabb_at, raster_at, snapped
+from physics.narrowphase.sat import ALL_EDGES, collide_polygons
+from physics.narrowphase.tiles import edges_facing, tile_at
+from physics.profile import MASK_TESTS
+from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, TILES
+
+
+def make_grid_pass(one_way: bool):
+    """The pass over pairs of a tile grid and anything else; one-way tiles only where the effect is declared."""
+    @kernel
+    def collide_grid_pairs(
+        # read
+        geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+        # write
+        scratch, contacts_out, found, work_inout,
+    ):
+        """Contacts of all pairs with a tile grid, tile by tile, appended at `found`. Returns the new count."""
+        for i in range(count):
+            if kinds[i] != GRID_ANY:
+                continue
+            sign = 1.0 if shapes[candidates[i, 0]].kind == TILES else -1.0
+            row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
+            other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
+            s = shapes[row]
+            o = shapes[other]
+            p = bodies[s.body_row]
+            q = bodies[o.body_row]
+            g = geometry.grids[s.geometry]
+            min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
+            first_column = max(0, math.floor((min_x - margin - p.x) / g.tile_size))
+            last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
+            first_row = max(0, math.floor((min_y - margin - p.y) / g.tile_size))
+            last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
+            mask = 0
+            left = 0
+            top = 0
+            n = 0
+            cx = 0.0
+            cy = 0.0
+            radius = 0.0
+            if o.kind == MASK:
+                work_inout[MASK_TESTS] += 1
+                mask = raster_at(geometry, o.geometry, q.angle)
+                left = snapped(q.x, geometry.rasters[mask].origin_x)
+                top = snapped(q.y, geometry.rasters[mask].origin_y)
+            elif o.kind == CIRCLE:
+                cx, cy, radius = circle_at(bodies, shapes, other)
+            else:
+                n = corners_of(geometry, bodies, shapes, other, scratch.b)
+            was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
+            for tile_row in range(first_row, last_row + 1):
+                for tile_column in range(first_column, last_column + 1):
+                    kind = geometry.cells[g.offset + tile_row * g.columns + tile_column].kind
+                    if kind == EMPTY or (kind == ONE_WAY and not one_way):
+                        continue
+                    # Open from below: only what came from above the tile stands on it.
+                    if kind == ONE_WAY and was_above > p.y + tile_row * g.tile_size + margin:
+                        continue
+                    corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, scratch.a)
+                    feature = (tile_row * g.columns + tile_column) * 4096
+                    if o.kind == MASK:
+                        area, nx, ny, x, y, separation, which = collide_mask_polygon(
+                            geometry.rasters, geometry.words, mask, left, top, scratch.a, corners, edges, scratch.depths)
+                        if area > 0:
+                            found = write_contact(bodies, shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
+                                                  separation, float(area), feature, contacts_out)
+                    elif o.kind == CIRCLE:
+                        hit, nx, ny, x, y, separation, which = collide_polygon_circle(scratch.a, corners, edges, cx, cy,
+                                                                                      radius)
+                        if hit and separation <= margin:
+                            found = write_contact(bodies, shapes, candidates, i, found, sign * nx, sign * ny, x, y,
+                                                  separation, 0.0, feature + which, contacts_out)
+                    else:
+                        manifold = scratch.manifold
+                        facing = edges_facing(scratch.b, n, edges) if corners == 4 else ALL_EDGES
+                        points = collide_polygons(scratch.a, corners, edges, scratch.b, n,
+                                                  facing, margin, bias, manifold)
+                        for k in range(points):
+                            at = 3 + 4 * k
+                            found = write_contact(bodies, shapes, candidates, i, found, sign * manifold[1],
+                                                  sign * manifold[2], manifold[at], manifold[at + 1], manifold[at + 2],
+                                                  0.0, feature + int(manifold[at + 3]), contacts_out)
+        return found
+    return collide_grid_pairs
+
+
+collide_grid_pairs_one_way = make_grid_pass(one_way=True)
+collide_grid_pairs_closed = make_grid_pass(one_way=False)

@@ -1,0 +1,138 @@
+"""Where a shape is at a pose: its corners, its raster on the pixel grid, its AABB."""
+
+import math
+
+from physics.jit import kernel, subkernel
+from physics.math2d import turned
+from physics.tables import BOUNDS, CIRCLE, MASK, POLYGON, TILES
+
+TAU = math.tau
+
+
+@subkernel
+def bucket_at(angle, buckets):
+    """The angle bucket nearest to an angle [rad]."""
+    return math.floor(angle * buckets / TAU + 0.5) % buckets
+
+
+@subkernel
+def raster_at(geometry, mask, angle):
+    """The raster row of a mask at an angle [rad]; the stage has made sure that it exists."""
+    return geometry.raster_of[mask, bucket_at(angle, geometry.raster_of.shape[1])]
+
+
+@subkernel
+def snapped(coordinate, origin):
+    """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up."""
+    return math.floor(coordinate - origin + 0.5)
+
+
+@subkernel
+def polygon_at(geometry, polygon, x, y, cosine, sine, corners_out):
+    """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Returns their number."""
+    span = geometry.polygons[polygon]
+    for k in range(span.count):
+        corner = geometry.corners[span.offset + k]
+        u, v = turned(corner.x, corner.y, cosine, sine)
+        corners_out[k, 0] = x + u
+        corners_out[k, 1] = y + v
+    return span.count
+
+
+@subkernel
+def aabb_at(geometry, shapes, row, x, y, angle):
+    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a shape when its body is at a pose. O(corners).
+
+    A mask's is that of its solid pixels as drawn; an empty mask's is the point of its origin.
+    """
+    s = shapes[row]
+    kind = s.kind
+    if kind == BOUNDS:
+        kind = s.wrapped
+    if kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        return x + u - s.radius, y + v - s.radius, x + u + s.radius, y + v + s.radius
+    if kind == POLYGON:
+        cosine = math.cos(angle)
+        sine = math.sin(angle)
+        span = geometry.polygons[s.geometry]
+        first = geometry.corners[span.offset]
+        min_x, min_y = turned(first.x, first.y, cosine, sine)
+        max_x = min_x
+        max_y = min_y
+        for k in range(1, span.count):
+            corner = geometry.corners[span.offset + k]
+            u, v = turned(corner.x, corner.y, cosine, sine)
+            min_x = min(min_x, u)
+            max_x = max(max_x, u)
+            min_y = min(min_y, v)
+            max_y = max(max_y, v)
+        return x + min_x, y + min_y, x + max_x, y + max_y
+    if kind == TILES:
+        g = geometry.grids[s.geometry]
+        return x, y, x + g.columns * g.tile_size, y + g.rows * g.tile_size
+    r = geometry.rasters[raster_at(geometry, s.geometry, angle)]
+    if r.area == 0:
+        return x, y, x, y
+    left = float(snapped(x, r.origin_x))
+    top = float(snapped(y, r.origin_y))
+    return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+
+
+@subkernel
+def corners_at(geometry, shapes, row, x, y, angle, corners_out):
+    """World corners [px] of a POLYGON or, of a BOUNDS, of its AABB, clockwise on the screen. Returns their number."""
+    if shapes[row].kind == POLYGON:
+        return polygon_at(geometry, shapes[row].geometry, x, y, math.cos(angle), math.sin(angle), corners_out)
+    min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
+    corners_out[0, 0] = min_x
+    corners_out[0, 1] = min_y
+    corners_out[1, 0] = max_x
+    corners_out[1, 1] = min_y
+    corners_out[2, 0] = max_x
+    corners_out[2, 1] = max_y
+    corners_out[3, 0] = min_x
+    corners_out[3, 1] = max_y
+    return 4
+
+
+@kernel
+def missing_rasters(
+    # read
+    bodies, shapes, raster_of, dt,
+    # write
+    missing_out,
+):
+    """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
+
+    bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice. O(shapes).
+    """
+    found = 0
+    buckets = raster_of.shape[1]
+    for row in range(len(shapes)):
+        s = shapes[row]
+        if s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK):
+            continue
+        b = bodies[s.body_row]
+        for k in range(2):
+            bucket = bucket_at(b.angle + k * dt * b.angular_velocity, buckets)
+            if raster_of[s.geometry, bucket] < 0:
+                if found < missing_out.shape[0]:
+                    missing_out[found, 0] = s.geometry
+                    missing_out[found, 1] = bucket
+                found += 1
+    return found
+
+
+@kernel
+def refresh_aabbs(
+    # read
+    geometry, bodies,
+    # write
+    shapes_inout,
+):
+    """Write every shape's tight AABB at its body's pose. shapes_inout SHAPE rows. O(shapes)."""
+    for row in range(len(shapes_inout)):
+        s = shapes_inout[row]
+        b = bodies[s.body_row]
+        s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -1,0 +1,117 @@
+"""Snapshots of a world, in memory and as `.npz` files without pickle, and the digest of its state."""
+
+import hashlib
+import json
+import zipfile
+
+import numpy as np
+
+from physics.geometry import Library
+from physics.shapes import PixelMask, Polygon, TileGrid
+from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
+
+VERSION = 1
+TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": EVENT, "sensing": EVENT,
+          "contacts": CONTACT}
+STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
+KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
+WALK = ("body", "left", "top", "remainder_x", "remainder_y", "riding", "grounded", "squeezed")
+
+
+def digest(world) -> str:
+    """blake2b-128 over ids, poses, velocities, flags, characters, contact keys and impulses in id order; −0.0 as 0.0."""
+    found = hashlib.blake2b(digest_size=16)
+    for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
+        found.update(len(rows).to_bytes(8, "little"))
+        for name in names:
+            column = np.ascontiguousarray(rows[name])
+            found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
+    return found.hexdigest()
+
+
+class Snapshot:
+    """The state of a world at one moment. `save` and `load` keep it in a file."""
+
+    def __init__(self, arrays, facts):
+        self.arrays = arrays
+        self.facts = facts
+
+    def save(self, path):
+        """Write a versioned .npz."""
+        with open(path, "wb") as file:
+            np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **self.arrays)
+
+    @classmethod
+    def load(cls, path) -> "Snapshot":
+        """Read a file. Raises ValueError with the file, and the reason why it is refused."""
+        try:
+            with np.load(path, allow_pickle=False) as stored:
+                arrays = {name: stored[name] for name in stored.files}
+            facts = json.loads(str(arrays.pop("facts")))
+        except (zipfile.BadZipFile, KeyError, ValueError, EOFError) as error:
+            raise ValueError(f"{path} is no snapshot: {error}") from None
+        if facts.get("version") != VERSION:
+            raise ValueError(f"{path} has version {facts.get('version')!r}, this program reads {VERSION}")
+        for name, dtype in TABLES.items():
+            if name not in arrays or arrays[name].dtype != dtype:
+                raise ValueError(f"{path} has other columns in {name} than this program")
+        return cls(arrays, facts)
+
+
+def take(world) -> Snapshot:
+    """Copy the state of a world."""
+    library = world.library
+    arrays = {"bodies": world.bodies.copy(), "shapes": world.shapes.copy(), "characters": world.characters.rows.copy(),
+              "touching": world._touching.before[:world._touching.count].copy(),
+              "sensing": world._sensing.before[:world._sensing.count].copy(), "contacts": world.contacts.copy()}
+    for number, shape in enumerate(library.outlines):
+        arrays[f"polygon_{number}"] = np.array(shape.points)
+    for number, shape in enumerate(library.tile_grids):
+        arrays[f"solid_{number}"], arrays[f"one_way_{number}"] = shape.solid, shape.one_way
+        arrays[f"slopes_{number}"] = shape.slopes
+    for number, shape in enumerate(library.masks):
+        arrays[f"mask_{number}"] = shape.solid
+    tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
+    facts = {"version": VERSION, "effects": world.effects.names(), "next_body": world._next_body,
+             "next_shape": world._next_shape, "gravity": world.gravity, "wind": world.wind, "tiers": tiers,
+             "random": world.random.bit_generator.state, "polygons": len(library.outlines),
+             "tile_sizes": [shape.tile_size for shape in library.tile_grids],
+             "origins": [shape.origin for shape in library.masks]}
+    return Snapshot(arrays, facts)
+
+
+def restore(world, taken):
+    """Put a world back to a snapshot, taken from it or from one built with the same effects. Raises TypeError, ValueError."""
+    if not isinstance(taken, Snapshot):
+        raise TypeError(f"snapshot must be a Snapshot (got {taken!r})")
+    facts, arrays = taken.facts, taken.arrays
+    if facts["effects"] != world.effects.names():
+        raise ValueError(f"snapshot is of a world with {facts['effects']} (this one has {world.effects.names()})")
+    world.library = _library(arrays, facts)
+    for table, name in ((world._bodies, "bodies"), (world._shapes, "shapes"), (world.characters, "characters")):
+        table.count = 0
+        table.append(len(arrays[name]))[:] = arrays[name]
+    world._touching.restore(arrays["touching"])
+    world._sensing.restore(arrays["sensing"])
+    world.contacts = arrays["contacts"].copy()
+    world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
+    world.gravity, world.wind = facts["gravity"], facts["wind"]
+    world.random.bit_generator.state = facts["random"]
+    world._shapes_of = {identity: () for identity in world.bodies["id"].tolist()}
+    for row in world.shapes:
+        world._shapes_of[int(row["body"])] += (world.library.shape_of(row),)
+    world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
+    world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
+    world._sources = {identity: (world.library.masks[mask],) for identity, _, mask in facts["tiers"]}
+    world.rebuild_proxies()
+
+
+def _library(arrays, facts):
+    library = Library()
+    for number in range(facts["polygons"]):
+        library.add(Polygon(tuple(map(tuple, arrays[f"polygon_{number}"].tolist()))))
+    for number, size in enumerate(facts["tile_sizes"]):
+        library.add(TileGrid(arrays[f"solid_{number}"], size, arrays[f"one_way_{number}"], arrays[f"slopes_{number}"]))
+    for number, origin in enumerate(facts["origins"]):
+        library.add(PixelMask(arrays[f"mask_{number}"], tuple(origin)))
+    return library

@@ -1,0 +1,100 @@
+"""What arcade games do: push overlapping bodies apart by their inverse masses, reflect what approaches.
+
+Differs from `blocking` in that a body which meets something goes on along it instead of staying where it was. No warm
+starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the contacts, two loops over none.
+"""
+
+from physics.jit import kernel, subkernel
+from physics.profile import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
+from physics.solver.approach import closing_speed
+
+
+@subkernel
+def push(body, x, y, anchor_x, anchor_y, rotation):
+    """Change a body's velocity by an impulse (x, y) at an arm from its centre of mass [px]."""
+    body.vx += body.inverse_mass * x
+    body.vy += body.inverse_mass * y
+    if rotation:
+        body.angular_velocity += body.inverse_inertia * (anchor_x * y - anchor_y * x)
+
+
+def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
+    """One pass over the contacts of a world with these effects."""
+    @kernel
+    def project(
+        # read, scalars
+        bounce_speed, first,
+        # write
+        bodies_inout, contacts_inout, work_inout,
+    ):
+        """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
+
+        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step. Impulses add up in
+        the contacts. O(contacts).
+        """
+        for i in range(len(contacts_inout)):
+            c = contacts_inout[i]
+            a = bodies_inout[c.body_row_a]
+            b = bodies_inout[c.body_row_b]
+            inverse_masses = a.inverse_mass + b.inverse_mass
+            if inverse_masses == 0.0:
+                continue
+            nx = c.normal_x
+            ny = c.normal_y
+            separation = c.separation + nx * ((b.center_x - a.center_x) - c.anchor_x) + ny * (
+                (b.center_y - a.center_y) - c.anchor_y)
+            if separation > 0.0 and not c.swept and c.normal_impulse == 0.0:
+                continue
+            work_inout[SOLVER_ROWS] += 1
+            ax = c.point_x - a.center_x
+            ay = c.point_y - a.center_y
+            bx = c.point_x - b.center_x
+            by = c.point_y - b.center_y
+            wanted = 0.0
+            if restitution and c.speed > bounce_speed:
+                wanted = c.restitution * c.speed
+                work_inout[RESTITUTION_ROWS] += first
+            effective = inverse_masses
+            if rotation:
+                a_arm = ax * ny - ay * nx
+                b_arm = bx * ny - by * nx
+                effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
+            change = (wanted + closing_speed(bodies_inout, c)) / effective
+            impulse = max(c.normal_impulse + change, 0.0)
+            change = impulse - c.normal_impulse
+            c.normal_impulse = impulse
+            push(a, -change * nx, -change * ny, ax, ay, rotation)
+            push(b, change * nx, change * ny, bx, by, rotation)
+            if friction and c.friction > 0.0:
+                work_inout[TANGENT_ROWS] += 1
+                tx = -ny
+                ty = nx
+                vx = b.vx - a.vx
+                vy = b.vy - a.vy
+                effective = inverse_masses
+                if rotation:
+                    vx += a.angular_velocity * ay - b.angular_velocity * by
+                    vy += b.angular_velocity * bx - a.angular_velocity * ax
+                    a_arm = ax * ty - ay * tx
+                    b_arm = bx * ty - by * tx
+                    effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
+                change = -(vx * tx + vy * ty) / effective
+                limit = c.friction * c.normal_impulse
+                impulse = max(-limit, min(limit, c.tangent_impulse + change))
+                change = impulse - c.tangent_impulse
+                c.tangent_impulse = impulse
+                push(a, -change * tx, -change * ty, ax, ay, rotation)
+                push(b, change * tx, change * ty, bx, by, rotation)
+            if separation < 0.0:
+                share = -separation / inverse_masses
+                x = share * nx
+                y = share * ny
+                a.x -= a.inverse_mass * x
+                a.y -= a.inverse_mass * y
+                a.center_x -= a.inverse_mass * x
+                a.center_y -= a.inverse_mass * y
+                b.x += b.inverse_mass * x
+                b.y += b.inverse_mass * y
+                b.center_x += b.inverse_mass * x
+                b.center_y += b.inverse_mass * y
+    return project

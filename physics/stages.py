@@ -1,0 +1,241 @@
+"""The stages of a step, and which of them the declared effects call for.
+
+A stage unpacks tables and calls kernels; it holds no loop over bodies. A stage that no effect needs is not planned: it
+is not called, and its kernels are never compiled.
+"""
+
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy as np
+
+from physics.broadphase.pair_list import PairList
+from physics.motion import carry
+from physics.motion.integrate import find_broken, make_position_pass, make_velocity_pass, refresh_centers
+from physics.motion.rectangles import make_rectangle_pass
+from physics.motion.time_of_impact import make_impact_pass, stop_at_impacts
+from physics.narrowphase.contacts import new_scratch, write_impacts
+from physics.narrowphase.dispatch import NarrowPhase
+from physics.narrowphase.placement import missing_rasters, refresh_aabbs
+from physics.profile import CONTACTS, COUNTERS
+from physics.settings import PROJECTION_PASSES
+from physics.solver.approach import advance_contacts, measure_approach
+from physics.solver.blocking import stay_behind, stop_approach
+from physics.solver.projection import make_projection_pass
+from physics.tables import CONTACT, QUARANTINE
+
+__all__ = ["PairList", "Stage", "plan"]
+
+# One compiled pass per combination of effects that it depends on; made here, compiled when first run.
+VELOCITIES = {(g, d, r): make_velocity_pass(gravity=g, drag=d, rotation=r)
+              for g in (False, True) for d in (False, True) for r in (False, True)}
+POSITIONS = {r: make_position_pass(rotation=r) for r in (False, True)}
+RECTANGLES = {r: make_rectangle_pass(rotation=r) for r in (False, True)}
+IMPACTS = {o: make_impact_pass(one_way=o) for o in (False, True)}
+PROJECTIONS = {(r, f, b): make_projection_pass(rotation=r, friction=f, restitution=b)
+               for r in (False, True) for f in (False, True) for b in (False, True)}
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A named step of the step: run(world, dt)."""
+    name: str
+    run: Callable
+
+
+def plan(effects, solver) -> list[Stage]:
+    """The stages that these effects call for, in order."""
+    found = []
+    if effects.gravity or effects.drag or effects.wind or effects.response:
+        found.append(_velocities(effects))
+    found += [_rectangles(effects), Stage("broad_phase", _broad_phase)]
+    if effects.continuous:
+        found.append(_impacts(effects))
+    found.append(_positions(effects))
+    if effects.response:
+        found.append(Stage("carry", lambda world, dt: carry.carry_characters(world)))
+    found.append(_narrow_phase(effects))
+    if effects.response and solver == "blocking":
+        found.append(Stage("blocking", _blocking))
+    elif effects.response:
+        found.append(_projection(effects))
+    found.append(_events(effects))
+    return found
+
+
+def _velocities(effects):
+    integrate = VELOCITIES[effects.gravity, effects.drag or effects.wind, effects.rotation]
+
+    def run(world, dt):
+        wind = world.wind if world.effects.wind else (0.0, 0.0)
+        integrate(*world.gravity, world.drag, *wind, dt, world.bodies)
+    return Stage("integrate_velocities", run)
+
+
+def _rectangles(effects):
+    update = RECTANGLES[effects.rotation]
+
+    def run(world, dt):
+        _quarantine(world, dt)
+        add_missing_rasters(world, dt)
+        pairs = world.pairs
+        if len(pairs.changed) < len(world.shapes):
+            pairs.changed = np.zeros(2 * len(world.shapes), np.int64)
+        world.changed_count = update(world.library.tables, world.bodies, dt, world.tolerances.slop, world.shapes,
+                                     pairs.proxies, pairs.changed)
+    return Stage("motion_rectangles", run)
+
+
+def _quarantine(world, dt):
+    bodies = world.bodies
+    broken = world.scratch_rows(len(bodies))
+    found = find_broken(world.tolerances.speed_limit, dt, bodies, broken)
+    if found:
+        ids = bodies["id"][broken[:found]]
+        world.events.quarantined = np.array([(each, "position or velocity stopped being finite, or passed the speed limit")
+                                             for each in ids.tolist()], QUARANTINE)
+        own = np.isin(world.shapes["body"], ids)
+        world.pairs.free_proxies(world.shapes["proxy"][own])
+        world.shapes["proxy"][own] = -1
+        refresh_centers(bodies)
+
+
+def add_missing_rasters(world, dt):
+    """Draw the masks at the angles that they have, or will have after dt, and did not have before."""
+    if not world.library.masks:
+        return
+    missing = np.zeros((2 * len(world.shapes), 2), np.int64)
+    found = missing_rasters(world.bodies, world.shapes, world.library.raster_of, dt, missing)
+    for mask, bucket in np.unique(missing[:found], axis=0).tolist():
+        world.library.add_raster(mask, bucket)
+
+
+def _broad_phase(world, dt):
+    world.pairs.update(world.broadphase, world.shapes, world.changed_count, world.profile.work)
+
+
+def _impacts(effects):
+    find = IMPACTS[effects.one_way]
+
+    def run(world, dt):
+        bodies, shapes, rows = world.bodies, world.shapes, world.pairs.rows
+        if len(world.impacts) < len(rows):
+            world.impacts = np.zeros((2 * len(rows), 4))
+        world.impact_count = find(world.library.tables, bodies, shapes, rows, len(rows), dt, world.tolerances.slop,
+                                  world.impact_scratch, world.impacts, world.profile.work)
+        bodies["fraction"] = 1.0
+        if world.effects.response:
+            stop_at_impacts(shapes, rows, world.impacts, world.impact_count, bodies)
+    return Stage("time_of_impact", run)
+
+
+def _positions(effects):
+    integrate = POSITIONS[effects.rotation]
+
+    def run(world, dt):
+        integrate(dt, world.bodies, world.profile.work)
+        refresh_centers(world.bodies)
+        refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+    return Stage("integrate_positions", run)
+
+
+def _narrow_phase(effects):
+    narrow = NarrowPhase(full_masks=effects.response, one_way=effects.one_way, boxes_only=not effects.narrowphase)
+
+    def run(world, dt):
+        add_missing_rasters(world, 0.0)
+        world.detect = lambda: narrow.collide(world.library.tables, world.bodies, world.shapes, world.pairs.rows,
+                                              len(world.pairs.rows), world.tolerances.slop, 0.1 * world.tolerances.slop,
+                                              world.profile.work)
+        contacts = world.detect()
+        measure_approach(world.bodies, contacts)
+        if world.effects.continuous and world.impact_count:
+            contacts = _append_impacts(world, contacts)
+        world.found_contacts = contacts
+    return Stage("narrow_phase", run)
+
+
+def _append_impacts(world, contacts):
+    """The contacts with those of the impacts that the test at the final poses did not see, in the candidates' order."""
+    room = np.zeros(world.impact_count, CONTACT)
+    found = write_impacts(world.bodies, world.shapes, world.pairs.rows, world.impacts, world.impact_count, room)
+    met = room[:found]
+    measure_approach(world.bodies, met)
+    seen = np.isin(contacts["candidate"], met["candidate"])
+    contacts["swept"][seen & (contacts["speed"] > 0.0)] = True
+    met = met[~np.isin(met["candidate"], contacts["candidate"])]
+    both = np.concatenate([contacts, met])
+    return both[np.argsort(both["candidate"], kind="stable")]
+
+
+def _projection(effects):
+    project = PROJECTIONS[effects.rotation, effects.friction, effects.restitution]
+
+    def run(world, dt):
+        solid = ~world.found_contacts["sensor"]
+        contacts = world.found_contacts if solid.all() else world.found_contacts[solid]
+        for each in range(PROJECTION_PASSES):
+            project(world.tolerances.restitution_speed, int(each == 0), world.bodies, contacts, world.profile.work)
+        advance_contacts(world.bodies, contacts)
+        if contacts is not world.found_contacts:
+            world.found_contacts[solid] = contacts
+        refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+    return Stage("projection", run)
+
+
+def _blocking(world, dt):
+    stopped = []
+    contacts = world.found_contacts
+    while True:
+        sensors = contacts["sensor"]
+        solid = contacts[~sensors]
+        if not stay_behind(world.bodies, solid, world.profile.work):
+            break
+        stopped.append(solid[solid["swept"]])
+        refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+        contacts = world.detect()
+        measure_approach(world.bodies, contacts)
+    if stopped:
+        met = np.concatenate(stopped)
+        stop_approach(world.bodies, met)
+        advance_contacts(world.bodies, met)
+        contacts = np.concatenate([contacts[~np.isin(contacts["candidate"], met["candidate"])], met])
+        contacts = contacts[np.argsort(contacts["candidate"], kind="stable")]
+    world.found_contacts = contacts
+
+
+def _events(effects):
+    def run(world, dt):
+        contacts, events, tolerances = world.found_contacts, world.events, world.tolerances
+        begin, persist, events.end, hits, keep = world._touching.compare(contacts, False, tolerances.slop, tolerances.hit_speed)
+        events.begin, events.hits = begin, hits
+        if effects.persist:
+            events.persist = persist
+        if effects.sensors:
+            events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(contacts, True, 0.0, np.inf)
+            keep = keep & ~contacts["sensor"]
+        world.contacts = contacts[keep].copy() if len(contacts) else np.zeros(0, CONTACT)
+        world.profile.work[CONTACTS] = len(world.contacts)
+        bodies = world.bodies
+        bodies["awake"] = ~bodies["quarantined"]
+    return Stage("events", run)
+
+
+def narrow_phase_for_queries() -> NarrowPhase:
+    """A narrow phase that tests shapes exactly and masks for hits alone."""
+    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
+
+
+def exact_narrow_phase() -> NarrowPhase:
+    """A narrow phase with all that a contact can tell."""
+    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
+
+
+def no_work() -> np.ndarray:
+    """Counters that nobody reads."""
+    return np.zeros(len(COUNTERS), np.int64)
+
+
+def impact_room():
+    """Room for the sweeps of one world."""
+    return np.zeros((16, 4)), new_scratch()

@@ -1,0 +1,483 @@
+"""World: owns the tables and runs the stages. Start reading at `step`."""
+
+from bisect import bisect_left
+
+import numpy as np
+
+from physics import checks, queries, snapshot, stages
+from physics.body import Body
+from physics.broadphase.spatial_hash import SpatialHashGrid
+from physics.effects import Effects
+from physics.events import Events, Pairs
+from physics.fitting import fit
+from physics.geometry import Library
+from physics.motion import carry
+from physics.motion.integrate import refresh_centers
+from physics.profile import Profile
+from physics.settings import PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
+from physics.shapes import SHAPES, Filter, Material, PixelMask, TileGrid, mass_of
+from physics.tables import AUTO, BODY, CHARACTER, CONTACT, CONTINUOUS, DYNAMIC, KINDS, SHAPE, STATIC, Table
+
+SOLVERS = ("blocking", "projection")
+STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
+
+
+class World:
+    """Bodies, the effects they live under, and the stages that those call for.
+
+    effects: what the scene calls for, None = Effects.rigid_bodies(); broadphase: an instance of one of the four, None =
+    SpatialHashGrid(); solver: "blocking" or "projection", None = projection; gravity [px/s2], None = 9.8 m/s2 down;
+    drag [1/s]; wind [px/s]; dt [s]. Raises TypeError or ValueError naming the argument.
+    """
+
+    def __init__(self, effects=None, broadphase=None, solver=None, gravity=None, drag=0.0, wind=(0, 0),
+                 pixels_per_meter=PIXELS_PER_METER, dt=1 / 60, seed=0):
+        effects = Effects.rigid_bodies() if effects is None else effects
+        if not isinstance(effects, Effects):
+            raise TypeError(f"effects must be an Effects (got {effects!r})")
+        self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
+        self.dt = checks.number("dt", dt, above=0.0)
+        self.drag = checks.number("drag", drag, low=0.0)
+        self._gravity = (0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter) if gravity is None else \
+            checks.vector("gravity", gravity)
+        self._wind = checks.vector("wind", wind)
+        self.seed = checks.whole("seed", seed, 0, 2**63 - 1)
+        self.random = np.random.default_rng(self.seed)
+        self._effects = effects
+        self._solver = checks.choice("solver", "projection" if solver is None else solver, SOLVERS)
+        self._bodies, self._shapes = Table(BODY), Table(SHAPE)
+        self.library = Library()
+        self.pairs = stages.PairList()
+        self._broadphase = None
+        self._stepping = False
+        self._next_body = self._next_shape = 0
+        self._users, self._shapes_of, self._tiers, self._sources = {}, {}, {}, {}
+        self.characters = Table(CHARACTER)
+        self.walk_scratch, self.walk_moved = carry.walk_room()
+        self._touching, self._sensing = Pairs(), Pairs()
+        self.impacts, self.impact_scratch = stages.impact_room()
+        self.impact_count = self.changed_count = 0
+        self.contacts = self.found_contacts = np.zeros(0, CONTACT)
+        self._room = np.zeros(16, np.int64)
+        self.events = Events()
+        self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
+        self._plan()
+
+    # --- the step ------------------------------------------------------------------------------------------------
+
+    def step(self, dt=None):
+        """Advance by dt [s] (None: world.dt). 0 moves nothing. Raises ValueError for a negative or non-finite dt."""
+        self._unlocked()
+        dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
+        self.profile.begin()
+        self.events = Events()
+        self._stepping = True
+        try:
+            for stage in self._plan_list:
+                with self.profile.time(stage.name):
+                    stage.run(self, dt)
+        finally:
+            self._stepping = False
+
+    def refresh_character_rows(self):
+        """Bring the body rows of the characters up to date."""
+        if len(self.characters.rows):
+            self.characters.rows["body_row"] = self.rows(self.characters.rows["body"])
+
+    def scratch_rows(self, count) -> np.ndarray:
+        """Room for that many row numbers, reused by every stage that asks."""
+        if len(self._room) < count:
+            self._room = np.zeros(2 * count, np.int64)
+        return self._room
+
+    def _plan(self):
+        self._plan_list = stages.plan(self._effects, self._solver)
+        self.profile = Profile(self.stages)
+
+    @property
+    def stages(self) -> list[str]:
+        """Names of the stages that the effects call for, in the order in which they run."""
+        return [stage.name for stage in self._plan_list]
+
+    @property
+    def effects(self) -> Effects:
+        """What the scene calls for. Declared once; `set_narrowphase` alone switches."""
+        return self._effects
+
+    def set_narrowphase(self, on: bool):
+        """Switch between the narrow phase and plain AABBs, between steps."""
+        self._unlocked()
+        self._effects = self._effects.with_(narrowphase=checks.flag("narrowphase", on))
+        self._plan()
+
+    @property
+    def solver(self) -> str:
+        """blocking or projection; can be set between steps."""
+        return self._solver
+
+    @solver.setter
+    def solver(self, name):
+        self._unlocked()
+        self._solver = checks.choice("solver", name, SOLVERS)
+        self._plan()
+
+    @property
+    def broadphase(self):
+        """The strategy that finds the candidates; can be set between steps, without changing any result."""
+        return self._broadphase
+
+    @broadphase.setter
+    def broadphase(self, strategy):
+        self._unlocked()
+        if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
+            raise TypeError("broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
+                            f"(got {strategy!r})")
+        self._broadphase = strategy.fresh()
+        self.pairs.start_over()
+
+    @property
+    def gravity(self) -> tuple[float, float]:
+        """[px/s2]; can be set between steps."""
+        return self._gravity
+
+    @gravity.setter
+    def gravity(self, value):
+        self._unlocked()
+        self._gravity = checks.vector("gravity", value)
+
+    @property
+    def wind(self) -> tuple[float, float]:
+        """Velocity of the air [px/s]; it acts through the drag. Can be set between steps."""
+        return self._wind
+
+    @wind.setter
+    def wind(self, value):
+        self._unlocked()
+        self._wind = checks.vector("wind", value)
+
+    # --- tables --------------------------------------------------------------------------------------------------
+
+    @property
+    def bodies(self) -> np.ndarray:
+        """BODY rows in the order of ids: a view, valid until a body is added or removed."""
+        return self._bodies.rows
+
+    @property
+    def shapes(self) -> np.ndarray:
+        """SHAPE rows in the order of ids: a view, valid until a body is added or removed."""
+        return self._shapes.rows
+
+    @property
+    def candidates(self) -> np.ndarray:
+        """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
+        return self.pairs.ids.astype(np.int32)
+
+    def rows(self, ids) -> np.ndarray:
+        """Row numbers of body ids in `world.bodies`. Raises KeyError for an id that is not there."""
+        ids = np.asarray(ids, np.int64)
+        known = np.ascontiguousarray(self.bodies["id"])
+        rows = np.searchsorted(known, ids)
+        there = rows < len(known)
+        if not there.all() or not np.array_equal(known[rows], ids):
+            missing = ids[~there | (known[np.where(there, rows, 0)] != ids)] if len(known) else ids
+            raise KeyError(f"no body {missing.ravel()[0]} in this world")
+        return rows
+
+    # --- adding and removing ---------------------------------------------------------------------------------------
+
+    def add_body(self, *shapes, position=(0, 0), angle=0.0, kind="dynamic", velocity=(0, 0), angular_velocity=0.0,
+                 material=Material(), filter=Filter.ALL, sensor=False, continuous="auto", fixed_rotation=False,
+                 gravity_scale=1.0, tier=None, user=None) -> Body:
+        """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
+        ids = self._add(shapes, [checks.vector("position", position)], [checks.vector("velocity", velocity)],
+                        [checks.number("angle", angle)], kind, angular_velocity, material, filter, sensor, continuous,
+                        fixed_rotation, gravity_scale, tier, user)
+        return Body(self, int(ids[0]))
+
+    def add_bodies(self, shape, positions, velocities=None, angles=None, kind="dynamic", angular_velocity=0.0,
+                   material=Material(), filter=Filter.ALL, sensor=False, continuous="auto", fixed_rotation=False,
+                   gravity_scale=1.0, tier=None, user=None) -> np.ndarray:
+        """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
+        positions = checks.columns("positions", positions)
+        n = len(positions)
+        velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
+        angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
+        return self._add((shape,), positions, velocities, angles, kind, angular_velocity, material, filter, sensor,
+                         continuous, fixed_rotation, gravity_scale, tier, user)
+
+    def _add(self, shapes, positions, velocities, angles, kind, angular_velocity, material, filter, sensor, continuous,
+             fixed_rotation, gravity_scale, tier, user):
+        self._unlocked()
+        kind = KINDS.index(checks.choice("kind", kind, KINDS))
+        for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
+            if not isinstance(value, wanted):
+                raise TypeError(f"{name} must be a {wanted.__name__} (got {value!r})")
+        sensor = checks.flag("sensor", sensor)
+        self._needs("sensors", "sensor=True", sensor)
+        continuous = CONTINUOUS.index(checks.choice("continuous", continuous, CONTINUOUS))
+        if continuous not in (0, AUTO):
+            self._needs("continuous", f"continuous={CONTINUOUS[continuous]!r}", True)
+        fixed_rotation = checks.flag("fixed_rotation", fixed_rotation)
+        gravity_scale = checks.number("gravity_scale", gravity_scale)
+        spin = checks.number("angular_velocity", angular_velocity)
+        self._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
+        if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
+            raise ValueError("velocity and angular_velocity must be 0 for a static body "
+                             f"(got {np.asarray(velocities).tolist()[0]}, {spin})")
+        used = self._shapes_for_tier(shapes, tier)
+        self._check_shapes(used, kind, angles)
+        mass = mass_of(used, material.density) if used else mass_of((), material.density)
+        n = len(positions)
+        ids = np.arange(self._next_body, self._next_body + n, dtype=np.int64)
+        if n == 0:
+            return ids
+        self._next_body += n
+        rows = self._bodies.append(n)
+        rows["id"], rows["kind"] = ids, kind
+        rows["x"], rows["y"] = np.asarray(positions).T
+        rows["vx"], rows["vy"] = np.asarray(velocities).T
+        rows["angle"], rows["angular_velocity"] = angles, spin
+        for name in ("x", "y", "angle"):
+            rows["previous_" + name] = rows[name]
+        rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, continuous, fixed_rotation
+        rows["awake"], rows["fraction"] = True, 1.0
+        self._set_mass(rows, mass, used)
+        refresh_centers(rows)
+        self._add_shapes(rows, self._bodies.count - n, used, material, filter, sensor)
+        for identity in ids.tolist():
+            self._shapes_of[identity] = used
+            if user is not None:
+                self._users[identity] = user
+            if tier is not None:
+                self._tiers[identity], self._sources[identity] = tier, tuple(shapes)
+        return ids
+
+    def _check_shapes(self, shapes, kind, angles):
+        for shape in shapes:
+            if not isinstance(shape, SHAPES):
+                raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
+            if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
+                raise ValueError(f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
+                                 f"{float(np.asarray(angles)[0])})")
+
+    def _shapes_for_tier(self, shapes, tier):
+        if tier is None:
+            return tuple(shapes)
+        if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
+            raise ValueError(f"tier {tier!r} needs exactly one PixelMask (got {shapes!r})")
+        return fit(shapes[0], tier)
+
+    def _set_mass(self, rows, mass, shapes):
+        rows["mass"], rows["inertia"] = mass.mass, mass.inertia
+        rows["local_center_x"], rows["local_center_y"] = mass.center
+        moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
+        turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
+        rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
+        rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
+        rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
+
+    def _add_shapes(self, bodies, first_row, shapes, material, filter, sensor):
+        n, k = len(bodies), len(shapes)
+        if n * k == 0:
+            return
+        rows = self._shapes.append(n * k)
+        rows["id"] = np.arange(self._next_shape, self._next_shape + n * k)
+        self._next_shape += n * k
+        rows["body"] = np.repeat(bodies["id"], k)
+        rows["body_row"] = np.repeat(np.arange(first_row, first_row + n), k)
+        rows["density"], rows["friction"] = material.density, material.friction
+        rows["restitution"], rows["sensor"] = material.restitution, sensor
+        rows["membership"], rows["mask"] = filter.membership, filter.mask
+        for i, shape in enumerate(shapes):
+            kind, geometry, wrapped = self.library.add(shape)
+            each = rows[i::k]
+            each["kind"], each["geometry"], each["wrapped"] = kind, geometry, wrapped
+            circle = getattr(shape, "shape", shape)
+            if hasattr(circle, "radius"):
+                each["radius"] = circle.radius
+                each["local_x"], each["local_y"] = circle.center
+        self.pairs.add_proxies(rows, np.arange(n * k), np.repeat(bodies["kind"] == STATIC, k))
+
+    def remove_body(self, body):
+        """Remove a body (or its id). Raises KeyError when it is not there."""
+        self.remove_bodies([body.id if isinstance(body, Body) else body])
+
+    def remove_bodies(self, ids):
+        """Remove many bodies at once: one pass over the tables. Raises KeyError for an unknown id, ValueError for one
+        that is named twice; nothing is removed then."""
+        self._unlocked()
+        ids = np.asarray(ids, np.int64).ravel()
+        if len(np.unique(ids)) != len(ids):
+            raise ValueError(f"ids must name each body once (got {ids.tolist()})")
+        if not len(ids):
+            return
+        keep = np.ones(self._bodies.count, bool)
+        keep[self.rows(ids)] = False
+        self._drop_shapes(~np.isin(self.shapes["body"], ids))
+        self._bodies.keep(keep)
+        self.shapes["body_row"] = np.searchsorted(np.ascontiguousarray(self.bodies["id"]), self.shapes["body"])
+        gone = set(ids.tolist())
+        for table in (self._users, self._shapes_of, self._tiers, self._sources):
+            for identity in gone & table.keys():
+                del table[identity]
+        self.characters.keep(~np.isin(self.characters.rows["body"], ids))
+
+    def _drop_shapes(self, keep):
+        self.pairs.free_proxies(self.shapes["proxy"][~keep])
+        self._shapes.keep(keep)
+
+    def clear(self):
+        """Remove every body. Ids go on from where they were."""
+        self.remove_bodies(self.bodies["id"])
+
+    def body(self, identity) -> Body:
+        """The handle of an id. Raises KeyError when there is no such body."""
+        self._body_row(identity)
+        return Body(self, int(identity))
+
+    # --- what Body asks for ------------------------------------------------------------------------------------------
+
+    def _unlocked(self):
+        if self._stepping:
+            raise RuntimeError("the world cannot be changed during its step: read the events after it")
+
+    def _body_row(self, identity):
+        count = self._bodies.count
+        row = bisect_left(self._bodies.data["id"], identity, 0, count)
+        if row == count or self._bodies.data["id"][row] != identity:
+            raise KeyError(f"body {identity} is not in this world (removed, or never added)")
+        return self._bodies.data[row]
+
+    def _needs(self, effect, what, asked):
+        if asked and not getattr(self._effects, effect):
+            raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
+
+    def _needs_velocities(self, what):
+        if "integrate_velocities" not in self.stages:
+            raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
+
+    def _filter_of(self, identity):
+        self._body_row(identity)
+        shapes = self.shapes[self.shapes["body"] == identity]
+        return Filter(int(shapes["membership"][0]), int(shapes["mask"][0])) if len(shapes) else Filter.ALL
+
+    def _set_filter(self, identity, value):
+        self._unlocked()
+        if not isinstance(value, Filter):
+            raise TypeError(f"filter must be a Filter (got {value!r})")
+        self._body_row(identity)
+        own = self.shapes["body"] == identity
+        self.shapes["membership"][own], self.shapes["mask"][own] = value.membership, value.mask
+        self.pairs.set_filter(self.shapes["proxy"][own], value)
+
+    def _move_to(self, identity, position, angle):
+        self._unlocked()
+        row = self._body_row(identity)
+        if angle and any(isinstance(shape, TileGrid) for shape in self._shapes_of[identity]):
+            raise ValueError(f"angle must be 0 for a body with a TileGrid (got {angle})")
+        row["x"], row["y"] = position
+        if angle is not None:
+            row["angle"] = angle
+        self.refresh(identity)
+
+    def refresh(self, identity):
+        """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle."""
+        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
+        refresh_centers(self._bodies.data[at:at + 1])
+        self.pairs.touch(self.shapes["proxy"][self.shapes["body"] == identity])
+
+    def _set_kind(self, identity, kind):
+        self._unlocked()
+        row = self._body_row(identity)
+        self._check_shapes(self._shapes_of[identity], KINDS.index(kind), [row["angle"].item()])
+        row["kind"] = KINDS.index(kind)
+        if kind == "static":
+            row["vx"] = row["vy"] = row["angular_velocity"] = 0.0
+        self._refresh_mass(identity)
+        own = self.shapes["body"] == identity
+        self.pairs.set_still(self.shapes["proxy"][own], kind == "static")
+
+    def _refresh_mass(self, identity):
+        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
+        own = self.shapes[self.shapes["body"] == identity]
+        density = float(own["density"][0]) if len(own) else 1.0
+        used = self._shapes_of[identity]
+        self._set_mass(self._bodies.data[at:at + 1], mass_of(used, density), used)
+        self.refresh(identity)
+
+    def _set_shapes(self, identity, shapes):
+        self._unlocked()
+        row = self._body_row(identity)
+        self._check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
+        own = self.shapes["body"] == identity
+        first = self.shapes[own][0] if own.any() else None
+        material = Material() if first is None else Material(float(first["density"]), float(first["friction"]),
+                                                             float(first["restitution"]))
+        filter, sensor = self._filter_of(identity), bool(first is not None and first["sensor"])
+        self._drop_shapes(~own)
+        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
+        self._shapes_of[identity] = tuple(shapes)
+        self._add_shapes(self._bodies.data[at:at + 1], at, tuple(shapes), material, filter, sensor)
+        self._refresh_mass(identity)
+
+    def _set_tier(self, identity, tier):
+        source = self._sources.get(identity, self._shapes_of[identity])
+        shapes = self._shapes_for_tier(source, tier)
+        self._set_shapes(identity, shapes)
+        if tier is None:
+            self._tiers.pop(identity, None)
+        else:
+            self._tiers[identity], self._sources[identity] = tier, source
+
+    def _restore_body(self, identity):
+        self._unlocked()
+        row = self._body_row(identity)
+        if row["quarantined"]:
+            row["quarantined"] = False
+            own = np.flatnonzero(self.shapes["body"] == identity)
+            self.pairs.add_proxies(self.shapes, own, np.full(len(own), row["kind"] == STATIC))
+
+    # --- queries, digest, snapshot -------------------------------------------------------------------------------------
+
+    def ray_cast(self, origin, translation, filter=Filter.ALL, sensors=False):
+        """The first shape that a ray [px] meets, or None. See queries.RayHit."""
+        hits = self.ray_cast_all(origin, translation, filter, sensors)
+        return hits[0] if hits else None
+
+    def ray_cast_all(self, origin, translation, filter=Filter.ALL, sensors=False) -> list:
+        """All shapes that a ray [px] meets, nearest first, ties by shape id."""
+        return queries.ray_cast_all(self, origin, translation, filter, sensors)
+
+    def overlap(self, shape, pose, filter=Filter.ALL) -> list[Body]:
+        """The bodies that a shape at a pose (x, y, angle) overlaps, in the order of ids."""
+        return queries.overlap(self, shape, pose, filter)
+
+    def query_aabb(self, lower, upper) -> list[Body]:
+        """The bodies with a shape whose AABB meets the closed box [px], in the order of ids."""
+        return queries.query_aabb(self, lower, upper)
+
+    def query_point(self, point) -> list[Body]:
+        """The bodies with a shape that holds the point [px], in the order of ids."""
+        return queries.query_point(self, point)
+
+    def rebuild_proxies(self):
+        """Give every shape a new place in the broad phase: the tables were replaced."""
+        self.pairs = stages.PairList()
+        self._broadphase = self._broadphase.fresh()
+        active = ~self.bodies["quarantined"][self.shapes["body_row"]]
+        rows = np.flatnonzero(active)
+        self.shapes["proxy"] = -1
+        self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
+
+    def digest(self) -> str:
+        """blake2b-128 of the state that the next step depends on, independent of rows, times and broad phase."""
+        return snapshot.digest(self)
+
+    def snapshot(self):
+        """A copy of the state."""
+        return snapshot.take(self)
+
+    def restore(self, taken):
+        """Go back to a snapshot. Raises ValueError when it does not fit this version's tables or this world's effects."""
+        self._unlocked()
+        snapshot.restore(self, taken)
