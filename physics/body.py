@@ -1,6 +1,6 @@
 """Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
 
-from physics import checks
+from physics import checks, edits
 from physics.tables import DYNAMIC, KINDS, STATIC
 
 
@@ -111,11 +111,11 @@ class Body:
     @property
     def filter(self):
         """The filter of the shapes."""
-        return self.world._filter_of(self.id)
+        return edits.filter_of(self.world, self.id)
 
     @filter.setter
     def filter(self, value):
-        self.world._set_filter(self.id, value)
+        edits.set_filter(self.world, self.id, value)
 
     @property
     def tier(self):
@@ -125,7 +125,7 @@ class Body:
 
     @tier.setter
     def tier(self, value):
-        self.world._set_tier(self.id, value)
+        edits.set_tier(self.world, self.id, value)
 
     def apply_force(self, force, point=None):
         """Add a force for the coming step, at the centre of mass or at a world point [px]."""
@@ -166,17 +166,17 @@ class Body:
 
     def move_to(self, position, angle=None):
         """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        self.world._move_to(self.id, checks.vector("position", position),
-                            None if angle is None else checks.number("angle", angle))
+        edits.move_to(self.world, self.id, checks.vector("position", position),
+                      None if angle is None else checks.number("angle", angle))
 
     def set_shapes(self, *shapes):
         """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""
-        self.world._set_shapes(self.id, shapes)
+        edits.set_shapes(self.world, self.id, shapes)
 
     def set_kind(self, kind):
         """static, kinematic or dynamic. A body that becomes static stops."""
-        self.world._set_kind(self.id, checks.choice("kind", kind, KINDS))
+        edits.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self):
         """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
-        self.world._restore_body(self.id)
+        edits.restore(self.world, self.id)

@@ -21,7 +21,7 @@ def write_event(contact, at, events_out):
 
 
 @subkernel
-def copy_event(events, source, events_out, target):
+def copy_event(events, source, target, events_out):
     """Copy an event row."""
     s = events[source]
     d = events_out[target]
@@ -72,7 +72,7 @@ def compare_pairs(
             old = p.shape_a < c.shape_a or (p.shape_a == c.shape_a and p.shape_b <= c.shape_b)
             new = not old or (p.shape_a == c.shape_a and p.shape_b == c.shape_b)
         if not new:
-            copy_event(before, i, end_out, ended)
+            copy_event(before, i, ended, end_out)
             ended += 1
             i += 1
             continue
@@ -111,7 +111,7 @@ def compare_pairs(
                 hits_out[hits].normal_impulse = total
                 hits += 1
         elif old:
-            copy_event(before, i, end_out, ended)
+            copy_event(before, i, ended, end_out)
             ended += 1
         for k in range(j, last):
             keep_out[k] = active

@@ -8,14 +8,14 @@ from physics import checks, queries, snapshot, stages
 from physics.body import Body
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.effects import Effects
+from physics.edits import shapes_for_tier
 from physics.events import Events, Pairs
-from physics.fitting import fit
 from physics.geometry import Library
 from physics.motion import carry
 from physics.motion.integrate import refresh_centers
 from physics.profile import Profile
 from physics.settings import PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
-from physics.shapes import SHAPES, Filter, Material, PixelMask, TileGrid, mass_of
+from physics.shapes import SHAPES, Filter, Material, TileGrid, mass_of
 from physics.tables import AUTO, BODY, CHARACTER, CONTACT, CONTINUOUS, DYNAMIC, KINDS, SHAPE, STATIC, Table
 
 SOLVERS = ("blocking", "projection")
@@ -224,7 +224,7 @@ class World:
         if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
             raise ValueError("velocity and angular_velocity must be 0 for a static body "
                              f"(got {np.asarray(velocities).tolist()[0]}, {spin})")
-        used = self._shapes_for_tier(shapes, tier)
+        used = shapes_for_tier(shapes, tier)
         self._check_shapes(used, kind, angles)
         mass = mass_of(used, material.density) if used else mass_of((), material.density)
         n = len(positions)
@@ -259,13 +259,6 @@ class World:
             if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
                 raise ValueError(f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
                                  f"{float(np.asarray(angles)[0])})")
-
-    def _shapes_for_tier(self, shapes, tier):
-        if tier is None:
-            return tuple(shapes)
-        if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
-            raise ValueError(f"tier {tier!r} needs exactly one PixelMask (got {shapes!r})")
-        return fit(shapes[0], tier)
 
     def _set_mass(self, rows, mass, shapes):
         rows["mass"], rows["inertia"] = mass.mass, mass.inertia
@@ -341,12 +334,15 @@ class World:
         if self._stepping:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
-    def _body_row(self, identity):
+    def _row_number(self, identity):
         count = self._bodies.count
         row = bisect_left(self._bodies.data["id"], identity, 0, count)
         if row == count or self._bodies.data["id"][row] != identity:
             raise KeyError(f"body {identity} is not in this world (removed, or never added)")
-        return self._bodies.data[row]
+        return row
+
+    def _body_row(self, identity):
+        return self._bodies.data[self._row_number(identity)]
 
     def _needs(self, effect, what, asked):
         if asked and not getattr(self._effects, effect):
@@ -355,87 +351,6 @@ class World:
     def _needs_velocities(self, what):
         if "integrate_velocities" not in self.stages:
             raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
-
-    def _filter_of(self, identity):
-        self._body_row(identity)
-        shapes = self.shapes[self.shapes["body"] == identity]
-        return Filter(int(shapes["membership"][0]), int(shapes["mask"][0])) if len(shapes) else Filter.ALL
-
-    def _set_filter(self, identity, value):
-        self._unlocked()
-        if not isinstance(value, Filter):
-            raise TypeError(f"filter must be a Filter (got {value!r})")
-        self._body_row(identity)
-        own = self.shapes["body"] == identity
-        self.shapes["membership"][own], self.shapes["mask"][own] = value.membership, value.mask
-        self.pairs.set_filter(self.shapes["proxy"][own], value)
-
-    def _move_to(self, identity, position, angle):
-        self._unlocked()
-        row = self._body_row(identity)
-        if angle and any(isinstance(shape, TileGrid) for shape in self._shapes_of[identity]):
-            raise ValueError(f"angle must be 0 for a body with a TileGrid (got {angle})")
-        row["x"], row["y"] = position
-        if angle is not None:
-            row["angle"] = angle
-        self.refresh(identity)
-
-    def refresh(self, identity):
-        """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle."""
-        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
-        refresh_centers(self._bodies.data[at:at + 1])
-        self.pairs.touch(self.shapes["proxy"][self.shapes["body"] == identity])
-
-    def _set_kind(self, identity, kind):
-        self._unlocked()
-        row = self._body_row(identity)
-        self._check_shapes(self._shapes_of[identity], KINDS.index(kind), [row["angle"].item()])
-        row["kind"] = KINDS.index(kind)
-        if kind == "static":
-            row["vx"] = row["vy"] = row["angular_velocity"] = 0.0
-        self._refresh_mass(identity)
-        own = self.shapes["body"] == identity
-        self.pairs.set_still(self.shapes["proxy"][own], kind == "static")
-
-    def _refresh_mass(self, identity):
-        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
-        own = self.shapes[self.shapes["body"] == identity]
-        density = float(own["density"][0]) if len(own) else 1.0
-        used = self._shapes_of[identity]
-        self._set_mass(self._bodies.data[at:at + 1], mass_of(used, density), used)
-        self.refresh(identity)
-
-    def _set_shapes(self, identity, shapes):
-        self._unlocked()
-        row = self._body_row(identity)
-        self._check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
-        own = self.shapes["body"] == identity
-        first = self.shapes[own][0] if own.any() else None
-        material = Material() if first is None else Material(float(first["density"]), float(first["friction"]),
-                                                             float(first["restitution"]))
-        filter, sensor = self._filter_of(identity), bool(first is not None and first["sensor"])
-        self._drop_shapes(~own)
-        at = bisect_left(self._bodies.data["id"], identity, 0, self._bodies.count)
-        self._shapes_of[identity] = tuple(shapes)
-        self._add_shapes(self._bodies.data[at:at + 1], at, tuple(shapes), material, filter, sensor)
-        self._refresh_mass(identity)
-
-    def _set_tier(self, identity, tier):
-        source = self._sources.get(identity, self._shapes_of[identity])
-        shapes = self._shapes_for_tier(source, tier)
-        self._set_shapes(identity, shapes)
-        if tier is None:
-            self._tiers.pop(identity, None)
-        else:
-            self._tiers[identity], self._sources[identity] = tier, source
-
-    def _restore_body(self, identity):
-        self._unlocked()
-        row = self._body_row(identity)
-        if row["quarantined"]:
-            row["quarantined"] = False
-            own = np.flatnonzero(self.shapes["body"] == identity)
-            self.pairs.add_proxies(self.shapes, own, np.full(len(own), row["kind"] == STATIC))
 
     # --- queries, digest, snapshot -------------------------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ def joined_outline(nodes, a, b):
 
 
 @subkernel
-def refit(nodes_inout, index):
+def refit(index, nodes_inout):
     """Set a node's box and height from its children."""
     n = nodes_inout[index]
     p = nodes_inout[n.child_a]
@@ -89,8 +89,8 @@ def rotate(index, root, nodes_inout, state_inout):
     c.child_a = index
     c.child_b = stays
     a.parent = up
-    refit(nodes_inout, index)
-    refit(nodes_inout, up)
+    refit(index, nodes_inout)
+    refit(up, nodes_inout)
     return up
 
 
@@ -99,7 +99,7 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
     """Balance and refit from a node up to the root. O(height)."""
     while index >= 0:
         work_inout[NODES_VISITED] += 1
-        refit(nodes_inout, index)
+        refit(index, nodes_inout)
         index = rotate(index, root, nodes_inout, state_inout)
         index = nodes_inout[index].parent
 

@@ -29,11 +29,11 @@ def shift(geometry, shapes, me, without, pixels, along_x, slop, scratch, rows, c
         what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, left, top, c.width, c.height,
                               falling, slop, scratch)
         if what != FREE:
-            settle(characters_inout, bodies_inout, me)
+            settle(me, characters_inout, bodies_inout)
             return abs(pixels) - done
         c.left = left
         c.top = top
-    settle(characters_inout, bodies_inout, me)
+    settle(me, characters_inout, bodies_inout)
     return 0
 
 

@@ -127,6 +127,8 @@ def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
         return MISS, nx, ny
     # From "slack deep" back to touching.
     approach = -(nx * dx + ny * dy)
+    if approach <= 0.0:
+        return MISS, nx, ny
     return max(0.0, enter - slack / approach), nx, ny
 
 

@@ -18,7 +18,7 @@ def whole_pixels(remainder):
 
 
 @subkernel
-def settle(characters_inout, bodies_inout, me):
+def settle(me, characters_inout, bodies_inout):
     """Put the character's body where its box is."""
     c = characters_inout[me]
     b = bodies_inout[c.body_row]
@@ -39,7 +39,7 @@ def push_along(geometry, shapes, pushed, direction, slop, scratch, rows_inout, c
                           0, slop, scratch)
     if what == FREE:
         c.left = at
-        settle(characters_inout, bodies_inout, pushed)
+        settle(pushed, characters_inout, bodies_inout)
         return True
     if what == ON_SLOPE:
         what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows_inout, count, at, c.top - 1, c.width,
@@ -47,7 +47,7 @@ def push_along(geometry, shapes, pushed, direction, slop, scratch, rows_inout, c
         if what == FREE:
             c.left = at
             c.top -= 1
-            settle(characters_inout, bodies_inout, pushed)
+            settle(pushed, characters_inout, bodies_inout)
             return True
     return False
 
@@ -175,7 +175,7 @@ def walk(
             moved_out[3] = 1
             break
         c.top += direction
-    settle(characters_inout, bodies_inout, me)
+    settle(me, characters_inout, bodies_inout)
     feel(geometry, shapes, me, slop, scratch, rows_out, count, characters_inout, bodies_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top

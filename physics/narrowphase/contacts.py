@@ -89,7 +89,7 @@ def corners_of(geometry, bodies, shapes, row, corners_out):
 
 
 @subkernel
-def copy_contact(contacts, source, contacts_out, target):
+def copy_contact(contacts, source, target, contacts_out):
     """Copy one row field by field: a whole-row assignment is not the same thing compiled and plain."""
     s = contacts[source]
     d = contacts_out[target]
@@ -141,7 +141,7 @@ def place_in_order(
         pair = contacts[i].candidate
         at = starts_out[pair]
         starts_out[pair] = at + 1
-        copy_contact(contacts, i, contacts_out, at)
+        copy_contact(contacts, i, at, contacts_out)
 
 
 @kernel

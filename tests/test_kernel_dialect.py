@@ -1,0 +1,113 @@
+"""The kernel dialect, over the syntax tree: what is written in it gives the same bits compiled and plain."""
+
+import ast
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BANNED_CALLS = {"math.hypot", "math.fmod", "np.bitwise_count", "math.pow", "math.dist", "math.fsum"}
+KERNEL_LINES, LONG_LINES = 60, 120
+LONG = {"collide_grid_pairs", "find_impacts", "find_in_cells", "place_changed", "compare_pairs", "project", "clip_edges",
+        "collide_mask_polygon", "update_rectangles", "classify", "in_shape", "collide_mask_circle", "walk",
+        "carry_and_push", "sweep_grid", "sweep_pair", "tile_at", "write_contact"}      # colliders, solver passes, broad phases
+
+
+def decorated(node):
+    return any((each.id if isinstance(each, ast.Name) else "") in ("kernel", "subkernel") for each in node.decorator_list)
+
+
+def kernels():
+    """(path, function node, decorator name) of every kernel in physics/."""
+    for path in sorted((ROOT / "physics").rglob("*.py")):
+        if path.name == "jit.py":
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef) and decorated(node):
+                yield path, node, next(each.id for each in node.decorator_list)
+
+
+def at(path, node):
+    return f"{path.relative_to(ROOT)}:{node.lineno}"
+
+
+def test_there_are_kernels():
+    assert len(list(kernels())) > 60
+
+
+def test_no_power_operator_and_no_banned_call():
+    for path, function, _ in kernels():
+        for node in ast.walk(function):
+            assert not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)), f"{at(path, node)}: ** differs compiled"
+            if isinstance(node, ast.Call):
+                name = ast.unparse(node.func)
+                assert name not in BANNED_CALLS and not name.endswith(".bit_count"), f"{at(path, node)} calls {name}"
+
+
+def test_no_objects_allocation_or_exceptions():
+    for path, function, _ in kernels():
+        for node in ast.walk(function):
+            assert not isinstance(node, (ast.Dict, ast.List, ast.Set, ast.ListComp, ast.DictComp, ast.Try, ast.Raise, ast.Lambda,
+                                         ast.JoinedStr, ast.With)), f"{at(path, node)}: {type(node).__name__} in a kernel"
+            if isinstance(node, ast.Call):
+                name = ast.unparse(node.func)
+                assert not name.startswith("np."), f"{at(path, node)} calls {name}: plain loops over scalars only"
+
+
+def test_shifts_of_words_stay_in_bits():
+    """Words and their shift counts live in masks/bits.py; elsewhere shifts are of whole numbers below 2^63."""
+    for path, function, _ in kernels():
+        if path.name == "bits.py":
+            continue
+        for node in ast.walk(function):
+            if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.LShift, ast.RShift)):
+                assert "words" not in ast.unparse(node), f"{at(path, node)} shifts a word: use masks/bits.py"
+
+
+# Above zero by validation or by what it counts: tile and cell sizes, numbers of corners and buckets, a full mask's area, the length of what has been scaled to one.
+ABOVE_ZERO = {"g.tile_size", "size", "tile_size", "buckets", "count", "TAU", "base * (1 << level)", "area",
+              "1.0 + drag_rate * dt", "effective", "length", "largest"}
+
+
+def names_in(node):
+    return {ast.unparse(each) for each in ast.walk(node) if isinstance(each, (ast.Name, ast.Attribute))}
+
+
+def test_divisors_are_guarded():
+    """A divisor is a constant, above zero by validation, or compared with something in the same function."""
+    for path, function, _ in kernels():
+        compared = set().union(*(names_in(node) for node in ast.walk(function) if isinstance(node, ast.Compare)), set())
+        for node in ast.walk(function):
+            if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.FloorDiv, ast.Mod)):
+                divisor = ast.unparse(node.right)
+                constant = not names_in(node.right) - {"math.tau", "math"}
+                assert constant or divisor in ABOVE_ZERO or names_in(node.right) & compared, (
+                    f"{at(path, node)} divides by {divisor}, which nothing in {function.name} compares: guard it")
+
+
+def test_arguments_without_defaults_and_outputs_last():
+    for path, function, _ in kernels():
+        arguments = [each.arg for each in function.args.args]
+        assert not function.args.defaults and not function.args.kwonlyargs, f"{at(path, function)} has defaults"
+        written = [name.endswith(("_out", "_inout")) for name in arguments]
+        mixed = {"found", "scratch", "rows", "pushed_rows", "without"}        # a running count and scratch room
+        first = written.index(True) if True in written else len(written)
+        for name, is_written in zip(arguments[first:], written[first:]):
+            assert is_written or name in mixed, f"{at(path, function)}: {name} stands behind an output"
+
+
+def test_only_named_arguments_are_written():
+    """A kernel stores only into arguments that say so by their name (or scratch room)."""
+    for path, function, _ in kernels():
+        arguments = {each.arg for each in function.args.args}
+        for node in ast.walk(function):
+            for target in (node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AugAssign)
+                           else []):
+                if isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and target.value.id in arguments:
+                    assert target.value.id.endswith(("_out", "_inout")), f"{at(path, node)} writes {target.value.id}"
+
+
+def test_docstrings_and_sizes():
+    for path, function, kind in kernels():
+        assert ast.get_docstring(function), f"{at(path, function)} {function.name} has no docstring"
+        lines = function.end_lineno - function.lineno + 1
+        limit = LONG_LINES if function.name in LONG else KERNEL_LINES
+        assert lines <= limit, f"{at(path, function)} {function.name} has {lines} lines, limit {limit}"
