@@ -132,22 +132,24 @@ class Body:
         self.world._unlocked()
         force = checks.vector("force", force)
         self.world._needs_velocities("apply_force")
+        point = None if point is None else checks.vector("point", point)
         row = self._dynamic("apply_force")
         row["force_x"] += force[0]
         row["force_y"] += force[1]
         if point is not None:
-            x, y = checks.vector("point", point)
+            x, y = point
             row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
 
     def apply_impulse(self, impulse, point=None):
         """Change the velocity at once by impulse / mass; with a point [px] outside the centre also the spin."""
         self.world._unlocked()
         impulse = checks.vector("impulse", impulse)
+        point = None if point is None else checks.vector("point", point)
         row = self._dynamic("apply_impulse")
         row["vx"] += row["inverse_mass"] * impulse[0]
         row["vy"] += row["inverse_mass"] * impulse[1]
         if point is not None and self.world.effects.rotation:
-            x, y = checks.vector("point", point)
+            x, y = point
             row["angular_velocity"] += row["inverse_inertia"] * ((x - row["center_x"]) * impulse[1]
                                                                  - (y - row["center_y"]) * impulse[0])
 
@@ -166,7 +168,7 @@ class Body:
 
     def move_to(self, position, angle=None):
         """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        edits.move_to(self.world, self.id, checks.vector("position", position),
+        edits.move_to(self.world, self.id, checks.position("position", position),
                       None if angle is None else checks.number("angle", angle))
 
     def set_shapes(self, *shapes):

@@ -5,12 +5,17 @@ import numbers
 
 import numpy as np
 
+from physics.settings import POSITION_LIMIT
+
 
 def number(name, value, low=None, above=None, high=None):
     """A finite float; `low`/`high` inclusive bounds, `above` exclusive. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {value!r})")
-    value = float(value)
+    try:
+        value = float(value)
+    except OverflowError:
+        value = math.inf if value > 0 else -math.inf
     allowed = "finite"
     if above is not None:
         allowed = f"finite and > {above}"
@@ -31,6 +36,25 @@ def vector(name, value):
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be a pair (x, y) of numbers (got {value!r})") from None
     return number(f"{name}[0]", x), number(f"{name}[1]", y)
+
+
+def position(name, value):
+    """Two floats that lie where a double still resolves a pixel. Raises TypeError or ValueError."""
+    x, y = vector(name, value)
+    if max(abs(x), abs(y)) >= POSITION_LIMIT:
+        raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {value!r})")
+    return x, y
+
+
+def ids(name, value):
+    """A flat int64 array of ids, each once. Raises TypeError or ValueError."""
+    array = np.asarray(value)
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be whole numbers (got {value!r})")
+    array = array.astype(np.int64).ravel()
+    if len(np.unique(array)) != len(array):
+        raise ValueError(f"{name} must name each body once (got {array.tolist()})")
+    return array
 
 
 def whole(name, value, low, high):
@@ -61,9 +85,12 @@ def choice(name, value, allowed):
 def columns(name, value, count=None, width=2):
     """A finite float64 array (n, width) or (n,) for width 1, as a C-ordered copy. Raises TypeError or ValueError."""
     try:
-        array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be an array of numbers (got {type(value).__name__})") from None
+        array = np.array(value)
+    except ValueError:
+        raise TypeError(f"{name} must be an array of numbers (got rows of different lengths)") from None
+    if array.size and array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be an array of numbers (got {array.dtype} in a {type(value).__name__})")
+    array = np.array(array, dtype=np.float64, order="C")
     shape = f"(n, {width})" if width > 1 else "(n,)"
     if width > 1 and array.size == 0:
         array = array.reshape(0, width)

@@ -6,6 +6,7 @@ import numpy as np
 
 from physics import checks, stages
 from physics.geometry import Library
+from physics.narrowphase.placement import refresh_aabbs
 from physics.queries import _pose, place
 from physics.shapes import SHAPES, TileGrid
 from physics.tables import BODY, SHAPE
@@ -45,6 +46,7 @@ def collide(shape_a, pose_a, shape_b, pose_b, margin=0.0) -> Manifold:
         if isinstance(shape, TileGrid) and pose[2] != 0.0:
             raise ValueError(f"{name} must have angle 0 for a TileGrid (got {pose[2]})")
         place(library, shape, bodies, shapes, row, pose)
+    refresh_aabbs(library.tables, bodies, shapes)
     contacts = stages.exact_narrow_phase().collide(library.tables, bodies, shapes, np.array([[0, 1]], np.int64), 1, margin,
                                                    0.0, stages.no_work())
     if not len(contacts):

@@ -60,7 +60,7 @@ def structure(world) -> Structure:
         for axis in strategy.sorted:
             slots = axis.order[world.pairs.proxies["row"][axis.order] >= 0]
             shapes = world.shapes["id"][world.pairs.proxies["row"][slots]]
-            ends = axis.boxes[:len(axis.order)][world.pairs.proxies["row"][axis.order] >= 0]
+            ends = axis.boxes[:len(axis.order), :2][world.pairs.proxies["row"][axis.order] >= 0]
             parts.append(np.column_stack([np.full(len(slots), axis.axis), ends, shapes]))
         intervals = np.concatenate(parts) if parts else intervals
     return Structure(strategy.name, rects, depth, intervals)

@@ -4,6 +4,7 @@ import numpy as np
 
 from physics.fitting import fit
 from physics.motion.integrate import refresh_centers
+from physics.shape_rows import add_shapes, check_shapes, set_mass
 from physics.shapes import Filter, Material, PixelMask, TileGrid, mass_of
 from physics.tables import KINDS, STATIC
 
@@ -49,7 +50,7 @@ def set_kind(world, identity, kind):
     """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles."""
     world._unlocked()
     row = world._body_row(identity)
-    world._check_shapes(world._shapes_of[identity], KINDS.index(kind), [row["angle"].item()])
+    check_shapes(world._shapes_of[identity], KINDS.index(kind), [row["angle"].item()], int(row["continuous"]))
     row["kind"] = KINDS.index(kind)
     if kind == "static":
         row["vx"] = row["vy"] = row["angular_velocity"] = 0.0
@@ -64,7 +65,7 @@ def refresh_mass(world, identity):
     own = world.shapes[world.shapes["body"] == identity]
     density = float(own["density"][0]) if len(own) else 1.0
     used = world._shapes_of[identity]
-    world._set_mass(world.bodies[at:at + 1], mass_of(used, density), used)
+    set_mass(world.bodies[at:at + 1], mass_of(used, density), used)
     refresh(world, identity)
 
 
@@ -72,7 +73,7 @@ def set_shapes(world, identity, shapes):
     """Replace a body's shapes; material, filter and sensor stay. Raises TypeError, ValueError."""
     world._unlocked()
     row = world._body_row(identity)
-    world._check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
+    check_shapes(shapes, int(row["kind"]), [row["angle"].item()], int(row["continuous"]))
     own = world.shapes["body"] == identity
     first = world.shapes[own][0] if own.any() else None
     material = Material() if first is None else Material(float(first["density"]), float(first["friction"]),
@@ -81,8 +82,14 @@ def set_shapes(world, identity, shapes):
     world._drop_shapes(~own)
     at = world._row_number(identity)
     world._shapes_of[identity] = tuple(shapes)
-    world._add_shapes(world.bodies[at:at + 1], at, tuple(shapes), material, filter, sensor)
+    add_shapes(world, world.bodies[at:at + 1], at, tuple(shapes), material, filter, sensor)
     refresh_mass(world, identity)
+    if row["quarantined"]:
+        own = world.shapes["body"] == identity
+        world.pairs.free_proxies(world.shapes["proxy"][own])
+        world.shapes["proxy"][own] = -1
+    world._tiers.pop(identity, None)
+    world._sources.pop(identity, None)
 
 
 def shapes_for_tier(shapes, tier) -> tuple:
@@ -99,9 +106,7 @@ def set_tier(world, identity, tier):
     world._body_row(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))
-    if tier is None:
-        world._tiers.pop(identity, None)
-    else:
+    if tier is not None:
         world._tiers[identity], world._sources[identity] = tier, source
 
 

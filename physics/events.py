@@ -147,7 +147,8 @@ class Pairs:
                       self.counts)
         now, *changes = (table[:count] for table, count in zip(self.tables, self.counts.tolist()))
         self.count = len(now)
-        self.before[:self.count] = now
+        # What touches now is what touched before, next time: the two tables change places.
+        self.tables[0], self.before = self.before, self.tables[0]
         return *changes, self.keep[:len(contacts)]
 
     def restore(self, touching):

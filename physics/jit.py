@@ -101,7 +101,8 @@ def _folder_for(path: Path) -> str:
     home = _writable_home()
     if home is None:
         return ""
-    name = ".".join(path.resolve().relative_to(HERE).with_suffix("").parts)
+    path = path.resolve()
+    name = ".".join(path.relative_to(HERE).with_suffix("").parts) if path.is_relative_to(HERE) else f"outside.{path.stem}"
     stamp = source_stamp(path)
     old = sorted((each for each in home.glob(f"{name}-*") if each.name != f"{name}-{stamp}"),
                  key=lambda each: each.stat().st_mtime if each.exists() else 0.0)

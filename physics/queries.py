@@ -28,7 +28,7 @@ def ray_cast_all(world, origin, translation, filter, sensors) -> list[RayHit]:
     Inside a shape at the start: fraction 0 and the normal against the direction. Zero length: a point query, whose
     normals are (0, -1). Raises TypeError, ValueError.
     """
-    x, y = checks.vector("origin", origin)
+    x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
     filter = _checked(filter)
     sensors = checks.flag("sensors", sensors)
@@ -100,7 +100,7 @@ def _pose(name, value):
         x, y, angle = value
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be (x, y, angle) (got {value!r})") from None
-    return tuple(checks.number(f"{name}[{i}]", each) for i, each in enumerate((x, y, angle)))
+    return (*checks.position(name, (x, y)), checks.number(f"{name}[2]", angle))
 
 
 def _checked(filter):
@@ -114,4 +114,4 @@ def _rows_in(world, lower, upper):
     refresh_aabbs(world.library.tables, world.bodies, world.shapes)
     s = world.shapes
     return np.flatnonzero((s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1])
-                          & (s["max_y"] >= lower[1]))
+                          & (s["max_y"] >= lower[1]) & ~world.bodies["quarantined"][s["body_row"]])

@@ -4,7 +4,6 @@ Pixels, seconds, radians everywhere else; x right, y down. No tolerance is a bar
 in metres (`pixels_per_meter=1`) behaves as its copy in pixels.
 """
 
-import math
 from dataclasses import dataclass
 
 PIXELS_PER_METER = 32.0      # a hero of 1.5 m is 48 px: the scale of most pixel art
@@ -21,9 +20,8 @@ MASK_ANGLE_BUCKETS = 128     # masks are turned to multiples of 360/128 = 2.8 de
                              # at most 0.8 px within a bucket, below the pixel grid it is drawn on
 FAST_FRACTION = 0.5          # continuous="auto": swept when a body moves more than this share of its size in a step
 PROJECTION_PASSES = 4        # how often the push-out sees every contact; a crate between two walls needs two
-SLIDES = 4                   # how often a swept body may slide on within one step; further hits stop it
 SPEED_LIMIT = 1e9            # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
-SLOPE_WALKABLE = math.cos(math.radians(50.0))   # normals that point up more than this are ground
+POSITION_LIMIT = 2.0 ** 52   # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined
 
 
 @dataclass(frozen=True)

@@ -185,10 +185,9 @@ class PixelMask:
         threshold = checks.whole("threshold", threshold, 0, 255)
         if 0 in surface.get_size():
             return cls(np.zeros(surface.get_size()[::-1], bool), origin, snap)
+        solid = pygame.surfarray.array_alpha(surface) > threshold
         if surface.get_colorkey() is not None:
-            solid = pygame.surfarray.array_colorkey(surface) > 0
-        else:
-            solid = pygame.surfarray.array_alpha(surface) > threshold
+            solid &= pygame.surfarray.array_colorkey(surface) > 0
         return cls(np.ascontiguousarray(solid.T), origin, snap)
 
     def turned(self, angle=0.0) -> Turned:

@@ -18,8 +18,8 @@ from physics.narrowphase.contacts import new_scratch, write_impacts
 from physics.narrowphase.dispatch import NarrowPhase
 from physics.narrowphase.placement import missing_rasters, refresh_aabbs
 from physics.profile import CONTACTS, COUNTERS
-from physics.settings import PROJECTION_PASSES
-from physics.solver.approach import advance_contacts, measure_approach
+from physics.settings import POSITION_LIMIT, PROJECTION_PASSES
+from physics.solver.approach import advance_contacts, measure_approach, prepare_contacts
 from physics.solver.blocking import stay_behind, stop_approach
 from physics.solver.projection import make_projection_pass
 from physics.tables import CONTACT, QUARANTINE
@@ -27,8 +27,9 @@ from physics.tables import CONTACT, QUARANTINE
 __all__ = ["PairList", "Stage", "plan"]
 
 # One compiled pass per combination of effects that it depends on; made here, compiled when first run.
-VELOCITIES = {(g, d, r): make_velocity_pass(gravity=g, drag=d, rotation=r)
-              for g in (False, True) for d in (False, True) for r in (False, True)}
+BOTH = (False, True)
+VELOCITIES = {(g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
+              for g in BOTH for d in BOTH for w in BOTH for r in BOTH}
 POSITIONS = {r: make_position_pass(rotation=r) for r in (False, True)}
 RECTANGLES = {r: make_rectangle_pass(rotation=r) for r in (False, True)}
 IMPACTS = {o: make_impact_pass(one_way=o) for o in (False, True)}
@@ -64,11 +65,10 @@ def plan(effects, solver) -> list[Stage]:
 
 
 def _velocities(effects):
-    integrate = VELOCITIES[effects.gravity, effects.drag or effects.wind, effects.rotation]
+    integrate = VELOCITIES[effects.gravity, effects.drag, effects.wind, effects.rotation]
 
     def run(world, dt):
-        wind = world.wind if world.effects.wind else (0.0, 0.0)
-        integrate(*world.gravity, world.drag, *wind, dt, world.bodies)
+        integrate(*world.gravity, world.drag, *world.wind, dt, world.bodies)
     return Stage("integrate_velocities", run)
 
 
@@ -89,10 +89,10 @@ def _rectangles(effects):
 def _quarantine(world, dt):
     bodies = world.bodies
     broken = world.scratch_rows(len(bodies))
-    found = find_broken(world.tolerances.speed_limit, dt, bodies, broken)
+    found = find_broken(world.tolerances.speed_limit, POSITION_LIMIT, dt, bodies, broken)
     if found:
         ids = bodies["id"][broken[:found]]
-        world.events.quarantined = np.array([(each, "position or velocity stopped being finite, or passed the speed limit")
+        world.events.quarantined = np.array([(each, "position, angle or velocity is not finite or beyond what a double resolves")
                                              for each in ids.tolist()], QUARANTINE)
         own = np.isin(world.shapes["body"], ids)
         world.pairs.free_proxies(world.shapes["proxy"][own])
@@ -147,20 +147,29 @@ def _narrow_phase(effects):
         world.detect = lambda: narrow.collide(world.library.tables, world.bodies, world.shapes, world.pairs.rows,
                                               len(world.pairs.rows), world.tolerances.slop, 0.1 * world.tolerances.slop,
                                               world.profile.work)
-        contacts = world.detect()
-        measure_approach(world.bodies, contacts)
+        contacts = _measured(world, world.detect())
         if world.effects.continuous and world.impact_count:
-            contacts = _append_impacts(world, contacts)
+            contacts = _append_impacts(world, contacts, dt)
         world.found_contacts = contacts
     return Stage("narrow_phase", run)
 
 
-def _append_impacts(world, contacts):
+def _measured(world, contacts):
+    measure_approach(world.bodies, contacts)
+    if world.effects.response:
+        prepare_contacts(world.bodies, world.shapes, contacts)
+    return contacts
+
+
+def _append_impacts(world, contacts, dt):
     """The contacts with those of the impacts that the test at the final poses did not see, in the candidates' order."""
     room = np.zeros(world.impact_count, CONTACT)
-    found = write_impacts(world.bodies, world.shapes, world.pairs.rows, world.impacts, world.impact_count, room)
-    met = room[:found]
-    measure_approach(world.bodies, met)
+    found = write_impacts(world.bodies, world.shapes, world.pairs.rows, world.impacts, world.impact_count, dt,
+                          int(world.effects.response), room)
+    met = _measured(world, room[:found])
+    # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
+    passed = met["candidate"][met["separation"] < -world.tolerances.slop]
+    contacts = contacts[~np.isin(contacts["candidate"], passed)]
     seen = np.isin(contacts["candidate"], met["candidate"])
     contacts["swept"][seen & (contacts["speed"] > 0.0)] = True
     met = met[~np.isin(met["candidate"], contacts["candidate"])]
@@ -172,6 +181,8 @@ def _projection(effects):
     project = PROJECTIONS[effects.rotation, effects.friction, effects.restitution]
 
     def run(world, dt):
+        if dt == 0.0:
+            return                      # no time, no motion: contacts are reported, nothing is pushed
         solid = ~world.found_contacts["sensor"]
         contacts = world.found_contacts if solid.all() else world.found_contacts[solid]
         for each in range(PROJECTION_PASSES):
@@ -193,8 +204,8 @@ def _blocking(world, dt):
             break
         stopped.append(solid[solid["swept"]])
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)
-        contacts = world.detect()
-        measure_approach(world.bodies, contacts)
+        contacts = _measured(world, world.detect())
+    stop_approach(world.bodies, contacts)
     if stopped:
         met = np.concatenate(stopped)
         stop_approach(world.bodies, met)
@@ -214,7 +225,7 @@ def _events(effects):
         if effects.sensors:
             events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(contacts, True, 0.0, np.inf)
             keep = keep & ~contacts["sensor"]
-        world.contacts = contacts[keep].copy() if len(contacts) else np.zeros(0, CONTACT)
+        world.contacts = contacts if keep.all() else contacts[keep]
         world.profile.work[CONTACTS] = len(world.contacts)
         bodies = world.bodies
         bodies["awake"] = ~bodies["quarantined"]

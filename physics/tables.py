@@ -37,6 +37,9 @@ BODY = np.dtype([
     ("previous_x", np.float64),        # [px] pose before the step: for interpolated drawing and for rolling back
     ("previous_y", np.float64),
     ("previous_angle", np.float64),
+    ("settled_x", np.float64),         # [px] last pose that was seen to be finite
+    ("settled_y", np.float64),
+    ("settled_angle", np.float64),
     ("smallest_half", np.float64),     # [px] smallest half extent of its shapes: what "fast" is measured by
     ("continuous", np.int64),          # OFF RAY SWEPT AUTO
     ("fixed_rotation", np.bool_),
@@ -62,6 +65,9 @@ SHAPE = np.dtype([
     ("friction", np.float64),
     ("restitution", np.float64),
     ("proxy", np.int64),               # slot in the broad phase, -1 while it has none
+    ("raster", np.int64),              # of a mask at its body's angle, and the pixel column and row it is drawn at
+    ("left", np.int64),
+    ("top", np.int64),
     ("min_x", np.float64),             # [px] tight AABB at the final pose of the step
     ("min_y", np.float64),
     ("max_x", np.float64),
@@ -141,7 +147,7 @@ EVENT = np.dtype([("body_a", np.int64), ("body_b", np.int64), ("shape_a", np.int
                   ("point_x", np.float64), ("point_y", np.float64),
                   ("normal_x", np.float64), ("normal_y", np.float64)], align=True)
 HIT = np.dtype(EVENT.descr + [("speed", np.float64), ("normal_impulse", np.float64)])
-QUARANTINE = np.dtype([("body", np.int64), ("reason", "U64")])
+QUARANTINE = np.dtype([("body", np.int64), ("reason", "U96")])
 
 
 class Table:

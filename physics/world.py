@@ -14,9 +14,10 @@ from physics.geometry import Library
 from physics.motion import carry
 from physics.motion.integrate import refresh_centers
 from physics.profile import Profile
-from physics.settings import PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
-from physics.shapes import SHAPES, Filter, Material, TileGrid, mass_of
-from physics.tables import AUTO, BODY, CHARACTER, CONTACT, CONTINUOUS, DYNAMIC, KINDS, SHAPE, STATIC, Table
+from physics.settings import POSITION_LIMIT, PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
+from physics.shape_rows import add_shapes, check_shapes, set_mass
+from physics.shapes import Filter, Material, mass_of
+from physics.tables import AUTO, BODY, CHARACTER, CONTACT, CONTINUOUS, KINDS, SHAPE, STATIC, Table
 
 SOLVERS = ("blocking", "projection")
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
@@ -36,13 +37,12 @@ class World:
         if not isinstance(effects, Effects):
             raise TypeError(f"effects must be an Effects (got {effects!r})")
         self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
-        self.dt = checks.number("dt", dt, above=0.0)
-        self.drag = checks.number("drag", drag, low=0.0)
+        self._dt = checks.number("dt", dt, above=0.0)
+        self._drag = checks.number("drag", drag, low=0.0)
         self._gravity = (0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter) if gravity is None else \
             checks.vector("gravity", gravity)
         self._wind = checks.vector("wind", wind)
-        self.seed = checks.whole("seed", seed, 0, 2**63 - 1)
-        self.random = np.random.default_rng(self.seed)
+        self.random = np.random.default_rng(checks.whole("seed", seed, 0, 2**63 - 1))
         self._effects = effects
         self._solver = checks.choice("solver", "projection" if solver is None else solver, SOLVERS)
         self._bodies, self._shapes = Table(BODY), Table(SHAPE)
@@ -146,6 +146,26 @@ class World:
         self._gravity = checks.vector("gravity", value)
 
     @property
+    def dt(self) -> float:
+        """Length of a step [s]; can be set between steps."""
+        return self._dt
+
+    @dt.setter
+    def dt(self, value):
+        self._unlocked()
+        self._dt = checks.number("dt", value, above=0.0)
+
+    @property
+    def drag(self) -> float:
+        """[1/s]; can be set between steps."""
+        return self._drag
+
+    @drag.setter
+    def drag(self, value):
+        self._unlocked()
+        self._drag = checks.number("drag", value, low=0.0)
+
+    @property
     def wind(self) -> tuple[float, float]:
         """Velocity of the air [px/s]; it acts through the drag. Can be set between steps."""
         return self._wind
@@ -189,7 +209,7 @@ class World:
                  material=Material(), filter=Filter.ALL, sensor=False, continuous="auto", fixed_rotation=False,
                  gravity_scale=1.0, tier=None, user=None) -> Body:
         """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
-        ids = self._add(shapes, [checks.vector("position", position)], [checks.vector("velocity", velocity)],
+        ids = self._add(shapes, [checks.position("position", position)], [checks.vector("velocity", velocity)],
                         [checks.number("angle", angle)], kind, angular_velocity, material, filter, sensor, continuous,
                         fixed_rotation, gravity_scale, tier, user)
         return Body(self, int(ids[0]))
@@ -199,6 +219,8 @@ class World:
                    gravity_scale=1.0, tier=None, user=None) -> np.ndarray:
         """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
         positions = checks.columns("positions", positions)
+        if np.any(np.abs(positions) >= POSITION_LIMIT):
+            raise ValueError(f"positions must lie within {POSITION_LIMIT:g} px of the origin (got {positions.tolist()})")
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
@@ -223,9 +245,9 @@ class World:
         self._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
         if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
             raise ValueError("velocity and angular_velocity must be 0 for a static body "
-                             f"(got {np.asarray(velocities).tolist()[0]}, {spin})")
+                             f"(got {np.asarray(velocities).tolist()}, {spin})")
         used = shapes_for_tier(shapes, tier)
-        self._check_shapes(used, kind, angles)
+        check_shapes(used, kind, angles, continuous)
         mass = mass_of(used, material.density) if used else mass_of((), material.density)
         n = len(positions)
         ids = np.arange(self._next_body, self._next_body + n, dtype=np.int64)
@@ -241,9 +263,9 @@ class World:
             rows["previous_" + name] = rows[name]
         rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, continuous, fixed_rotation
         rows["awake"], rows["fraction"] = True, 1.0
-        self._set_mass(rows, mass, used)
+        set_mass(rows, mass, used)
         refresh_centers(rows)
-        self._add_shapes(rows, self._bodies.count - n, used, material, filter, sensor)
+        add_shapes(self, rows, self._bodies.count - n, used, material, filter, sensor)
         for identity in ids.tolist():
             self._shapes_of[identity] = used
             if user is not None:
@@ -252,56 +274,21 @@ class World:
                 self._tiers[identity], self._sources[identity] = tier, tuple(shapes)
         return ids
 
-    def _check_shapes(self, shapes, kind, angles):
-        for shape in shapes:
-            if not isinstance(shape, SHAPES):
-                raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
-            if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
-                raise ValueError(f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
-                                 f"{float(np.asarray(angles)[0])})")
-
-    def _set_mass(self, rows, mass, shapes):
-        rows["mass"], rows["inertia"] = mass.mass, mass.inertia
-        rows["local_center_x"], rows["local_center_y"] = mass.center
-        moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
-        turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
-        rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
-        rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
-        rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
-
-    def _add_shapes(self, bodies, first_row, shapes, material, filter, sensor):
-        n, k = len(bodies), len(shapes)
-        if n * k == 0:
-            return
-        rows = self._shapes.append(n * k)
-        rows["id"] = np.arange(self._next_shape, self._next_shape + n * k)
-        self._next_shape += n * k
-        rows["body"] = np.repeat(bodies["id"], k)
-        rows["body_row"] = np.repeat(np.arange(first_row, first_row + n), k)
-        rows["density"], rows["friction"] = material.density, material.friction
-        rows["restitution"], rows["sensor"] = material.restitution, sensor
-        rows["membership"], rows["mask"] = filter.membership, filter.mask
-        for i, shape in enumerate(shapes):
-            kind, geometry, wrapped = self.library.add(shape)
-            each = rows[i::k]
-            each["kind"], each["geometry"], each["wrapped"] = kind, geometry, wrapped
-            circle = getattr(shape, "shape", shape)
-            if hasattr(circle, "radius"):
-                each["radius"] = circle.radius
-                each["local_x"], each["local_y"] = circle.center
-        self.pairs.add_proxies(rows, np.arange(n * k), np.repeat(bodies["kind"] == STATIC, k))
-
     def remove_body(self, body):
         """Remove a body (or its id). Raises KeyError when it is not there."""
-        self.remove_bodies([body.id if isinstance(body, Body) else body])
+        if isinstance(body, Body):
+            if body.world is not self:
+                raise ValueError(f"body must be of this world (got {body!r} of another one)")
+            body = body.id
+        elif isinstance(body, bool) or not isinstance(body, (int, np.integer)):
+            raise TypeError(f"body must be a Body or an id (got {body!r})")
+        self.remove_bodies([body])
 
     def remove_bodies(self, ids):
         """Remove many bodies at once: one pass over the tables. Raises KeyError for an unknown id, ValueError for one
         that is named twice; nothing is removed then."""
         self._unlocked()
-        ids = np.asarray(ids, np.int64).ravel()
-        if len(np.unique(ids)) != len(ids):
-            raise ValueError(f"ids must name each body once (got {ids.tolist()})")
+        ids = checks.ids("ids", ids)
         if not len(ids):
             return
         keep = np.ones(self._bodies.count, bool)
@@ -316,6 +303,7 @@ class World:
         self.characters.keep(~np.isin(self.characters.rows["body"], ids))
 
     def _drop_shapes(self, keep):
+        self.pairs.ids              # named while the rows still stand
         self.pairs.free_proxies(self.shapes["proxy"][~keep])
         self._shapes.keep(keep)
 
@@ -325,6 +313,8 @@ class World:
 
     def body(self, identity) -> Body:
         """The handle of an id. Raises KeyError when there is no such body."""
+        if isinstance(identity, bool) or not isinstance(identity, (int, np.integer)):
+            raise TypeError(f"identity must be a whole number (got {identity!r})")
         self._body_row(identity)
         return Body(self, int(identity))
 

@@ -11,7 +11,7 @@ from physics.tables import PROXY
 class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step; `ids`: their shape ids.
+    `rows` (n, 2): shape rows of the candidates of this step.
     """
 
     def __init__(self):
@@ -25,12 +25,20 @@ class PairList:
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
-        self.ids = self.candidates[:0]
+        self.known_ids = self.candidates[:0]         # None until somebody asks
+        self.shapes = None
         self.everything = False        # the strategy is new: tell it about all proxies
 
     @property
     def proxies(self):
         return self.arena.proxies
+
+    @property
+    def ids(self):
+        """(n, 2) shape ids of the candidates; rows may have moved since, so they are named before rows change."""
+        if self.known_ids is None:
+            self.known_ids = self.shapes["id"][self.rows]
+        return self.known_ids
 
     def add_proxies(self, shapes, rows, still):
         """Give the shapes at these rows of a SHAPE array a slot each; still: whether each is static."""
@@ -78,22 +86,27 @@ class PairList:
         """Bring the candidates up to date with `changed_count` slots in `self.changed`, and those freed."""
         arena = self.arena
         arena.work = work
+        freed = np.array(self.freed, np.int64)
         if self.everything:
+            # The new strategy has never heard of the freed slots; no pair is kept.
             arena.changed = np.flatnonzero(self.proxies["row"] >= 0)
             self.proxies["changed"][arena.changed] = True
+            self.proxies["changed"][freed] = False
             self.everything = False
+            self.count = 0
+            self.rows = self.known_ids = self.candidates[:0]
         else:
             arena.changed = self.changed[:changed_count]
-            if self.freed:
-                arena.changed = np.concatenate([arena.changed, np.array(self.freed, np.int64)])
+            if len(freed):
+                arena.changed = np.concatenate([arena.changed, freed])
         if len(arena.changed):
             strategy.update(arena)
             self._collect(strategy, shapes)
             mark_settled(arena.changed, self.proxies)
-            self.free += self.freed
-            self.freed = []
         elif len(self.rows):
             self._rename(shapes)
+        self.free += self.freed
+        self.freed = []
         work[CANDIDATES] += self.count
 
     def _collect(self, strategy, shapes):
@@ -113,10 +126,12 @@ class PairList:
         merge_pairs(proxies, shapes, self.spare, kept, self.keys, found, self.slots, self.candidates)
         self.count = total
         self.rows = self.candidates[:total]
-        self.ids = shapes["id"][self.rows]
+        self.known_ids = None
+        self.shapes = shapes
 
     def _rename(self, shapes):
         """Rows may have moved though nothing changed: a body without proxies was removed."""
         self.candidates[:self.count] = self.proxies["row"][self.slots[:self.count]]
         self.rows = self.candidates[:self.count]
-        self.ids = shapes["id"][self.rows]
+        self.known_ids = None
+        self.shapes = shapes

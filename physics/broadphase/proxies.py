@@ -26,10 +26,25 @@ def overlaps(
     """
     p = proxies[a]
     q = proxies[b]
-    if (p.still and q.still) or p.body == q.body:
-        return False
     work_inout[PAIRS_TESTED] += 1
     if p.lower_x > q.upper_x or q.lower_x > p.upper_x or p.lower_y > q.upper_y or q.lower_y > p.upper_y:
+        return False
+    return may_meet(proxies, a, b, work_inout)
+
+
+@subkernel
+def may_meet(
+    # read
+    proxies,
+    # scalars
+    a, b,
+    # write
+    work_inout,
+):
+    """Whether two boxes that touch may pair: not both still, not of one body, filters agree both ways. O(1)."""
+    p = proxies[a]
+    q = proxies[b]
+    if (p.still and q.still) or p.body == q.body:
         return False
     if (p.membership & q.mask) == 0 or (q.membership & p.mask) == 0:
         work_inout[FILTERED] += 1

@@ -11,9 +11,9 @@ import math
 import numpy as np
 
 from physics import checks
-from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+from physics.broadphase.proxies import find_pairs, may_meet, overlaps, write_pair
 from physics.jit import kernel, subkernel
-from physics.profile import CELLS_TOUCHED, NODES_VISITED, REINSERTS
+from physics.profile import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
 LEVELS = 24                # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
 CELL_OF_MEDIAN = 2.0       # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
@@ -107,6 +107,11 @@ def put_in(
         for cell_x in range(cell_of(p.lower_x, inverse), cell_of(p.upper_x, inverse) + 1):
             bucket = bucket_at(level, cell_x, cell_y, mask)
             e = entries_inout[k]
+            e.lower_x = p.lower_x
+            e.lower_y = p.lower_y
+            e.upper_x = p.upper_x
+            e.upper_y = p.upper_y
+            e.level = level
             e.cell_x = cell_x
             e.cell_y = cell_y
             e.bucket = bucket
@@ -157,6 +162,12 @@ def place_changed(
                         and first.cell_y == cell_of(p.lower_y, inverse) and last.bucket >= 0
                         and last.cell_x == cell_of(p.upper_x, inverse) and last.cell_y == cell_of(p.upper_y, inverse)
                         and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)):
+                    for k in range(4 * slot, 4 * slot + columns * rows):
+                        e = entries_inout[k]
+                        e.lower_x = p.lower_x
+                        e.lower_y = p.lower_y
+                        e.upper_x = p.upper_x
+                        e.upper_y = p.upper_y
                     continue
         take_out(slot, levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout,
                  level_counts_inout, work_inout)
@@ -179,6 +190,7 @@ def find_in_cells(
     """
     mask = len(heads) - 1
     found = 0
+    tested = 0
     for i in range(len(changed)):
         a = changed[i]
         p = proxies[a]
@@ -220,21 +232,25 @@ def find_in_cells(
                         e = entries[k]
                         b = k // 4
                         k = e.next
-                        if b == a or e.cell_x != cell_x or e.cell_y != cell_y or levels[b] != level:
+                        tested += 1
+                        # The box stands in the entry: most tests read nothing else. One branch, not four.
+                        if not ((e.lower_x <= p.upper_x) & (e.upper_x >= p.lower_x) & (e.lower_y <= p.upper_y)
+                                & (e.upper_y >= p.lower_y)):
                             continue
-                        q = proxies[b]
-                        if q.changed and b < a:
+                        if (b == a or e.cell_x != cell_x or e.cell_y != cell_y or e.level != level
+                                or (b < a and proxies[b].changed)):
                             continue
-                        if (cell_of(max(p.lower_x, q.lower_x), inverse) != cell_x
-                                or cell_of(max(p.lower_y, q.lower_y), inverse) != cell_y):
-                            continue
-                        if overlaps(proxies, a, b, work_inout):
+                        if (cell_of(max(p.lower_x, e.lower_x), inverse) == cell_x
+                                and cell_of(max(p.lower_y, e.lower_y), inverse) == cell_y
+                                and may_meet(proxies, a, b, work_inout)):
                             found = write_pair(a, b, found, pairs_out)
+    work_inout[PAIRS_TESTED] += tested
     return found
 
 
-ENTRY = np.dtype([("cell_x", np.int64), ("cell_y", np.int64), ("bucket", np.int64), ("next", np.int64),
-                  ("previous", np.int64)])
+ENTRY = np.dtype([("lower_x", np.float64), ("lower_y", np.float64), ("upper_x", np.float64), ("upper_y", np.float64),
+                  ("cell_x", np.int64), ("cell_y", np.int64), ("next", np.int64), ("level", np.int64),
+                  ("bucket", np.int64), ("previous", np.int64)], align=True)
 
 
 class SpatialHashGrid:
@@ -291,7 +307,8 @@ class SpatialHashGrid:
     @staticmethod
     def _tuned(boxes):
         """Twice the median box, in finite boxes that have a size; 1 when there is none."""
-        extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
+        with np.errstate(invalid="ignore", over="ignore"):
+            extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
         return CELL_OF_MEDIAN * float(np.median(extent)) if len(extent) else 1.0
 

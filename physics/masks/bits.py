@@ -58,3 +58,38 @@ def both(a, b):
 def is_set(words, row, x):
     """Whether the pixel in column x of a row is set; x must lie within the row."""
     return (word(words[row + (x >> 6)] >> word(x & 63)) & word(1)) != word(0)
+
+
+@subkernel
+def shared_word(words, word_a, shift_a, word_b, shift_b, keep):
+    """The kept pixels that two words share once each is shifted down by 0..63 columns."""
+    return word(word(words[word_a] >> word(shift_a)) & word(words[word_b] >> word(shift_b)) & keep)
+
+
+@subkernel
+def any_shared(words, word_a, shift_a, word_b, shift_b, rows, keep):
+    """Whether any of `rows` rows of one word each share a kept pixel. Unsigned indices spare the check for negative ones."""
+    from_a = word(word_a)
+    from_b = word(word_b)
+    down_a = word(shift_a)
+    down_b = word(shift_b)
+    shared = word(0)
+    for y in range(word(rows)):
+        shared |= word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b)
+    return (shared & keep) != word(0)
+
+
+@subkernel
+def first_shared_row(words, word_a, shift_a, word_b, shift_b, rows, keep):
+    """(row, shared pixels) of the first of `rows` rows that share a kept pixel; there must be one."""
+    from_a = word(word_a)
+    from_b = word(word_b)
+    down_a = word(shift_a)
+    down_b = word(shift_b)
+    y = word(0)
+    last = word(rows - 1)
+    shared = word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b) & keep
+    while shared == word(0) and y < last:
+        y += word(1)
+        shared = word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b) & keep
+    return int(y), shared

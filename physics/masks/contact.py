@@ -40,13 +40,16 @@ def least_axis(a, b, dx, dy):
 
 
 @subkernel
-def way_out(rasters, words, mask_a, mask_b, dx, dy, nx, ny, most):
-    """The shortest whole number of pixels along the normal after which nothing is shared; > most when none does."""
+def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y, nx, ny, most):
+    """The shortest whole number of pixels along the normal after which nothing is shared; > most when none does.
+
+    rest_x, rest_y [px] in 0..1: what snapping took from B's position, so that the move is rounded as it will be.
+    """
     depth = 0.0
     while depth <= most:
         depth += 1.0
-        x = dx + math.floor(nx * depth + 0.5)
-        y = dy + math.floor(ny * depth + 0.5)
+        x = dx + math.floor(rest_x + nx * depth)
+        y = dy + math.floor(rest_y + ny * depth)
         found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
         if not found:
             return depth
@@ -54,10 +57,10 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, nx, ny, most):
 
 
 @subkernel
-def mask_contact(rasters, words, mask_a, mask_b, dx, dy):
+def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y):
     """Contact of two masks that share pixels: (area, point x, point y in A's raster, normal from A to B, separation).
 
-    The point is the centroid of the shared pixels [px]; separation is negative, the move that ends the overlap.
+    rest_x, rest_y: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends the overlap.
     """
     a = rasters[mask_a]
     b = rasters[mask_b]
@@ -74,7 +77,7 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy):
                 b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom):
             nx = axis_x
             ny = axis_y
-    depth = way_out(rasters, words, mask_a, mask_b, dx, dy, nx, ny, least)
+    depth = way_out(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y, nx, ny, least)
     if depth > least:
         depth = least
         nx = axis_x

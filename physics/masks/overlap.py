@@ -3,8 +3,9 @@
 dx, dy [px] is where B's raster starts, seen from A's. Only the rectangle that both solid bounds share is read.
 """
 
-from physics.jit import subkernel
-from physics.masks.bits import bits_from, both, columns_up_to, count_bits, lowest_bit, without_lowest
+from physics.jit import subkernel, word
+from physics.masks.bits import (any_shared, bits_from, both, columns_up_to, count_bits, first_shared_row, lowest_bit,
+                                shared_word, without_lowest)
 
 
 @subkernel
@@ -20,7 +21,15 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
     a = rasters[mask_a]
     b = rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
-    if left >= right:
+    if left >= right or top >= bottom:
+        return False, 0, 0
+    if a.stride == 1 and b.stride == 1:
+        # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row. All rows are ORed before
+        # any is looked at: a loop without a branch is vectorised, which makes a miss 4 times cheaper.
+        keep = columns_up_to(right - left)
+        if any_shared(words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top, keep):
+            row, shared = first_shared_row(words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top, keep)
+            return True, left + lowest_bit(shared), top + row
         return False, 0, 0
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride
@@ -29,7 +38,7 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
         while x < right:
             shared = both(both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
                           columns_up_to(right - x))
-            if shared != 0:
+            if shared != word(0):
                 return True, x + lowest_bit(shared), y
             x += 64
     return False, 0, 0
@@ -43,6 +52,11 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
     if left >= right:
+        return area
+    if a.stride == 1 and b.stride == 1:
+        keep = columns_up_to(right - left)
+        for y in range(top, bottom):
+            area += count_bits(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx, keep))
         return area
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride
@@ -76,7 +90,7 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
             bits = count_bits(shared)
             area += bits
             sum_y += bits * y
-            while shared != 0:
+            while shared != word(0):
                 sum_x += x + lowest_bit(shared)
                 shared = without_lowest(shared)
             x += 64

@@ -5,7 +5,6 @@ from physics.masks.contact import center_normal, mask_contact
 from physics.masks.overlap import first_pixel
 from physics.masks.shapes import collide_mask_circle, collide_mask_polygon
 from physics.narrowphase.contacts import MASK_CIRCLE, MASK_POLYGON, MASKS, circle_at, corners_of, write_contact
-from physics.narrowphase.placement import raster_at, snapped
 from physics.narrowphase.sat import ALL_EDGES
 from physics.profile import MASK_TESTS
 from physics.tables import MASK
@@ -30,27 +29,25 @@ def make_mask_pass(full: bool):
             work_inout[MASK_TESTS] += 1
             a = shapes[candidates[i, 0]]
             b = shapes[candidates[i, 1]]
-            p = bodies[a.body_row]
-            q = bodies[b.body_row]
-            mask_a = raster_at(geometry, a.geometry, p.angle)
-            mask_b = raster_at(geometry, b.geometry, q.angle)
-            r = geometry.rasters[mask_a]
-            s = geometry.rasters[mask_b]
-            left = snapped(p.x, r.origin_x)
-            top = snapped(p.y, r.origin_y)
-            dx = snapped(q.x, s.origin_x) - left
-            dy = snapped(q.y, s.origin_y) - top
-            hit, x, y = first_pixel(geometry.rasters, geometry.words, mask_a, mask_b, dx, dy)
+            left = a.left
+            top = a.top
+            dx = b.left - left
+            dy = b.top - top
+            hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
             if not hit:
                 continue
-            feature = y * r.width + x
+            feature = y * geometry.rasters[a.raster].width + x
             if full:
-                area, px, py, nx, ny, separation = mask_contact(geometry.rasters, geometry.words, mask_a, mask_b, dx, dy)
-                found = write_contact(bodies, shapes, candidates, i, found, nx, ny, left + px, top + py, separation,
+                q = bodies[b.body_row]
+                r = geometry.rasters[b.raster]
+                area, px, py, nx, ny, separation = mask_contact(
+                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, q.x - r.origin_x + 0.5 - b.left,
+                    q.y - r.origin_y + 0.5 - b.top)
+                found = write_contact(shapes, candidates, i, found, nx, ny, left + px, top + py, separation,
                                       float(area), feature, contacts_out)
             else:
-                nx, ny = center_normal(r, s, dx, dy)
-                found = write_contact(bodies, shapes, candidates, i, found, nx, ny, left + x + 0.5, top + y + 0.5, -1.0,
+                nx, ny = center_normal(geometry.rasters[a.raster], geometry.rasters[b.raster], dx, dy)
+                found = write_contact(shapes, candidates, i, found, nx, ny, left + x + 0.5, top + y + 0.5, -1.0,
                                       0.0, feature, contacts_out)
         return found
     return collide_mask_pairs
@@ -75,11 +72,9 @@ def collide_mask_shape_pairs(
         sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
         row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
         other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        p = bodies[shapes[row].body_row]
-        mask = raster_at(geometry, shapes[row].geometry, p.angle)
-        r = geometry.rasters[mask]
-        left = snapped(p.x, r.origin_x)
-        top = snapped(p.y, r.origin_y)
+        mask = shapes[row].raster
+        left = shapes[row].left
+        top = shapes[row].top
         if kinds[i] == MASK_CIRCLE:
             cx, cy, radius = circle_at(bodies, shapes, other)
             area, nx, ny, x, y, separation, feature = collide_mask_circle(geometry.rasters, geometry.words, mask, left, top,
@@ -89,6 +84,6 @@ def collide_mask_shape_pairs(
             area, nx, ny, x, y, separation, feature = collide_mask_polygon(geometry.rasters, geometry.words, mask, left, top,
                                                                            scratch.a, n, ALL_EDGES, scratch.depths)
         if area > 0:
-            found = write_contact(bodies, shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area),
+            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area),
                                   feature, contacts_out)
     return found

@@ -9,6 +9,9 @@ from physics.motion.walk import walk
 from physics.shapes import Bounds, Filter, PixelMask, Polygon
 
 
+LONGEST = 1e6          # [px] of one move: it is walked pixel by pixel
+
+
 class Moved(NamedTuple):
     """What a move did: pixels moved, and what the character touches after it.
 
@@ -35,13 +38,14 @@ class Character:
     def __init__(self, world, shape, position, filter=Filter.ALL, pushable=False, user=None):
         world._needs("response", "a Character", True)
         width, height = _size(shape)
-        x, y = checks.vector("position", position)
+        x, y = checks.position("position", position)
+        pushable = checks.flag("pushable", pushable)
         self.world = world
         left, top = int(np.floor(x - width / 2.0 + 0.5)), int(np.floor(y - height / 2.0 + 0.5))
         self.body = world.add_body(Polygon.box(width, height), position=(left + width / 2.0, top + height / 2.0),
                                    kind="kinematic", filter=filter, continuous="off", user=user)
         row = world.characters.append()
-        row["body"], row["riding"], row["pushable"] = self.body.id, -1, checks.flag("pushable", pushable)
+        row["body"], row["riding"], row["pushable"] = self.body.id, -1, pushable
         row["left"], row["top"], row["width"], row["height"] = left, top, width, height
         row["previous_left"], row["previous_top"] = left, top
 
@@ -68,10 +72,11 @@ class Character:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError."""
         world = self.world
         world._unlocked()
-        dx, dy = checks.number("dx", dx), checks.number("dy", dy)
+        dx, dy = checks.number("dx", dx, high=LONGEST, low=-LONGEST), checks.number("dy", dy, high=LONGEST, low=-LONGEST)
+        drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
-        rows["drop"][me] = checks.flag("drop", drop)
+        rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])
         rows["squeezed"][me] = False
@@ -87,7 +92,7 @@ class Character:
     def move_to(self, position):
         """Put the centre of the box at the nearest whole pixel to a position [px], without walking there."""
         self.world._unlocked()
-        x, y = checks.vector("position", position)
+        x, y = checks.position("position", position)
         row = self.world.characters.rows[self._row:self._row + 1]
         row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
         row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)

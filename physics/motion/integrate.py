@@ -11,8 +11,11 @@ from physics.profile import BODIES_INTEGRATED
 from physics.tables import DYNAMIC, STATIC
 
 
-def make_velocity_pass(gravity: bool, drag: bool, rotation: bool):
-    """The pass over the dynamic bodies for a world with these effects; `drag` also serves wind."""
+def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
+    """The pass over the dynamic bodies for a world with these effects.
+
+    Wind pushes by drag_rate · wind; with drag too, bodies tend to the velocity of the wind.
+    """
     @kernel
     def integrate_velocities(
         # read, scalars
@@ -32,10 +35,13 @@ def make_velocity_pass(gravity: bool, drag: bool, rotation: bool):
                 b.vy += dt * b.gravity_scale * gravity_y
             if rotation:
                 b.angular_velocity += dt * b.inverse_inertia * b.torque
+            if wind:
+                b.vx += drag_rate * dt * wind_x
+                b.vy += drag_rate * dt * wind_y
             if drag:
                 keep = 1.0 / (1.0 + drag_rate * dt)
-                b.vx = keep * (b.vx + drag_rate * dt * wind_x)
-                b.vy = keep * (b.vy + drag_rate * dt * wind_y)
+                b.vx = keep * b.vx
+                b.vy = keep * b.vy
                 if rotation:
                     b.angular_velocity = keep * b.angular_velocity
             b.force_x = 0.0
@@ -85,16 +91,20 @@ def refresh_centers(bodies_inout):
         u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
         b.center_x = b.x + u
         b.center_y = b.y + v
+        if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
+            b.settled_x = b.x
+            b.settled_y = b.y
+            b.settled_angle = b.angle
 
 
 @kernel
 def find_broken(
     # read, scalars
-    speed_limit, dt,
+    speed_limit, position_limit, dt,
     # write
     bodies_inout, broken_out,
 ):
-    """List the rows of bodies that are no longer finite, or faster than the limit [px/s], and put them to rest.
+    """List the rows of bodies that are not finite, too fast [px/s] or too far out [px], and put them to rest.
 
     Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (bodies) rows.
     """
@@ -103,16 +113,20 @@ def find_broken(
         b = bodies_inout[i]
         if b.quarantined:
             continue
-        reach = speed_limit
-        finite = (abs(b.vx) < reach and abs(b.vy) < reach and abs(b.x) < math.inf and abs(b.y) < math.inf
-                  and abs(b.angle) < math.inf and abs(b.angular_velocity) < math.inf
-                  and abs(b.x + dt * b.vx) < math.inf and abs(b.y + dt * b.vy) < math.inf)
+        there = abs(b.x) < position_limit and abs(b.y) < position_limit and abs(b.angle) < math.inf
+        finite = (there and abs(b.vx) < speed_limit and abs(b.vy) < speed_limit
+                  and abs(b.x + dt * b.vx) < position_limit and abs(b.y + dt * b.vy) < position_limit
+                  and abs(b.angle + dt * b.angular_velocity) < math.inf)
         if not finite:
             broken_out[found] = i
             found += 1
-            b.x = b.previous_x
-            b.y = b.previous_y
-            b.angle = b.previous_angle
+            if not there:
+                b.x = b.settled_x
+                b.y = b.settled_y
+                b.angle = b.settled_angle
+            b.previous_x = b.x
+            b.previous_y = b.y
+            b.previous_angle = b.angle
             b.vx = 0.0
             b.vy = 0.0
             b.angular_velocity = 0.0

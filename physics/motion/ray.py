@@ -12,7 +12,7 @@ from physics.motion.time_of_impact import MISS, sweep_circle_polygon, sweep_circ
 from physics.narrowphase.placement import corners_at, raster_at, snapped
 from physics.narrowphase.sat import ALL_EDGES
 from physics.narrowphase.tiles import tile_at
-from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, SOLID, TILES
+from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, SLOPE, SOLID, TILES
 
 
 @subkernel
@@ -56,8 +56,25 @@ def start_cell(position, step, size, count):
 
 
 @subkernel
+def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
+    """A ray, seen from the grid's origin [px], against one of its cells: (fraction or MISS, normal). One-way from above."""
+    g = geometry.grids[grid]
+    if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
+        return MISS, 0.0, -1.0
+    kind = geometry.cells[g.offset + row * g.columns + column].kind
+    if kind == EMPTY or (kind == ONE_WAY and not (dy > 0.0 and y <= row * g.tile_size)):
+        return MISS, 0.0, -1.0
+    count, edges = tile_at(geometry, grid, 0.0, 0.0, row, column, corners_inout)
+    return sweep_circle_polygon(corners_inout, count, ALL_EDGES, x, y, dx, dy, 0.0)
+
+
+@subkernel
 def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
-    """A ray, seen from the grid's origin [px], against its tiles: (fraction or MISS, normal). One-way tiles from above."""
+    """A ray, seen from the grid's origin [px], against its tiles, which are closed: (fraction or MISS, normal).
+
+    A ray along a border meets the tiles on both sides, one through a corner all four: the cells around each crossing
+    are asked too. O(cells on the way).
+    """
     g = geometry.grids[grid]
     size = g.tile_size
     enter, leave = enter_box(x, y, dx, dy, g.columns * size, g.rows * size)
@@ -65,22 +82,30 @@ def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
         return MISS, 0.0, -1.0
     column = start_cell(x + enter * dx, dx, size, g.columns)
     row = start_cell(y + enter * dy, dy, size, g.rows)
+    step_x = 1 if dx > 0.0 else -1
+    step_y = 1 if dy > 0.0 else -1
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
     while 0 <= column < g.columns and 0 <= row < g.rows:
-        kind = geometry.cells[g.offset + row * g.columns + column].kind
-        if kind != EMPTY and (kind != ONE_WAY or (dy > 0.0 and y <= row * size)):
-            count, edges = tile_at(geometry, grid, 0.0, 0.0, row, column, corners_inout)
-            fraction, nx, ny = sweep_circle_polygon(corners_inout, count, ALL_EDGES, x, y, dx, dy, 0.0)
-            if fraction <= 1.0:
-                return fraction, nx, ny
+        # This cell and its neighbours: a border belongs to both sides.
+        for j in range(-1, 2):
+            for i in range(-1, 2):
+                fraction, nx, ny = cast_on_cell(geometry, grid, row + j, column + i, x, y, dx, dy, corners_inout)
+                if fraction < best:
+                    best = fraction
+                    best_x = nx
+                    best_y = ny
         across = next_border(x, dx, column, size)
         down = next_border(y, dy, row, size)
-        if min(across, down) > leave:
+        # What was found further on may still be beaten by a cell between.
+        if best <= min(across, down) or min(across, down) > leave:
             break
         if across < down:
-            column += 1 if dx > 0.0 else -1
+            column += step_x
         else:
-            row += 1 if dy > 0.0 else -1
-    return MISS, 0.0, -1.0
+            row += step_y
+    return best, best_x, best_y
 
 
 @subkernel
@@ -135,17 +160,23 @@ def inside_polygon(corners, count, x, y):
 
 @subkernel
 def point_in_tiles(geometry, grid, x, y, corners_inout):
-    """Whether a point, seen from the grid's origin [px], lies in a solid tile or slope. A shared edge has one owner."""
+    """Whether a point, seen from the grid's origin [px], lies in a closed solid tile or slope."""
     g = geometry.grids[grid]
     column = math.floor(x / g.tile_size)
     row = math.floor(y / g.tile_size)
-    if not (0 <= column < g.columns and 0 <= row < g.rows):
-        return False
-    kind = geometry.cells[g.offset + row * g.columns + column].kind
-    if kind == EMPTY or kind == ONE_WAY:
-        return False
-    count, edges = tile_at(geometry, grid, 0.0, 0.0, row, column, corners_inout)
-    return kind == SOLID or inside_polygon(corners_inout, count, x, y)
+    # On a border the tile before it holds the point too.
+    first_column = column - 1 if column * g.tile_size == x else column
+    first_row = row - 1 if row * g.tile_size == y else row
+    for j in range(max(0, first_row), min(g.rows - 1, row) + 1):
+        for i in range(max(0, first_column), min(g.columns - 1, column) + 1):
+            kind = geometry.cells[g.offset + j * g.columns + i].kind
+            if kind == SOLID:
+                return True
+            if kind == SLOPE:
+                count, edges = tile_at(geometry, grid, 0.0, 0.0, j, i, corners_inout)
+                if inside_polygon(corners_inout, count, x, y):
+                    return True
+    return False
 
 
 @subkernel

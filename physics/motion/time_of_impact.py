@@ -45,6 +45,34 @@ def sweep_circles(x, y, dx, dy, radius):
 
 
 @subkernel
+def cast_on_polygon(corners, count, edges, x, y, dx, dy):
+    """A ray from outside against a closed convex polygon [px]: (fraction or MISS, normal).
+
+    By cutting the ray with every half plane, so that nothing slips through between two edges (Cyrus and Beck 1978).
+    edges: bits of the edges that may be touched.
+    """
+    enter = -1.0
+    leave = 1.0
+    entering = 0
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1])
+        speed = nx * dx + ny * dy
+        if speed < 0.0:
+            if gap / -speed > enter:
+                enter = gap / -speed
+                entering = k
+        elif speed > 0.0:
+            leave = min(leave, gap / -speed)
+        elif gap > 0.0:
+            return MISS, 0.0, -1.0
+    if enter < 0.0 or enter > leave or not (edges >> entering) & 1:
+        return MISS, 0.0, -1.0
+    nx, ny = edge_normal(corners, count, entering)
+    return enter, nx, ny
+
+
+@subkernel
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     """A disc moved by (dx, dy) against a polygon at rest [px]: (fraction or MISS, normal from the polygon to the disc).
 
@@ -53,6 +81,8 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
         return (0.0 if nx * dx + ny * dy < 0.0 else MISS), nx, ny
+    if radius == 0.0:
+        return cast_on_polygon(corners, count, edges, x, y, dx, dy)
     best = MISS
     best_x = 0.0
     best_y = -1.0
@@ -178,9 +208,9 @@ def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, gr
             right = max(right, scratch.b[k, 0])
             top = min(top, scratch.b[k, 1])
             bottom = max(bottom, scratch.b[k, 1])
-    first_column = max(0, math.floor((left + min(dx, 0.0) - grid_x) / g.tile_size))
+    first_column = max(0, math.ceil((left + min(dx, 0.0) - grid_x) / g.tile_size) - 1)
     last_column = min(g.columns - 1, math.floor((right + max(dx, 0.0) - grid_x) / g.tile_size))
-    first_row = max(0, math.floor((top + min(dy, 0.0) - grid_y) / g.tile_size))
+    first_row = max(0, math.ceil((top + min(dy, 0.0) - grid_y) / g.tile_size) - 1)
     last_row = min(g.rows - 1, math.floor((bottom + max(dy, 0.0) - grid_y) / g.tile_size))
     best = MISS
     best_x = 0.0

@@ -29,20 +29,21 @@ def new_scratch() -> Scratch:
 @subkernel
 def write_contact(
     # read
-    bodies, shapes, candidates,
+    shapes, candidates,
     # scalars
     pair, found, nx, ny, x, y, separation, area, feature,
     # write
     contacts_out,
 ):
-    """Write a contact of a candidate pair when there is room, and return the count, which goes on past the capacity."""
+    """Write a contact of a candidate pair when there is room, and return the count, which goes on past the capacity.
+
+    What depends on the bodies' motion is left to solver/approach.
+    """
     if found < len(contacts_out):
         row_a = candidates[pair, 0]
         row_b = candidates[pair, 1]
         a = shapes[row_a]
         b = shapes[row_b]
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
         c = contacts_out[found]
         c.body_a = a.body
         c.body_b = b.body
@@ -50,8 +51,8 @@ def write_contact(
         c.shape_b = b.id
         c.point_x = x
         c.point_y = y
-        c.normal_x = nx
-        c.normal_y = ny
+        c.normal_x = nx + 0.0          # -0.0 would show in what is printed and compared
+        c.normal_y = ny + 0.0
         c.separation = separation
         c.normal_impulse = 0.0
         c.tangent_impulse = 0.0
@@ -62,11 +63,6 @@ def write_contact(
         c.row_a = row_a
         c.row_b = row_b
         c.candidate = pair
-        c.anchor_x = q.center_x - p.center_x
-        c.anchor_y = q.center_y - p.center_y
-        c.friction = math.sqrt(a.friction * b.friction)
-        c.restitution = max(a.restitution, b.restitution)
-        c.speed = 0.0
         c.swept = False
         c.sensor = a.sensor or b.sensor
     return found + 1
@@ -147,13 +143,14 @@ def place_in_order(
 @kernel
 def write_impacts(
     # read
-    bodies, shapes, candidates, impacts, count,
+    bodies, shapes, candidates, impacts, count, dt, response,
     # write
     contacts_out,
 ):
     """Write a contact for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
     impacts (n, 4): candidate, fraction, normal. The point is the edge, along the normal, of the smaller of the two boxes.
+    With response 1 the separation is that at the final poses: what a side went on by after the impact.
     """
     found = 0
     for i in range(count):
@@ -173,8 +170,13 @@ def write_impacts(
         side = 1.0 if small_a else -1.0
         x = 0.5 * (s.min_x + s.max_x) + side * nx * 0.5 * (s.max_x - s.min_x)
         y = 0.5 * (s.min_y + s.max_y) + side * ny * 0.5 * (s.max_y - s.min_y)
+        separation = 0.0
+        if response == 1:
+            after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)
+            after_y = (q.y - q.previous_y) - (p.y - p.previous_y) - impacts[i, 1] * dt * (q.vy - p.vy)
+            separation = min(0.0, nx * after_x + ny * after_y)
         before = found
-        found = write_contact(bodies, shapes, candidates, pair, found, nx, ny, x, y, 0.0, 0.0, -1, contacts_out)
+        found = write_contact(shapes, candidates, pair, found, nx, ny, x, y, separation, 0.0, -1, contacts_out)
         if found > before and before < len(contacts_out):
             contacts_out[before].swept = True
             contacts_out[before].sensor = sensor

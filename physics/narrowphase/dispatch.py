@@ -66,13 +66,16 @@ class NarrowPhase:
         self.kinds = np.zeros(64, np.int64)
         self.counts = np.zeros(NOTHING + 1, np.int64)
         self.raw, self.ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
+        self.last_raw, self.last_ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
 
     def collide(self, geometry, bodies, shapes, candidates, count, margin, bias, work) -> np.ndarray:
-        """Contacts of the candidate pairs, in their order: a view that the next call overwrites.
+        """Contacts of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
         candidates (capacity, 2) int64 shape rows, `count` of them used; margin [px]: pairs apart by at most that are
         found too; bias [px]: see sat.collide_polygons; work: counters.
         """
+        self.raw, self.last_raw = self.last_raw, self.raw
+        self.ordered, self.last_ordered = self.last_ordered, self.ordered
         if self.boxes_only:
             found = self._with_room(work, lambda: collide_boxes(geometry, bodies, shapes, candidates, count, self.raw, work))
             return self.raw[:found]

@@ -6,7 +6,7 @@ from physics.jit import kernel
 from physics.masks.shapes import collide_mask_polygon
 from physics.narrowphase.circles import collide_polygon_circle
 from physics.narrowphase.contacts import GRID_ANY, circle_at, corners_of, write_contact
-from physics.narrowphase.placement import aabb_at, raster_at, snapped
+from physics.narrowphase.placement import aabb_at
 from physics.narrowphase.sat import ALL_EDGES, collide_polygons
 from physics.narrowphase.tiles import edges_facing, tile_at
 from physics.profile import MASK_TESTS
@@ -35,9 +35,9 @@ def make_grid_pass(one_way: bool):
             q = bodies[o.body_row]
             g = geometry.grids[s.geometry]
             min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
-            first_column = max(0, math.floor((min_x - margin - p.x) / g.tile_size))
+            first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
             last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
-            first_row = max(0, math.floor((min_y - margin - p.y) / g.tile_size))
+            first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
             last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
             mask = 0
             left = 0
@@ -48,9 +48,9 @@ def make_grid_pass(one_way: bool):
             radius = 0.0
             if o.kind == MASK:
                 work_inout[MASK_TESTS] += 1
-                mask = raster_at(geometry, o.geometry, q.angle)
-                left = snapped(q.x, geometry.rasters[mask].origin_x)
-                top = snapped(q.y, geometry.rasters[mask].origin_y)
+                mask = o.raster
+                left = o.left
+                top = o.top
             elif o.kind == CIRCLE:
                 cx, cy, radius = circle_at(bodies, shapes, other)
             else:
@@ -70,13 +70,13 @@ def make_grid_pass(one_way: bool):
                         area, nx, ny, x, y, separation, which = collide_mask_polygon(
                             geometry.rasters, geometry.words, mask, left, top, scratch.a, corners, edges, scratch.depths)
                         if area > 0:
-                            found = write_contact(bodies, shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
+                            found = write_contact(shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
                                                   separation, float(area), feature, contacts_out)
                     elif o.kind == CIRCLE:
                         hit, nx, ny, x, y, separation, which = collide_polygon_circle(scratch.a, corners, edges, cx, cy,
                                                                                       radius)
                         if hit and separation <= margin:
-                            found = write_contact(bodies, shapes, candidates, i, found, sign * nx, sign * ny, x, y,
+                            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y,
                                                   separation, 0.0, feature + which, contacts_out)
                     else:
                         manifold = scratch.manifold
@@ -85,7 +85,7 @@ def make_grid_pass(one_way: bool):
                                                   facing, margin, bias, manifold)
                         for k in range(points):
                             at = 3 + 4 * k
-                            found = write_contact(bodies, shapes, candidates, i, found, sign * manifold[1],
+                            found = write_contact(shapes, candidates, i, found, sign * manifold[1],
                                                   sign * manifold[2], manifold[at], manifold[at + 1], manifold[at + 2],
                                                   0.0, feature + int(manifold[at + 3]), contacts_out)
         return found

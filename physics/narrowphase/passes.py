@@ -27,7 +27,7 @@ def collide_circle_pairs(
         bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
         nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
         if separation <= margin:
-            found = write_contact(bodies, shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, contacts_out)
+            found = write_contact(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, contacts_out)
     return found
 
 
@@ -49,7 +49,7 @@ def collide_polygon_circle_pairs(
         x, y, radius = circle_at(bodies, shapes, circle)
         hit, nx, ny, px, py, separation, feature = collide_polygon_circle(scratch.a, n, ALL_EDGES, x, y, radius)
         if hit and separation <= margin:
-            found = write_contact(bodies, shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0,
+            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0,
                                   feature, contacts_out)
     return found
 
@@ -71,7 +71,7 @@ def collide_polygon_pairs(
         points = collide_polygons(scratch.a, na, ALL_EDGES, scratch.b, nb, ALL_EDGES, margin, bias, manifold)
         for k in range(points):
             at = 3 + 4 * k
-            found = write_contact(bodies, shapes, candidates, i, found, manifold[1], manifold[2], manifold[at],
+            found = write_contact(shapes, candidates, i, found, manifold[1], manifold[2], manifold[at],
                                   manifold[at + 1], manifold[at + 2], 0.0, int(manifold[at + 3]), contacts_out)
     return found
 
@@ -117,5 +117,5 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a_left, b_left) + min(a_right, b_right))
         y = 0.5 * (max(a_top, b_top) + min(a_bottom, b_bottom))
-        found = write_contact(bodies, shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, contacts_out)
+        found = write_contact(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, contacts_out)
     return found

@@ -114,6 +114,8 @@ def missing_rasters(
         if s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK):
             continue
         b = bodies[s.body_row]
+        if b.angle == 0.0 and b.angular_velocity == 0.0:
+            continue                  # as it was added
         for k in range(2):
             bucket = bucket_at(b.angle + k * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
@@ -131,8 +133,13 @@ def refresh_aabbs(
     # write
     shapes_inout,
 ):
-    """Write every shape's tight AABB at its body's pose. shapes_inout SHAPE rows. O(shapes)."""
+    """Write every shape's tight AABB at its body's pose, and where a mask is drawn. shapes_inout SHAPE rows. O(shapes)."""
     for row in range(len(shapes_inout)):
         s = shapes_inout[row]
         b = bodies[s.body_row]
+        if s.kind == MASK:
+            s.raster = raster_at(geometry, s.geometry, b.angle)
+            r = geometry.rasters[s.raster]
+            s.left = snapped(b.x, r.origin_x)
+            s.top = snapped(b.y, r.origin_y)
         s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -14,6 +14,7 @@ Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds,
 import math
 
 from physics.jit import subkernel
+from physics.math2d import length_of, unit
 
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
 MANIFOLD = 11
@@ -135,6 +136,33 @@ def support_manifold(reference, reference_count, edge, incident, incident_count,
 
 
 @subkernel
+def corner_manifold(a, a_count, b, b_count, limit, manifold_out):
+    """One point between the two nearest corners of polygons that are apart, when they are within the limit [px]."""
+    best = math.inf
+    best_i = 0
+    best_j = 0
+    for i in range(a_count):
+        for j in range(b_count):
+            distance = length_of(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1])
+            if distance < best:
+                best = distance
+                best_i = i
+                best_j = j
+    if best > limit:
+        manifold_out[0] = 0.0
+        return 0
+    nx, ny = unit(b[best_j, 0] - a[best_i, 0], b[best_j, 1] - a[best_i, 1], 0.0, -1.0)
+    manifold_out[0] = 1.0
+    manifold_out[1] = nx
+    manifold_out[2] = ny
+    manifold_out[3] = 0.5 * (a[best_i, 0] + b[best_j, 0])
+    manifold_out[4] = 0.5 * (a[best_i, 1] + b[best_j, 1])
+    manifold_out[5] = best
+    manifold_out[6] = float(2048 + best_i * 16 + best_j)
+    return 1
+
+
+@subkernel
 def collide_polygons(a, a_count, a_edges, b, b_count, b_edges, margin, bias, manifold_out):
     """Manifold of two convex polygons, normal from A to B. Returns the number of points, 0 when apart by > margin.
 
@@ -154,8 +182,12 @@ def collide_polygons(a, a_count, a_edges, b, b_count, b_edges, margin, bias, man
         count = clip_edges(b, b_count, b_edge, a, a_count, margin, True, manifold_out)
         if not apart and (count == 0 or min(manifold_out[5], manifold_out[9] if count > 1 else math.inf) > 0.0):
             count = support_manifold(b, b_count, b_edge, a, a_count, True, manifold_out)
+        if apart and count == 0:
+            count = corner_manifold(a, a_count, b, b_count, margin, manifold_out)
         return count
     count = clip_edges(a, a_count, a_edge, b, b_count, margin, False, manifold_out)
     if not apart and (count == 0 or min(manifold_out[5], manifold_out[9] if count > 1 else math.inf) > 0.0):
         count = support_manifold(a, a_count, a_edge, b, b_count, False, manifold_out)
+    if apart and count == 0:
+        count = corner_manifold(a, a_count, b, b_count, margin, manifold_out)
     return count

@@ -1,5 +1,7 @@
 """How fast two bodies close in on each other at a contact: what hits report and bounces are made of."""
 
+import math
+
 from physics.jit import kernel, subkernel
 
 
@@ -22,6 +24,22 @@ def measure_approach(bodies, contacts_inout):
     """Write the closing speed of every contact before any response. contacts_inout CONTACT rows. O(contacts)."""
     for i in range(len(contacts_inout)):
         contacts_inout[i].speed = closing_speed(bodies, contacts_inout[i])
+
+
+@kernel
+def prepare_contacts(bodies, shapes, contacts_inout):
+    """Write what a response starts from: where B is seen from A, and the mixed materials. O(contacts).
+
+    Friction is the geometric mean, restitution the greater: one slippery or one bouncy side is enough.
+    """
+    for i in range(len(contacts_inout)):
+        c = contacts_inout[i]
+        a = bodies[c.body_row_a]
+        b = bodies[c.body_row_b]
+        c.anchor_x = b.center_x - a.center_x
+        c.anchor_y = b.center_y - a.center_y
+        c.friction = math.sqrt(shapes[c.row_a].friction * shapes[c.row_b].friction)
+        c.restitution = max(shapes[c.row_a].restitution, shapes[c.row_b].restitution)
 
 
 @kernel

@@ -48,7 +48,7 @@ def stop_approach(bodies_inout, contacts_inout):
         a = bodies_inout[c.body_row_a]
         b = bodies_inout[c.body_row_b]
         inverse_masses = a.inverse_mass + b.inverse_mass
-        if not c.swept or inverse_masses == 0.0:
+        if not c.swept or c.sensor or inverse_masses == 0.0:
             continue
         impulse = max(closing_speed(bodies_inout, c), 0.0) / inverse_masses
         c.normal_impulse = impulse
