@@ -19,6 +19,30 @@ def pixel_range(low, high, start, set_low, set_high):
 
 
 @subkernel
+def leave_square(x, y, nx, ny, radius):
+    """How far a disc at the origin moves along a unit normal until it leaves the unit square at (x, y) [px] behind.
+
+    The disc's centre leaves the square grown by the radius through a rounded corner or a straight side.
+    """
+    depth = 0.0
+    for corner in range(4):
+        px = x + (corner & 1)
+        py = y + (corner >> 1)
+        across = nx * py - ny * px
+        if across * across < radius * radius:
+            depth = max(depth, nx * px + ny * py + math.sqrt(radius * radius - across * across))
+    if nx != 0.0:
+        move = (x + 1.0 + radius) / nx if nx > 0.0 else (x - radius) / nx
+        if y <= move * ny <= y + 1.0:
+            depth = max(depth, move)
+    if ny != 0.0:
+        move = (y + 1.0 + radius) / ny if ny > 0.0 else (y - radius) / ny
+        if x <= move * nx <= x + 1.0:
+            depth = max(depth, move)
+    return depth
+
+
+@subkernel
 def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
     """(area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a mask and a disc [px].
 
@@ -53,13 +77,7 @@ def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
         for i in range(first_x, last_x):
             gap_x = max(max(left + i - x, x - (left + i + 1)), 0.0)
             if gap_x * gap_x + gap_y * gap_y < radius * radius and is_set(words, r.offset + j * r.stride, i):
-                for corner in range(4):
-                    # From the disc's centre to the pixel's corner; the disc leaves it behind after this move.
-                    px = left + i + (corner & 1) - x
-                    py = top + j + (corner >> 1) - y
-                    across = nx * py - ny * px
-                    if across * across < radius * radius:
-                        depth = max(depth, nx * px + ny * py + math.sqrt(radius * radius - across * across))
+                depth = max(depth, leave_square(left + i - x, top + j - y, nx, ny, radius))
     return area, nx, ny, point_x, point_y, -depth, first
 
 

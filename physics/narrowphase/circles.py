@@ -56,7 +56,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
             corner = best if from_start <= 0.0 else following
             before = corner - 1 if corner > 0 else count - 1
             # Both edges of the corner must be free, or the neighbour that covers one of them has the nearer point.
-            if not ((edges >> corner) & 1 and (edges >> before) & 1):
+            if not ((edges >> (16 + corner)) & 1 and (edges >> (16 + before)) & 1):
                 return False, 0.0, -1.0, x, y, 0.0, 0
             dx = x - corners[corner, 0]
             dy = y - corners[corner, 1]

@@ -18,7 +18,7 @@ from physics.math2d import length_of, unit
 
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
 MANIFOLD = 11
-ALL_EDGES = 0xFFFF
+ALL_EDGES = 0xFFFFFFFF       # low 16 bits: edges that may be touched; high 16: edges whose corners may be
 
 
 @subkernel

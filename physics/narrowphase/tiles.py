@@ -31,8 +31,24 @@ def covered(geometry, grid, row, column, from_row, from_column):
 
 
 @subkernel
+def turns_away(geometry, grid, row, column, side):
+    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1: their common corner sticks out."""
+    g = geometry.grids[grid]
+    other = column + side
+    if other < 0 or other >= g.columns:
+        return False
+    mine = geometry.cells[g.offset + row * g.columns + column]
+    next_cell = geometry.cells[g.offset + row * g.columns + other]
+    if next_cell.kind != SLOPE:
+        return False
+    own_rise = mine.right - mine.left if mine.kind == SLOPE else 0.0
+    return side * (next_cell.right - next_cell.left) < side * own_rise
+
+
+@subkernel
 def tile_at(geometry, grid, x, y, row, column, corners_out):
-    """World corners [px] of a tile, clockwise on the screen from its top left, and the bits of its touchable edges.
+    """World corners [px] of a tile, clockwise on the screen from its top left, and the bits of its touchable edges
+    (and, 16 bits higher, of the edges whose corners can be touched: a covered side too where the ground bends down).
 
     grid: row of GRID; x, y [px]: where the grid's origin is; corners_out (16, 2). A solid tile has four corners, a
     slope three or four. A tile whose edges are all covered may be touched everywhere: what is inside has to get out.
@@ -53,7 +69,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
         corners_out[2, 1] = bottom
         corners_out[3, 0] = left
         corners_out[3, 1] = bottom
-        return 4, 1
+        return 4, 1 | (1 << 16)
     heights_left = 1.0
     heights_right = 1.0
     if cell.kind == SLOPE:
@@ -61,6 +77,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
         heights_right = cell.right
     n = 0
     edges = 0
+    corners = 0
     # Each corner starts an edge: surface, right side, bottom, left side.
     if heights_left > 0.0:
         corners_out[n, 0] = left
@@ -74,6 +91,8 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
         # Without a left side this is the second corner: the surface runs from the bottom left corner, written last.
         if not covered(geometry, grid, row, column + 1, row, column):
             edges |= 1 << n
+        elif turns_away(geometry, grid, row, column, 1):
+            corners |= 1 << n
         n += 1
     corners_out[n, 0] = right
     corners_out[n, 1] = bottom
@@ -85,12 +104,14 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     if heights_left > 0.0:
         if not covered(geometry, grid, row, column - 1, row, column):
             edges |= 1 << n
+        elif turns_away(geometry, grid, row, column, -1):
+            corners |= 1 << n
     else:
         edges |= 1 << n               # the edge back to the first corner is the surface
     n += 1
     if edges == 0:
-        edges = ALL_EDGES
-    return n, edges
+        return n, ALL_EDGES
+    return n, edges | ((edges | corners) << 16)
 
 
 @subkernel
