@@ -72,10 +72,10 @@ def pairs(world) -> np.ndarray:
     rows = _candidate_rows(world)
     centers = (boxes[:, :2] + boxes[:, 2:]) / 2.0
     contacts = world.contacts
-    touching = set(zip(contacts["shape_a"].tolist(), contacts["shape_b"].tolist()))
-    ids = world.shapes["id"][rows].tolist()
-    hit = np.array([(a, b) in touching for a, b in ids], float)
-    return np.column_stack([centers[rows[:, 0]], centers[rows[:, 1]], hit]) if len(rows) else np.zeros((0, 5))
+    touching = contacts["shape_a"] << 32 | contacts["shape_b"]
+    ids = world.shapes["id"][rows]
+    hit = np.isin(ids[:, 0] << 32 | ids[:, 1], touching)
+    return np.column_stack([centers[rows[:, 0]], centers[rows[:, 1]], hit])
 
 
 def _candidate_rows(world):
@@ -112,15 +112,18 @@ def outlines(world) -> list:
 
 def masks(world) -> list:
     """(shape id, left, top, solid[row, col]) of every mask as drawn."""
-    return [(int(shape["id"]), *_drawn(world, shape)) for shape in world.shapes if shape["kind"] == tables.MASK]
+    bounds(world)
+    rows = np.flatnonzero(world.shapes["kind"] == tables.MASK)
+    return [(identity, *drawn) for identity, drawn in zip(world.shapes["id"][rows].tolist(), _drawn(world, rows))]
 
 
-def _drawn(world, shape):
-    body = world.bodies[shape["body_row"]]
-    turned = world.library.masks[shape["geometry"]].turned(float(body["angle"]))
-    left = int(np.floor(body["x"] - turned.origin[0] + 0.5))
-    top = int(np.floor(body["y"] - turned.origin[1] + 0.5))
-    return left, top, turned.solid
+def _drawn(world, rows):
+    """(left, top, solid[row, col]) of the masks at these shape rows, whose rasters are up to date."""
+    shapes, library = world.shapes[rows], world.library
+    mask_of, bucket_of = np.nonzero(library.raster_of[:len(library.masks)] >= 0)
+    solids = {int(library.raster_of[mask, bucket]): (mask, bucket) for mask, bucket in zip(mask_of.tolist(), bucket_of.tolist())}
+    return [(left, top, library.masks[solids[raster][0]].turned_to(solids[raster][1]).solid)
+            for left, top, raster in zip(shapes["left"].tolist(), shapes["top"].tolist(), shapes["raster"].tolist())]
 
 
 def mask_hits(world) -> list:
@@ -128,9 +131,9 @@ def mask_hits(world) -> list:
     found = []
     rows = _candidate_rows(world)
     both = (world.shapes["kind"][rows] == tables.MASK).all(axis=1) if len(rows) else np.zeros(0, bool)
-    for a, b in rows[both].tolist():
-        left_a, top_a, solid_a = _drawn(world, world.shapes[a])
-        left_b, top_b, solid_b = _drawn(world, world.shapes[b])
+    bounds(world)
+    rows = rows[both]
+    for (left_a, top_a, solid_a), (left_b, top_b, solid_b) in zip(_drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])):
         left, top = max(left_a, left_b), max(top_a, top_b)
         right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
         bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])

@@ -120,7 +120,7 @@ def _impacts(effects):
     def run(world, dt):
         bodies, shapes, rows = world.bodies, world.shapes, world.pairs.rows
         if len(world.impacts) < len(rows):
-            world.impacts = np.zeros((2 * len(rows), 4))
+            world.impacts = np.zeros((2 * len(rows), 5))
         world.impact_count = find(world.library.tables, bodies, shapes, rows, len(rows), dt, world.tolerances.slop,
                                   world.impact_scratch, world.impacts, world.profile.work)
         bodies["fraction"] = 1.0
@@ -170,6 +170,9 @@ def _append_impacts(world, contacts, dt):
     # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
     passed = met["candidate"][met["separation"] < -world.tolerances.slop]
     contacts = contacts[~np.isin(contacts["candidate"], passed)]
+    # A body that ended just behind what it flew through is near it, but going away: the impact is what counts.
+    seen = np.isin(contacts["candidate"], met["candidate"])
+    contacts = contacts[~(seen & (contacts["speed"] <= 0.0) & (contacts["separation"] > 0.0))]
     seen = np.isin(contacts["candidate"], met["candidate"])
     contacts["swept"][seen & (contacts["speed"] > 0.0)] = True
     met = met[~np.isin(met["candidate"], contacts["candidate"])]
@@ -249,4 +252,4 @@ def no_work() -> np.ndarray:
 
 def impact_room():
     """Room for the sweeps of one world."""
-    return np.zeros((16, 4)), new_scratch()
+    return np.zeros((16, 5)), new_scratch()

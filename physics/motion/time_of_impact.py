@@ -291,11 +291,11 @@ def make_impact_pass(one_way: bool):
         # write
         scratch, impacts_out, work_inout,
     ):
-        """List (candidate, fraction, normal from A to B) of the pairs that a fast body meets within dt [s].
+        """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets within dt [s].
 
-        Motion into the other by less than a quarter of the smaller half extent is left to the discrete test, which
-        cannot miss it: so nothing that slides along the ground is stopped by it. slack [px]; impacts_out (n, 4)
-        float64. Returns the number found. O(candidates).
+        Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
+        the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
+        impacts_out (n, 5) float64. Returns the number found. O(candidates).
         """
         found = 0
         for i in range(count):
@@ -326,13 +326,13 @@ def make_impact_pass(one_way: bool):
             if rest.kind != STATIC:
                 dx -= rest.vx
                 dy -= rest.vy
-            if -(nx * dx + ny * dy) * dt <= 0.25 * body.smallest_half:
-                continue
+            stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
             if found < impacts_out.shape[0]:
                 impacts_out[found, 0] = float(i)
                 impacts_out[found, 1] = fraction
                 impacts_out[found, 2] = -nx if from_a else nx
                 impacts_out[found, 3] = -ny if from_a else ny
+                impacts_out[found, 4] = 1.0 if stops else 0.0
             found += 1
         return found
     return find_impacts
@@ -350,7 +350,7 @@ def stop_at_impacts(
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
-        if a.sensor or b.sensor:
+        if a.sensor or b.sensor or impacts[i, 4] == 0.0:
             continue
         p = bodies_inout[a.body_row]
         q = bodies_inout[b.body_row]

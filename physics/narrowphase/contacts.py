@@ -149,7 +149,7 @@ def write_impacts(
 ):
     """Write a contact for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
-    impacts (n, 4): candidate, fraction, normal. The point is the edge, along the normal, of the smaller of the two boxes.
+    impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the two boxes.
     With response 1 the separation is that at the final poses: what a side went on by after the impact.
     """
     found = 0
@@ -174,7 +174,8 @@ def write_impacts(
         if response == 1:
             after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)
             after_y = (q.y - q.previous_y) - (p.y - p.previous_y) - impacts[i, 1] * dt * (q.vy - p.vy)
-            separation = min(0.0, nx * after_x + ny * after_y)
+            # What it slid on after a graze is no overlap.
+            separation = min(0.0, nx * after_x + ny * after_y) if impacts[i, 4] == 1.0 else 0.0
         before = found
         found = write_contact(shapes, candidates, pair, found, nx, ny, x, y, separation, 0.0, -1, contacts_out)
         if found > before and before < len(contacts_out):

@@ -1,0 +1,22 @@
+"""The sheet "planes": the player, the enemies, the power-up and the two large planes of the lab."""
+
+from assets import enemies, large_planes, planes
+from assets.atlas import Sheet
+from assets.shading import flashed
+
+
+def planes_files():
+    """Return {relative path: bytes} of the sheet. Frames end in _flash where they are white hit silhouettes."""
+    sheet = Sheet("planes")
+    for bank in planes.BANKS:
+        sheet.add(bank, planes.player(bank))
+    sheet.add_sequence("exhaust", [planes.exhaust(i) for i in range(4)], 24)
+    sheet.add_sequence("dart", [enemies.dart(i) for i in range(2)], 16)
+    sheet.add_sequence("saucer", [enemies.saucer(i) for i in range(4)], 10)
+    sheet.add_sequence("gunship", [enemies.gunship(i) for i in range(4)], 24)
+    sheet.add_sequence("powerup", [planes.powerup(i) for i in range(4)], 8)
+    for name in ("player", "dart_0", "saucer_0", "gunship_0"):
+        sheet.add(f"{name.removesuffix('_0')}_flash", flashed(sheet.frames[name]))
+    sheet.add("large_plane_a", large_planes.jet())
+    sheet.add("large_plane_b", large_planes.bomber())
+    return sheet.files()

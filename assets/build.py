@@ -1,0 +1,104 @@
+"""Write every file of assets/ that a script makes, or check that the files in the folder are what the scripts make.
+
+    python -m assets.build            regenerate all
+    python -m assets.build sounds     only products whose name contains "sounds"
+    python -m assets.build --check    regenerate in memory; exit 1 and name the files that differ
+"""
+
+import argparse
+import importlib
+import sys
+
+from assets import FOLDER, png
+
+# name of the product -> (module, function, arguments); imported when built, so a part can be built by itself.
+PRODUCTS = {
+    "font/font5x7": ("assets.font", "font_files", ("font5x7",)),
+    "font/font3x5": ("assets.font", "font_files", ("font3x5",)),
+    **{
+        f"sounds/{name}": ("assets.sounds", "sound_files", (name,))
+        for name in (
+            "laser", "enemy_shot", "hit", "explosion", "coin", "powerup", "jump", "hurt",
+            "big_explosion", "spring", "land", "stomp", "blip", "confirm", "goal",
+        )
+    },
+    "images/planes": ("assets.aircraft", "planes_files", ()),
+    "images/effects": ("assets.effects", "effects_files", ()),
+    "images/hero": ("assets.hero", "hero_files", ()),
+    "images/things": ("assets.things", "things_files", ()),
+    "images/tiles": ("assets.tiles", "tiles_files", ()),
+    "images/ui": ("assets.ui", "ui_files", ()),
+    "images/backdrops_shooter": ("assets.backdrops", "backdrop_files", ("shooter",)),
+    "images/backdrops_platformer": ("assets.backdrops", "backdrop_files", ("platformer",)),
+    "levels/platformer": ("assets.levels", "level_files", ()),
+}
+
+
+def make(name):
+    """Return {path relative to assets/: bytes} of one product, without writing it.
+
+    Raises KeyError naming the valid products for an unknown one.
+    """
+    if name not in PRODUCTS:
+        raise KeyError(f"no product {name!r}; choose one of {', '.join(PRODUCTS)}")
+    module, function, arguments = PRODUCTS[name]
+    return getattr(importlib.import_module(module), function)(*arguments)
+
+
+def differences(name):
+    """Return the paths of one product that are missing from the folder or differ from what the script makes.
+
+    A PNG is compared by header and inflated rows: another build of zlib packs the same picture differently.
+    """
+    wrong = []
+    for path, made in make(name).items():
+        target = FOLDER / path
+        if not target.is_file() or not _same(path, target.read_bytes(), made):
+            wrong.append(path)
+    return wrong
+
+
+def _same(path, kept, made):
+    if kept == made:
+        return True
+    if not path.endswith(".png"):
+        return False
+    try:
+        return png.payload(kept) == png.payload(made)
+    except ValueError:
+        return False
+
+
+def write(name):
+    """Write one product's files. Returns their relative paths."""
+    files = make(name)
+    for path, content in files.items():
+        target = FOLDER / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+    return list(files)
+
+
+def main(arguments=None):
+    """Run the command line. Returns the exit code: 0 fine, 1 a file differs, 2 nothing of that name."""
+    parser = argparse.ArgumentParser(prog="python -m assets.build", description=__doc__.splitlines()[0])
+    parser.add_argument("part", nargs="?", default="", help="only products whose name contains this")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a file differs")
+    options = parser.parse_args(arguments)
+    names = [name for name in PRODUCTS if options.part in name]
+    if not names:
+        sys.stderr.write(f"no product contains {options.part!r}; there are: {', '.join(PRODUCTS)}\n")
+        return 2
+    if options.check:
+        wrong = [path for name in names for path in differences(name)]
+        for path in wrong:
+            sys.stderr.write(f"assets/{path} differs from what its script makes\n")
+        return 1 if wrong else 0
+    for name in names:
+        for path in write(name):
+            sys.stdout.write(f"assets/{path}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

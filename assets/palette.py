@@ -1,0 +1,87 @@
+"""The one palette: ramps of six colours from shadow to light, made in OKLCH with the hue shifted along the way.
+
+Shadows lean to violet and lights to warm yellow, so neighbouring ramps belong to one picture. A ramp is an array
+(6, 3) of uint8; index 0 is the darkest. The outline is a dark violet, never pure black.
+"""
+
+import math
+
+import numpy as np
+
+STEPS = 6
+DARKEST, LIGHTEST = 0.18, 0.97   # OKLab lightness of the two ends of a full ramp
+SHADOW_HUE, LIGHT_HUE = 275.0, 95.0   # [deg] where shadows and lights lean to
+SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35   # share of the way to those hues at the ends
+
+
+def oklch(lightness, chroma, hue):
+    """Return (r, g, b) 0..255 for OKLab lightness 0..1, chroma (about 0..0.3) and hue in degrees.
+
+    Matrices from Ottosson, "A perceptual color space for image processing" (2020). Out of gamut is clipped.
+    """
+    a = chroma * math.cos(math.radians(hue))
+    b = chroma * math.sin(math.radians(hue))
+    long = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3
+    medium = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3
+    short = (lightness - 0.0894841775 * a - 1.2914855480 * b) ** 3
+    linear = (
+        4.0767416621 * long - 3.3077115913 * medium + 0.2309699292 * short,
+        -1.2684380046 * long + 2.6097574011 * medium - 0.3413193965 * short,
+        -0.0041960863 * long - 0.7034186147 * medium + 1.7076147010 * short,
+    )
+    return tuple(_encode(channel) for channel in linear)
+
+
+def _encode(linear):
+    """sRGB transfer curve: linear light to 0..255."""
+    linear = min(1.0, max(0.0, linear))
+    if linear <= 0.0031308:
+        return round(255 * 12.92 * linear)
+    return round(255 * (1.055 * linear ** (1 / 2.4) - 0.055))
+
+
+def ramp(hue, chroma, low=DARKEST, high=LIGHTEST, steps=STEPS):
+    """Return (steps, 3) uint8 from shadow to light around a base hue in degrees."""
+    colours = []
+    for i in range(steps):
+        t = i / (steps - 1)
+        lightness = low + (high - low) * t**0.9
+        to_shadow = (SHADOW_HUE - hue + 180) % 360 - 180
+        to_light = (LIGHT_HUE - hue + 180) % 360 - 180
+        turned = hue + to_shadow * SHADOW_LEAN * max(0.0, 1 - 2 * t) + to_light * LIGHT_LEAN * max(0.0, 2 * t - 1)
+        # Colour is richest just under the middle and fades at both ends.
+        colours.append(oklch(lightness, chroma * (1 - abs(2 * t - 0.95) ** 2.2 * 0.75), turned))
+    return np.array(colours, np.uint8)
+
+
+RAMPS = {
+    "steel": ramp(250, 0.04),
+    "blue": ramp(255, 0.15),
+    "red": ramp(25, 0.19),
+    "orange": ramp(50, 0.17),
+    "gold": ramp(80, 0.15),
+    "green": ramp(145, 0.15),
+    "olive": ramp(118, 0.10),
+    "purple": ramp(310, 0.16),
+    "pink": ramp(350, 0.17),
+    "teal": ramp(195, 0.11),
+    "wood": ramp(58, 0.09, 0.20, 0.86),
+    "dirt": ramp(45, 0.060, 0.17, 0.70),
+    "stone": ramp(280, 0.030, 0.20, 0.86),
+    "grass": ramp(138, 0.135, 0.24, 0.90),
+    "glass": ramp(205, 0.10, 0.30, 0.98),
+    "gunmetal": ramp(265, 0.030, 0.15, 0.72),
+}
+OUTLINE = np.array(oklch(0.16, 0.03, 285), np.uint8)
+WHITE = np.array((255, 255, 255), np.uint8)
+FIRE = np.array(
+    [(255, 255, 255), (255, 250, 190), (255, 214, 90), (255, 148, 40), (224, 78, 36), (140, 40, 52), (74, 38, 60),
+     (44, 34, 52)],
+    np.uint8,
+)   # an explosion from its first instant to its last cinder
+
+
+def mix(first, second, share):
+    """Return the colour `share` (0..1) of the way from first to second, as uint8."""
+    first, second = np.asarray(first, float), np.asarray(second, float)
+    return np.floor(first + (second - first) * share + 0.5).astype(np.uint8)

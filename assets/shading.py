@@ -1,0 +1,110 @@
+"""Sprites built from parts: each part is a distance field, lit as a soft bulge and coloured by a ramp.
+
+Parts go back to front. Each darkens a thin band around itself on what is below (contact shadow), then takes its ramp
+colour from the slope of its bulge towards the light; the rim light and the dark outline come last.
+"""
+
+import numpy as np
+
+from assets.fields import dither, grid
+from assets.palette import OUTLINE, mix
+
+LIGHT = (-0.55, -0.80)   # direction towards the light: up and a little left
+RIM = np.array((255, 250, 236), np.uint8)
+SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
+
+
+def shifted(solid, dx, dy):
+    """The mask moved by (dx, dy) px, with clear pixels coming in from outside."""
+    height, width = solid.shape
+    out = np.zeros_like(solid)
+    out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
+        max(0, -dy) : height + min(0, -dy), max(0, -dx) : width + min(0, -dx)
+    ]
+    return out
+
+
+class Sprite:
+    """A picture being drawn: rgb (h, w, 3) uint8 and solid (h, w) bool, with pixel centres x and y for fields."""
+
+    def __init__(self, width, height):
+        self.rgb = np.zeros((height, width, 3), np.uint8)
+        self.solid = np.zeros((height, width), bool)
+        self.x, self.y = grid(width, height)
+
+    def part(self, field, ramp, bulge=4.0, base=0.5, gain=0.42, grain=0.5, shadow=0.55):
+        """Add a lit part.
+
+        field: distance in px; ramp: colours from dark to light; bulge: px from the edge to the top of the bulge; base:
+        brightness 0..1 of a flat top; gain: how much the slope changes it; grain: strength of the dither; shadow:
+        brightness left in the contact shadow, 1 for none.
+        """
+        inside = field < 0
+        height_map = np.sqrt(np.clip(-field / bulge, 0, 1)) * bulge
+        slope_y, slope_x = np.gradient(height_map)
+        facing = np.clip(-(slope_x * LIGHT[0] + slope_y * LIGHT[1]), -1, 1)
+        top = len(ramp) - 1
+        level = (base + gain * facing) * top + 0.5 + dither(*field.shape) * 0.6 * grain
+        level = np.clip(np.floor(np.round(level, 6)), 0, top).astype(int)
+        if shadow < 1:
+            below = (field >= 0) & (field < 1.3) & self.solid
+            self.rgb[below] = (self.rgb[below] * shadow).astype(np.uint8)
+        self.rgb[inside] = ramp[level[inside]]
+        self.solid |= inside
+        return self
+
+    def flat(self, field, colour):
+        """Fill a field with one colour."""
+        inside = field < 0
+        self.rgb[inside] = colour
+        self.solid |= inside
+        return self
+
+    def paint(self, field, colour, share=1.0):
+        """Tint what is already solid inside a field: markings, stripes, panel lines."""
+        inside = (field < 0) & self.solid
+        self.rgb[inside] = mix(self.rgb[inside], colour, share)
+        return self
+
+    def dot(self, x, y, colour):
+        """Set one pixel."""
+        self.rgb[y, x] = colour
+        self.solid[y, x] = True
+        return self
+
+    def cut(self, field):
+        """Clear everything inside a field."""
+        self.solid &= ~(field < 0)
+        return self
+
+    def rim(self, colour=RIM, share=0.6, sides=((1, 0), (0, 1))):
+        """Lighten the pixels whose neighbour towards the light is clear. sides: where shadows of the mask fall."""
+        edge = np.zeros_like(self.solid)
+        for dx, dy in sides:
+            edge |= self.solid & ~shifted(self.solid, dx, dy)
+        self.rgb[edge] = mix(self.rgb[edge], colour, share)
+        return self
+
+    def outline(self, colour=OUTLINE):
+        """Put one dark pixel around the shape (4-neighbours)."""
+        around = np.zeros_like(self.solid)
+        for dx, dy in SIDES:
+            around |= shifted(self.solid, dx, dy)
+        around &= ~self.solid
+        self.rgb[around] = colour
+        self.solid |= around
+        return self
+
+    def pixels(self):
+        """Return (h, w, 4) uint8, alpha 0 or 255."""
+        out = np.zeros(self.solid.shape + (4,), np.uint8)
+        out[..., :3][self.solid] = self.rgb[self.solid]
+        out[..., 3] = self.solid * 255
+        return out
+
+
+def flashed(pixels, colour=(255, 255, 255)):
+    """The same frame as a flat silhouette: what a hit shows for a few frames."""
+    out = pixels.copy()
+    out[..., :3][out[..., 3] > 0] = colour
+    return out

@@ -1,0 +1,149 @@
+"""The platformer's distance: a dusk sky, three ranges of mountains and a bank of clouds, all seamless in x.
+
+Far layers are lighter and paler (the air between), near ones dark and rich, so the tiles in front read first.
+"""
+
+import numpy as np
+
+from assets.clouds import bank
+from assets.fields import circle, dither, grid, layered_noise, length, noise
+from assets.palette import mix, oklch
+
+WIDTH = 480   # [px] one screen; scenes repeat the layers
+SKY_HEIGHT = 270
+SKY = ((0.22, 0.075, 282), (0.30, 0.095, 290), (0.42, 0.115, 310), (0.56, 0.125, 350), (0.70, 0.125, 35),
+       (0.82, 0.110, 65))
+BANDS = 26   # colour bands of the sky, dithered into each other
+SUN = (338, 196, 21)   # [px] x, y, radius
+
+
+def _tones(*values):
+    return np.array([oklch(*value) for value in values], np.uint8)
+
+
+def sky():
+    """Return the sky, (270, 480, 3) uint8: gradient, stars, a low sun with haze."""
+    x, y = grid(WIDTH, SKY_HEIGHT)
+    glow = np.clip(1 - length((x - SUN[0]) * 0.55, y - SUN[1]) / 130, 0, 1)
+    level = y / SKY_HEIGHT * 0.92 + glow * glow * 0.17
+    steps = np.clip(np.floor(level * BANDS + dither(SKY_HEIGHT, WIDTH) * 1.0 + 0.5), 0, BANDS - 1).astype(int)
+    stops = np.array([oklch(*stop) for stop in SKY], float)
+    colours = []
+    for band in range(BANDS):
+        place = band / (BANDS - 1) * (len(stops) - 1)
+        left = min(int(place), len(stops) - 2)
+        colours.append(stops[left] + (stops[left + 1] - stops[left]) * (place - left))
+    picture = np.floor(np.array(colours) + 0.5).astype(np.uint8)[steps]
+    _stars(picture)
+    sun = circle(x, y, *SUN)
+    picture[sun < 2.2] = oklch(0.86, 0.125, 70)
+    picture[sun < 0] = oklch(0.94, 0.085, 88)
+    return picture
+
+
+def _stars(picture):
+    random = np.random.default_rng(12)
+    for _ in range(110):
+        u, v, bright = random.random(3)
+        column, row = int(u * WIDTH), int(v * v * 120)
+        picture[row, column] = mix(picture[row, column], (225, 220, 255), 0.25 + 0.6 * bright * (1 - row / 130))
+        if bright > 0.93 and 0 < column < WIDTH - 1 and row > 0:   # a few twinkle: a small cross
+            for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                spot = picture[row + dy, column + dx]
+                picture[row + dy, column + dx] = mix(spot, (225, 220, 255), 0.28)
+
+
+def ridge_line(cells, octaves, seed, sharp):
+    """Heights 0..1 of a seamless ridge; sharp 0..1 blends from rolling hills to peaks."""
+    rolling = layered_noise(WIDTH, 4, cells, 1, octaves, seed)[0]
+    peaks = 1 - abs(layered_noise(WIDTH, 4, cells, 1, octaves, seed + 50)[0] * 2 - 1)
+    line = rolling * (1 - sharp) + peaks * sharp
+    return (line - line.min()) / (line.max() - line.min())
+
+
+def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
+    """One range, (height, 480, 4) uint8.
+
+    low, high: px of rock at the lowest and highest point; tones: (shade, body, light, edge); snow: two colours for the
+    caps; haze: colour that the foot fades into.
+    """
+    line = ridge_line(cells, 6, seed, 0.75)
+    top = height - (low + (high - low) * line)
+    y, x = np.mgrid[0:height, 0:WIDTH]
+    depth = y - top[None, :]
+    solid = depth >= 0
+    # Facets: a pixel takes its light from the slope of the ridge up its diagonal, as strata fall from a crest.
+    smooth = sum(np.roll(line, k) for k in range(-3, 4)) / 7
+    slope = np.roll(smooth, -2) - np.roll(smooth, 2)
+    wobble = layered_noise(WIDTH, height, 30, max(2, height // 10), 3, seed + 7) - 0.5
+    source = (x - np.floor(np.clip(depth, 0, 999) * 0.55 + wobble * 16).astype(int)) % WIDTH
+    facing = slope[source] * 26 + wobble * 1.1
+    grain = dither(height, WIDTH) * 0.5
+    tone = np.where(facing + grain > 0.42, 2, np.where(facing + grain < -0.30, 0, 1))
+    picture = np.asarray(tones)[tone]
+    if snow is not None:
+        cap = (depth < 9 + wobble * 26 + (line[None, :] - 0.62) * 46) & (line[None, :] > 0.5)
+        picture = np.where(cap[..., None], np.asarray(snow)[(tone > 0).astype(int)], picture)
+    if haze is not None:
+        share = np.clip((y - height * 0.45) / (height * 0.55), 0, 1) + grain * 0.35
+        for limit, strength in ((0.35, 0.25), (0.6, 0.5), (0.85, 0.72)):
+            band = share > limit
+            picture = np.where(band[..., None], mix(np.asarray(tones)[tone], haze, strength), picture)
+    picture = np.where(((depth >= 0) & (depth < 1.2))[..., None], np.asarray(tones)[3], picture)
+    out = np.zeros((height, WIDTH, 4), np.uint8)
+    out[..., :3] = picture
+    out[..., 3] = 255
+    out[~solid] = 0
+    return out
+
+
+def pines(height, seed):
+    """The nearest range: dark hills with fir trees along the crest, (height, 480, 4) uint8."""
+    line = ridge_line(3, 4, seed, 0.2)
+    top = height - (26 + 30 * line)
+    body, light, edge = _tones((0.225, 0.045, 285), (0.262, 0.050, 284), (0.325, 0.060, 290))
+    out = np.zeros((height, WIDTH, 4), np.uint8)
+    y = np.mgrid[0:height, 0:WIDTH][0]
+    speck = noise(WIDTH, height, 96, max(2, height // 4), seed + 3)
+    hill = y >= top[None, :]
+    out[hill] = (*body, 255)
+    out[hill & (speck > 0.70) & (y < top[None, :] + 26)] = (*light, 255)
+    random = np.random.default_rng(seed)
+    column = 0
+    while column < WIDTH:
+        gap, tall, lean = random.random(3)
+        size = int(12 + tall * tall * 22)
+        _pine(out, column, int(top[column % WIDTH]) + 3, size, (body, light, edge))
+        column += 5 + int(gap * gap * 26) + int(lean * 3)
+    return out
+
+
+def _pine(out, column, foot, size, tones):
+    """One fir: jagged tiers that widen downwards, lit along its right edge, where the sun stands."""
+    body, light, edge = tones
+    for i in range(size):
+        row = foot - size + i
+        if not 0 <= row < out.shape[0]:
+            continue
+        tier = i % 5
+        half = int(i * 0.20 + tier * 0.55)
+        for dx in range(-half, half + 1):
+            tone = edge if dx == half and i > 1 else light if dx > half - 2 and tier > 1 else body
+            out[row, (column + dx) % WIDTH] = (*tone, 255)
+
+
+def backdrop_layers():
+    """Return {name: pixels} of the platformer's layers, far to near."""
+    far = _tones((0.47, 0.085, 322), (0.53, 0.090, 335), (0.63, 0.095, 5), (0.72, 0.085, 30))
+    mid = _tones((0.335, 0.080, 300), (0.375, 0.085, 306), (0.445, 0.095, 325), (0.53, 0.100, 345))
+    snow = _tones((0.66, 0.060, 340), (0.83, 0.055, 40))
+    tones = _tones((0.47, 0.090, 325), (0.58, 0.100, 350), (0.70, 0.100, 20), (0.80, 0.085, 50))
+    puffs = ((40, 6, 15), (62, 12, 20), (86, 8, 17), (108, 3, 11), (22, 2, 9), (250, 4, 12), (268, 9, 16), (288, 4, 11),
+             (390, 5, 13), (412, 12, 19), (436, 9, 17), (458, 3, 10))
+    return {
+        "sky_dusk": sky(),
+        "mountains_far": mountains(150, 34, 128, 5, 21, far, snow, oklch(0.70, 0.10, 25)),
+        "mountains_mid": mountains(120, 30, 96, 4, 33, mid, None, oklch(0.50, 0.10, 340)),
+        "mountains_near": pines(96, 44),
+        "clouds": bank(WIDTH, 80, 5, 62, puffs, tones),
+    }

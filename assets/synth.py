@@ -1,0 +1,139 @@
+"""A small synthesiser in the manner of sfxr: one swept oscillator, an envelope, a filter, a finish.
+
+Everything is NumPy at 4x oversampling. Sines come from a rounded table and powers from `math`, so the samples do not
+depend on which vector instructions NumPy was built for: the same script writes the same bytes.
+"""
+
+import io
+import math
+import wave
+
+import numpy as np
+
+RATE = 44_100   # [Hz]
+OVERSAMPLING = 4
+PEAK = 10 ** (-3 / 20)   # -3 dB of full scale: room for several voices at once
+FADE = 0.002   # [s] at both ends: no click
+SINE = np.array([round(math.sin(2 * math.pi * i / 4096), 9) for i in range(4097)])
+
+
+def sine(phase):
+    """Sine of a phase in turns, read from the table with linear interpolation."""
+    place = (phase % 1.0) * 4096
+    left = np.minimum(place.astype(np.int64), 4095)
+    return SINE[left] + (SINE[left + 1] - SINE[left]) * (place - left)
+
+
+def triangle(phase):
+    """Triangle in 15 steps, as the sound chip of an 8-bit console makes it."""
+    return np.round((1 - 4 * np.abs(phase % 1.0 - 0.5)) * 7.5) / 7.5
+
+
+def sweep(start, end, count):
+    """Exponential glide from start to end, both > 0, in `count` samples."""
+    ratio = end / start
+    knots = [start * math.pow(ratio, i / 256) for i in range(257)]
+    return np.interp(np.linspace(0, 256, count), np.arange(257), np.round(knots, 6))
+
+
+def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
+    """Rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at RATE."""
+    rise, hold, fall = (max(1, int(seconds * RATE)) for seconds in (attack, sustain, decay))
+    tail = np.linspace(1, 0, fall)
+    tail = tail if curve == 1 else tail * tail if curve == 2 else np.round([math.pow(v, curve) for v in tail], 9)
+    return np.concatenate([np.linspace(0, 1, rise), 1 + punch * np.linspace(1, 0, hold), tail])
+
+
+def voice(kind, start, end, shape, duty=(0.5, 0.5), vibrato=(0.0, 0.0), steps=(), seed=0):
+    """One note of sound at RATE.
+
+    kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: of a pulse, from..to;
+    vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...) jumps of the pitch.
+    """
+    count = len(shape) * OVERSAMPLING
+    time = np.arange(count) / (RATE * OVERSAMPLING)
+    pitch = sweep(start, end, count)
+    if vibrato[0]:
+        pitch = pitch * (1 + vibrato[0] * sine(time * vibrato[1]))
+    for at, factor in steps:
+        pitch = np.where(time >= at, pitch * factor, pitch)
+    phase = np.cumsum(pitch) / (RATE * OVERSAMPLING)
+    wave_form = _oscillate(kind, phase, np.linspace(duty[0], duty[1], count), seed)
+    parts = [wave_form[i::OVERSAMPLING] for i in range(OVERSAMPLING)]
+    return (parts[0] + parts[1] + parts[2] + parts[3]) / OVERSAMPLING * shape
+
+
+def _oscillate(kind, phase, duty, seed):
+    if kind == "pulse":
+        return np.where(phase % 1.0 < duty, 1.0, -1.0)
+    if kind == "saw":
+        return 2 * (phase % 1.0) - 1
+    if kind == "triangle":
+        return triangle(phase)
+    if kind == "sine":
+        return sine(phase)
+    if kind == "noise":   # 32 random levels a period, held: the pitch of the noise is the rate of new levels
+        level = np.floor(phase * 32).astype(np.int64)
+        return np.random.default_rng(seed).random(int(level[-1]) + 2)[level] * 2 - 1
+    raise ValueError(f"no oscillator {kind!r}; choose one of pulse, saw, triangle, sine, noise")
+
+
+def low_pass(samples, start, end):
+    """One-pole low-pass whose corner glides from start to end in Hz."""
+    knots = sweep(start, end, 257)
+    shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in knots]
+    share = np.interp(np.linspace(0, 256, len(samples)), np.arange(257), np.round(shares, 9))
+    out, level = np.empty_like(samples), 0.0
+    for i, (value, part) in enumerate(zip(samples.tolist(), share.tolist(), strict=True)):
+        level += part * (value - level)
+        out[i] = level
+    return out
+
+
+def remove_dc(samples, corner=30.0):
+    """One-pole high-pass: takes out what a one-sided pulse leaves below hearing. corner in Hz."""
+    share = round(1 - math.exp(-2 * math.pi * corner / RATE), 9)
+    out, level = np.empty_like(samples), 0.0
+    for i, value in enumerate(samples.tolist()):
+        level += share * (value - level)
+        out[i] = value - level
+    return out
+
+
+def mixed(*layers):
+    """Sum of (start in seconds, gain, samples) layers."""
+    length = max(int(at * RATE) + len(samples) for at, _, samples in layers)
+    total = np.zeros(length)
+    for at, gain, samples in layers:
+        first = int(at * RATE)
+        total[first : first + len(samples)] += gain * samples
+    return total
+
+
+def soft_clip(samples, drive):
+    """Rounded limiter x / (1 + |x|), with the input driven by `drive`."""
+    pushed = samples * drive
+    return pushed / (1 + np.abs(pushed))
+
+
+def finish(samples):
+    """Return int16 samples: no DC, faded ends, peak at -3 dB."""
+    samples = remove_dc(samples)
+    fade = np.linspace(0, 1, int(FADE * RATE))
+    samples[: len(fade)] *= fade
+    samples[-len(fade) :] *= fade[::-1]
+    inner = np.ones(len(samples))
+    inner[0] = inner[-1] = 0.0
+    samples = (samples - samples.mean() * len(samples) / inner.sum()) * inner   # the fades must not bring DC back
+    return np.round(samples / np.abs(samples).max() * PEAK * 32767).astype(np.int16)
+
+
+def to_wav(samples):
+    """Return the bytes of a mono 16-bit WAV file at RATE."""
+    buffer = io.BytesIO()
+    with wave.open(buffer, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(RATE)
+        file.writeframes(samples.astype("<i2").tobytes())
+    return buffer.getvalue()

@@ -1,0 +1,114 @@
+"""The shooter's ground: a sea with islands seen from above, 480 x 540, seamless in both directions.
+
+Everything stays at or under 60 % lightness and low chroma: bullets, planes and explosions must stand out from it.
+"""
+
+import numpy as np
+
+from assets.fields import dither, layered_noise, length, noise
+from assets.palette import oklch
+from assets.shading import shifted
+
+WIDTH, HEIGHT = 480, 540   # [px]
+
+SEA = np.array([oklch(*tone) for tone in (
+    (0.245, 0.046, 262), (0.268, 0.050, 258), (0.292, 0.054, 252), (0.325, 0.057, 243), (0.37, 0.058, 230),
+    (0.43, 0.056, 212))], np.uint8)   # deep to shallow
+FOAM, WET_SAND = np.array(oklch(0.56, 0.030, 215), np.uint8), np.array(oklch(0.45, 0.040, 80), np.uint8)
+SAND = np.array([oklch(*tone) for tone in ((0.49, 0.045, 75), (0.54, 0.050, 82), (0.58, 0.052, 86))], np.uint8)
+MEADOW = np.array([oklch(*tone) for tone in (
+    (0.305, 0.045, 160), (0.350, 0.055, 148), (0.395, 0.062, 138), (0.440, 0.066, 128), (0.485, 0.066, 118))], np.uint8)
+ROCK = np.array([oklch(*tone) for tone in (
+    (0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))], np.uint8)
+TREES = np.array([oklch(*tone) for tone in (
+    (0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))], np.uint8)
+
+SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765   # heights where one ground gives way to the next
+GLINT_CUT = 0.80   # share of the water without glints
+
+
+def height_map():
+    """Return heights 0..1, (HEIGHT, WIDTH), stretched so that about a quarter is land."""
+    rough = layered_noise(WIDTH, HEIGHT, 4, 4, 6, 2024, 0.52)
+    ridges = 1 - abs(layered_noise(WIDTH, HEIGHT, 3, 4, 4, 77) * 2 - 1)
+    height = rough * 0.78 + ridges * 0.22
+    low, high = height.min(), height.max()
+    return (height - low) / (high - low)
+
+
+def hill_light(height):
+    """How much each pixel faces the light from the top left, about -1..1. Seamless."""
+    slope_x = np.roll(height, -1, 1) - np.roll(height, 1, 1)
+    slope_y = np.roll(height, -1, 0) - np.roll(height, 1, 0)
+    return np.clip((slope_x * 0.55 + slope_y * 0.8) * 28, -1, 1)
+
+
+def pick(ramp, level, grain=0.8):
+    """Ramp colours for a level 0..1 per pixel, dithered."""
+    top = len(ramp) - 1
+    steps = np.floor(np.round(level * top + 0.5 + dither(*level.shape) * grain, 6))
+    return ramp[np.clip(steps, 0, top).astype(int)]
+
+
+def ground():
+    """Return the picture, (HEIGHT, WIDTH, 3) uint8."""
+    height = height_map()
+    light = hill_light(height)
+    picture = pick(SEA, np.clip((height - 0.12) / (SHORE - 0.12), 0, 1) ** 2)
+    _glints(picture, height)
+    land = height > SHORE
+    coast = np.zeros_like(land)
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        coast |= np.roll(land, (dy, dx), (0, 1))
+    picture[coast & ~land] = FOAM
+    surf = (height > SHORE - 0.022) & (height < SHORE - 0.016) & (noise(WIDTH, HEIGHT, 60, 68, 9) > 0.42)
+    picture[surf] = FOAM
+    sand = pick(SAND, 0.5 + light * 0.6)
+    picture[land] = sand[land]
+    picture[land & (height < SHORE + 0.006)] = WET_SAND
+    meadow = pick(MEADOW, 0.62 + light * 0.55 - (height - BEACH) * 0.9)
+    green = height > BEACH + (noise(WIDTH, HEIGHT, 60, 68, 5) - 0.5) * 0.02
+    picture[green] = meadow[green]
+    rock = pick(ROCK, 0.42 + light * 0.7)
+    crags = height > CRAGS + (noise(WIDTH, HEIGHT, 60, 68, 6) - 0.5) * 0.05
+    picture[crags] = rock[crags]
+    _forest(picture, height, crags)
+    return picture
+
+
+def _glints(picture, height):
+    """Short horizontal wave crests, denser towards the shore."""
+    crest = noise(WIDTH, HEIGHT, 40, 270, 31)
+    group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, 41)
+    glint = (crest > GLINT_CUT) & (group > 0.5) & (height < SHORE - 0.03)
+    picture[glint] = np.minimum(picture[glint].astype(int) + (14, 17, 18), 255).astype(np.uint8)
+    trough = np.roll(glint, 1, 0) & ~glint
+    picture[trough] = (picture[trough] * 0.88).astype(np.uint8)
+
+
+def _forest(picture, height, crags):
+    """Tree crowns on a jittered grid, back to front, each with its shadow."""
+    random = np.random.default_rng(515)
+    thick = layered_noise(WIDTH, HEIGHT, 10, 11, 3, 61)
+    for row in range(0, HEIGHT, 4):
+        for column in range(0, WIDTH, 5):
+            jitter_x, jitter_y, size, lean = random.random(4)
+            x = (column + int(jitter_x * 5)) % WIDTH
+            y = (row + int(jitter_y * 4)) % HEIGHT
+            if height[y, x] < WOODS - 0.06 or crags[y, x] or thick[y, x] < 0.46:
+                continue
+            _crown(picture, x, y, 1.7 + size * 1.5, lean)
+
+
+def _crown(picture, x, y, radius, lean):
+    """One tree: a lit disc, wrapped round the edges of the picture."""
+    reach = int(radius) + 2
+    columns = np.arange(x - reach, x + reach + 1)
+    rows = np.arange(y - reach, y + reach + 1)
+    dx, dy = np.meshgrid(columns - x, rows - y)
+    disc = length(dx, dy) < radius
+    shade = shifted(disc, 1, 2) & ~disc
+    column_index, row_index = np.meshgrid(columns % WIDTH, rows % HEIGHT)
+    picture[row_index[shade], column_index[shade]] = TREES[0]
+    tone = np.clip(np.floor((-(dx * 0.5 + dy * 0.8) / radius) * 1.3 + 1.7 + lean * 0.8), 0, 3).astype(int)
+    picture[row_index[disc], column_index[disc]] = TREES[tone[disc]]

@@ -1,0 +1,203 @@
+"""The flags: what they mean and what is wrong with them. Exit 0 fine, 1 failed, 2 wrong use."""
+
+import argparse
+import json
+import sys
+import warnings
+
+from game import VERSION, startup
+from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
+from game.overlays import LAYER_NAMES
+from game.replay import load_replay
+
+DEFAULT_FRAMES = 600       # of a headless run that names no number: ten seconds
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse, but a mistake is one line and exit 2 through UsageError."""
+
+    def error(self, message):
+        """Called by argparse for every mistake it finds."""
+        if message.startswith("unrecognized arguments: "):
+            given = message.split(": ", 1)[1].split()[0]
+            flags = sorted(flag for flag in self._option_string_actions if flag.startswith("--"))
+            raise unknown_name("flag", given, flags)
+        raise UsageError(message)
+
+
+def run(arguments, registry):
+    """Run the program with these arguments and return the exit code."""
+    try:
+        options = read_options(arguments, registry)
+        return _dispatch(options, registry)
+    except (UsageError, ReplayDiverged, StrictFailure) as error:
+        startup.say(str(error))
+        return error.exit_code
+    except Warning as warning:       # --strict makes every warning an error
+        startup.say(f"--strict: {type(warning).__name__}: {warning}")
+        return StrictFailure.exit_code
+    except BrokenPipeError:          # the reader of our output went away (| head)
+        sys.stderr.close()
+        return 0
+    except KeyboardInterrupt:
+        return 130
+
+
+def make_parser():
+    """The parser, on its own for --help and for the tests."""
+    parser = Parser(prog="hitbox", description="2D collision you can feel, trust and see.", allow_abbrev=False)
+    add = parser.add_argument
+    add("--list", action="store_true", help="every scene: name, title, effects, features")
+    add("--scene", metavar="NAME", help="straight into a scene")
+    add("--headless", action="store_true", help="no window, no sound, no waiting")
+    add("--frames", metavar="N", type=int, help=f"stop after N steps of 1/60 s (headless: {DEFAULT_FRAMES})")
+    add("--seed", metavar="S", type=int, help="seed of all random numbers (0)")
+    add("--json", action="store_true", help="print one JSON object at the end (or the list)")
+    add("--bot", action="store_true", help="the scene's own player plays; its goals are checked at the end")
+    add("--record", metavar="FILE", help="write inputs, seed and digests")
+    add("--replay", metavar="FILE", help="play a recording; a divergence names the frame")
+    add("--overlay", metavar="LAYERS", help=f"comma-separated: {', '.join(LAYER_NAMES)}, all, none")
+    add("--broadphase", metavar="NAME", help="brute, sweep, hash or tree")
+    add("--solver", metavar="NAME", help="how overlaps are resolved")
+    add("--tier", metavar="NAME", help="the shape that sprites are tested with")
+    add("--screenshot", metavar="FILE", help="save the presented picture after the last frame (PNG)")
+    add("--profile", action="store_true", help="print a table of times at the end")
+    add("--warmup", action="store_true", help="compile every kernel now")
+    add("--strict", action="store_true", help="warnings, quarantined bodies and cap hits are failures")
+    add("--version", action="store_true", help="versions of the game and what it runs on")
+    return parser
+
+
+def read_options(arguments, registry):
+    """Parse and check. Raises UsageError with one line that names what is valid."""
+    options = make_parser().parse_args(arguments)
+    from physics import BROADPHASES, SOLVERS
+
+    _known(options.broadphase, "broad phase", tuple(BROADPHASES))
+    _known(options.solver, "solver", tuple(SOLVERS))
+    _known(options.scene, "scene", registry.names)
+    options.overlay = read_layers(options.overlay)
+    if options.frames is not None and options.frames < 1:
+        raise UsageError(f"--frames must be at least 1 (got {options.frames})")
+    if options.seed is not None and options.seed < 0:
+        raise UsageError(f"--seed must be 0 or more (got {options.seed})")
+    if options.replay and (options.bot or options.record):
+        raise UsageError("--replay brings its own input: leave out --bot and --record")
+    options.recording = load_replay(options.replay) if options.replay else None
+    _take_from_recording(options, registry)
+    _needs_scene(options, registry)
+    if options.tier is not None:
+        _check_tier(options, registry)
+    return options
+
+
+def _known(name, what, valid):
+    if name is not None and name not in valid:
+        raise unknown_name(what, name, valid)
+
+
+def read_layers(text):
+    """"bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
+    if text is None:
+        return None
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if names == ["all"]:
+        return LAYER_NAMES
+    if names == ["none"]:
+        return ()
+    for name in names:
+        _known(name, "overlay", (*LAYER_NAMES, "all", "none"))
+    return tuple(names)
+
+
+def _take_from_recording(options, registry):
+    """A replay names its scene, seed and switches; what the command line names too goes first."""
+    recording = options.recording
+    if recording is None:
+        return
+    if options.scene not in (None, recording.scene):
+        raise UsageError(f"{options.replay} is a recording of {recording.scene}, not of {options.scene}")
+    _known(recording.scene, "scene", registry.names)
+    options.scene = recording.scene
+    options.seed = recording.seed if options.seed is None else options.seed
+    options.broadphase = options.broadphase or recording.broadphase
+    options.solver = options.solver or recording.solver
+    options.tier = options.tier or recording.tier
+
+
+def _needs_scene(options, registry):
+    needing = [flag for flag in ("headless", "bot", "record", "screenshot", "profile")
+               if getattr(options, flag)]
+    if needing and options.scene is None:
+        raise UsageError(f"--{needing[0]} needs --scene; valid: {', '.join(registry.names)}")
+    if options.json and not (options.scene or options.list):
+        raise UsageError(f"--json needs --list or --scene; valid scenes: {', '.join(registry.names)}")
+
+
+def _check_tier(options, registry):
+    from physics import TIERS
+
+    _known(options.tier, "tier", TIERS)
+    if options.scene is None:
+        raise UsageError(f"--tier needs --scene; valid: {', '.join(registry.names)}")
+    valid = registry.scene_class(options.scene).tiers
+    if not valid:
+        raise UsageError(f"--tier: {options.scene} has no sprite bodies to test at another tier")
+    if options.tier not in valid:
+        raise UsageError(f"--tier: {options.scene} cannot use {options.tier}; valid: {', '.join(valid)}")
+
+
+def make_scene(options, registry):
+    """The scene that the options ask for."""
+    scene_class = registry.scene_class(options.scene)
+    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier)
+
+
+def _dispatch(options, registry):
+    import physics
+
+    if options.strict:
+        warnings.simplefilter("error")
+    if options.version:
+        return _print_version()
+    startup.say(startup.pygame_note())
+    startup.say(startup.numba_note(physics.JIT))
+    if options.list:
+        return _print_list(options, registry)
+    if options.warmup:
+        from game.warmup import warm_up_all
+
+        return warm_up_all(registry)
+    if options.headless:
+        from game.headless import run_headless
+
+        return run_headless(options, registry)
+    from game.app import run_app
+
+    return run_app(options, registry)
+
+
+def _print_version():
+    import numpy
+    import physics
+    import pygame
+    from game.compat import pygame_name
+
+    sdl = ".".join(str(part) for part in pygame.get_sdl_version())
+    compiled = "compiled kernels" if physics.JIT else "plain kernels"
+    print(f"Hitbox {VERSION} ({pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
+          f"Python {sys.version.split()[0]})")
+    return 0
+
+
+def _print_list(options, registry):
+    classes = registry.all_classes()
+    if options.json:
+        print(json.dumps([{"name": c.name, "title": c.title, "effects": c.effects.names(),
+                           "features": list(c.features)} for c in classes]))
+        return 0
+    for c in classes:
+        print(f"{c.name:18} {c.title}")
+        print(f"{'':18} effects: {', '.join(c.effects.names()) or 'none'}")
+        print(f"{'':18} {', '.join(c.features)}")
+    return 0

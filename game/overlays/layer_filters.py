@@ -1,0 +1,62 @@
+"""Filters by colour: one colour per (membership, mask), with the pairs of kinds that may meet."""
+
+import numpy as np
+
+from game.colors import FOG, PINK, SERIES
+from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
+from physics import debug
+
+KINDS_LISTED = 6           # lines in the legend; a further line counts the rest
+
+
+class Filters:
+    """Each shape's box, inset, in the colour of its filter. Two kinds meet if each is in the other's mask."""
+
+    name, title, key, color = "filters", "Filters by colour", "7", PINK
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.kinds = {}            # (membership, mask) -> [colour, count]
+        self.drawn = self.total = self.filtered = 0
+        self.room = BOX_BUDGET // views
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        rows, shapes = debug.bounds(world), debug.shape_rows(world)
+        self.total += len(rows)
+        self.filtered += int(world.profile.counters["filtered"])
+        if len(rows) == 0:
+            return
+        colors = np.empty(len(rows), dtype=object)
+        pairs = np.column_stack((shapes["membership"].astype(np.int64), shapes["mask"].astype(np.int64)))
+        kinds, which, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
+        which = which.reshape(-1)
+        for index, (membership, mask) in enumerate(kinds.tolist()):
+            kind = self.kinds.setdefault((membership, mask), [SERIES[len(self.kinds) % len(SERIES)], 0])
+            kind[1] += int(counts[index])
+            for row in np.flatnonzero(which == index):
+                colors[row] = kind[0]
+        seen = np.flatnonzero(lens.seen(rows))[: self.room]
+        self.drawn += len(seen)
+        inset = 1.0 / max(lens.scale, 1.0)
+        inner = rows[seen] + np.array([inset, inset, -inset, -inset])
+        inner[:, 2:] = np.maximum(inner[:, 2:], inner[:, :2])
+        draw_boxes(frame, lens, inner, colors[seen].tolist())
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        lines = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
+        listed = list(self.kinds.items())
+        for (membership, mask), (color, count) in listed[:KINDS_LISTED]:
+            lines.append((color, f"{count} x {_bits(membership)} meets {_bits(mask)}"))
+        if len(listed) > KINDS_LISTED:
+            lines.append((FOG, f"and {len(listed) - KINDS_LISTED} more"))
+        return lines
+
+
+def _bits(word):
+    """Bits as short text: numbers of the set ones, "all" for a full word."""
+    if word in (0xFFFFFFFF, 0xFFFF):
+        return "all"
+    bits = [str(i) for i in range(32) if word >> i & 1]
+    return "+".join(bits) if 0 < len(bits) <= 4 else f"0x{word:X}" if bits else "none"

@@ -1,0 +1,99 @@
+"""Pixel masks as they are tested, and the pixels that the AND of two masks leaves.
+
+Drawn on the canvas, before it is scaled: a mask pixel is a canvas pixel, so the overlay lies exactly on
+the sprite.
+"""
+
+from collections import OrderedDict
+
+import numpy as np
+import pygame
+
+from game.colors import BLUE, YELLOW
+from game.compat import blit_many
+from physics import debug
+
+FILL = (70, 140, 230, 96)
+EDGE = (150, 210, 255, 255)
+HIT = (255, 250, 150, 255)
+CACHE_SIZE = 512           # tinted masks kept; a turning sprite has one per angle bucket
+
+
+class Masks:
+    """Every mask in blue with a light edge; pixels that two masks share in yellow."""
+
+    name, title, key, color = "masks", "Masks, shared pixels", "5", BLUE
+    on_canvas = True
+
+    def __init__(self):
+        self.tinted = OrderedDict()
+        self.begin()
+
+    def begin(self, views=1):
+        """Start a picture of so many views."""
+        self.drawn = self.total = self.lit = 0
+
+    def draw(self, canvas, camera, world):
+        """Draw one world on the canvas. A zoomed-out view is left out: its pixels are not the mask's."""
+        if camera.zoom != 1.0:
+            return
+        left, top = camera.view()
+        view = camera.viewport
+        pairs = []
+        for _, x, y, solid in debug.masks(world):
+            self.total += 1
+            place = (int(x) - left + view.x, int(y) - top + view.y)
+            if view.colliderect((*place, solid.shape[1], solid.shape[0])):
+                pairs.append((self._tinted(solid), place))
+        self.drawn += len(pairs)
+        canvas.surface.set_clip(view)
+        blit_many(canvas.surface, pairs)
+        canvas.surface.set_clip(None)
+        lit_x, lit_y = [], []
+        for x, y, shared in debug.mask_hits(world):
+            rows, columns = np.nonzero(shared)
+            self.lit += len(rows)
+            lit_x.append(columns + (int(x) - left + view.x))
+            lit_y.append(rows + (int(y) - top + view.y))
+        if lit_x:
+            self._light(canvas.surface, np.concatenate(lit_x), np.concatenate(lit_y), view)
+
+    def _light(self, surface, x, y, view):
+        seen = (x >= view.left) & (x < view.right) & (y >= view.top) & (y < view.bottom)
+        pixels = pygame.surfarray.pixels2d(surface)
+        pixels[x[seen], y[seen]] = surface.map_rgb(HIT)
+        del pixels      # unlocks the surface
+
+    def _tinted(self, solid):
+        """Masks hand out the same array for the same angle; it is kept with its image, so its id stays its own."""
+        kept, image = self.tinted.get(id(solid), (None, None))
+        if kept is not solid:
+            image = mask_image(solid)
+            self.tinted[id(solid)] = (solid, image)
+            if len(self.tinted) > CACHE_SIZE:
+                self.tinted.popitem(last=False)
+        else:
+            self.tinted.move_to_end(id(solid))
+        return image
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        return [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
+
+
+def mask_image(solid):
+    """A translucent image of a (h, w) bool mask with its edge pixels light."""
+    padded = np.pad(solid, 1)
+    inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
+    edge = solid & ~inner
+    image = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA)
+    colors = np.zeros((solid.shape[1], solid.shape[0], 3), dtype=np.uint8)
+    alpha = np.zeros((solid.shape[1], solid.shape[0]), dtype=np.uint8)
+    for part, color in ((solid & ~edge, FILL), (edge, EDGE)):
+        colors[part.T] = color[:3]
+        alpha[part.T] = color[3]
+    pygame.surfarray.blit_array(image, colors)
+    view = pygame.surfarray.pixels_alpha(image)
+    view[:] = alpha
+    del view            # unlocks the surface
+    return image

@@ -1,0 +1,46 @@
+"""Candidate pairs: what the broad phase and the filter let through to the narrow phase."""
+
+import numpy as np
+import pygame
+
+from game.colors import RED
+from physics import debug
+
+PAIR_BUDGET = 1500         # lines per picture; the note says how many pairs there are
+MISS = (150, 140, 190)
+
+
+class Pairs:
+    """A line per candidate pair: red where the narrow phase found a hit, grey where it did not."""
+
+    name, title, key, color = "pairs", "Candidate pairs", "4", RED
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = self.hits = 0
+        self.room = PAIR_BUDGET // views
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        rows = debug.pairs(world)
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        self.hits += int(np.count_nonzero(rows[:, 4]))
+        corners = np.column_stack((
+            np.minimum(rows[:, 0], rows[:, 2]), np.minimum(rows[:, 1], rows[:, 3]),
+            np.maximum(rows[:, 0], rows[:, 2]), np.maximum(rows[:, 1], rows[:, 3]),
+        ))
+        seen = np.flatnonzero(lens.seen(corners))
+        seen = seen[np.argsort(-rows[seen, 4], kind="stable")][: self.room]
+        self.drawn += len(seen)
+        x0, y0 = lens.points(rows[seen, 0], rows[seen, 1])
+        x1, y1 = lens.points(rows[seen, 2], rows[seen, 3])
+        starts, ends = np.column_stack((x0, y0)).tolist(), np.column_stack((x1, y1)).tolist()
+        line, surface = pygame.draw.line, frame.surface
+        for i in reversed(range(len(seen))):         # hits last, on top
+            line(surface, RED if rows[seen[i], 4] else MISS, starts[i], ends[i])
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        return [(self.color, f"pairs {self.drawn} of {self.total}, {self.hits} hit")]

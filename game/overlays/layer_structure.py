@@ -1,0 +1,86 @@
+"""The broad phase's own structure: cells of the hash, boxes of the tree by depth, intervals of the sweep."""
+
+import numpy as np
+
+from game.colors import BLUE, FOG, GREEN, PINK, SKY, YELLOW, faded
+from game.overlays.layer_bounds import draw_boxes
+from physics import debug
+
+RECT_BUDGET = 2500         # cells or tree boxes per picture; the note says how many there are
+INTERVAL_BUDGET = 1200     # intervals per picture
+LANES = 8                  # intervals of one axis are drawn in this many lanes, so that neighbours show
+DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE) for amount in (0.0, 0.25))
+
+
+class Structure:
+    """What each strategy keeps. Brute force keeps nothing, and says so."""
+
+    name, title, key, color = "structure", "Structure", "3", YELLOW
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.views = views
+        self.kinds = []
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        found = debug.structure(world)
+        self.kinds.append(found.kind)
+        self._rects(frame, lens, found)
+        self._intervals(frame, lens, found.intervals)
+
+    def _rects(self, frame, lens, found):
+        rows = found.rects
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        seen = np.flatnonzero(lens.seen(rows))
+        # Too many for the budget: of a tree the upper boxes, of cells every so manieth.
+        seen = seen[np.argsort(found.depth[seen], kind="stable")] if found.kind == "tree" else seen
+        seen = seen[: RECT_BUDGET // self.views] if found.kind == "tree" else thinned(seen, RECT_BUDGET // self.views)
+        self.drawn += len(seen)
+        depth = found.depth[seen]
+        colors = [DEPTHS[d % len(DEPTHS)] for d in depth.tolist()]
+        draw_boxes(frame, lens, rows[seen], colors)
+
+    def _intervals(self, frame, lens, rows):
+        """Bars along the top (x axis) and the left (y axis) of the view."""
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        axis = rows[:, 0].astype(int)
+        low = np.where(axis == 0, rows[:, 1] * lens.scale + lens.dx, rows[:, 1] * lens.scale + lens.dy)
+        high = np.where(axis == 0, rows[:, 2] * lens.scale + lens.dx, rows[:, 2] * lens.scale + lens.dy)
+        clip = lens.clip
+        start = np.where(axis == 0, clip.left, clip.top)
+        end = np.where(axis == 0, clip.right, clip.bottom)
+        seen = thinned(np.flatnonzero((high >= start) & (low <= end)), INTERVAL_BUDGET // self.views)
+        self.drawn += len(seen)
+        thick = max(1, frame.scale - 1)
+        surface = frame.surface
+        low = np.maximum(low, start).astype(int).tolist()
+        high = np.minimum(np.maximum(high, low), end).astype(int).tolist()
+        for lane, i in enumerate(seen.tolist()):
+            shift = (lane % LANES) * (thick + 1) + 1
+            length = max(high[i] - low[i], 1)
+            if axis[i] == 0:
+                surface.fill(YELLOW, (low[i], clip.top + shift, length, thick))
+            else:
+                surface.fill(PINK, (clip.left + shift, low[i], thick, length))
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        kinds = "/".join(dict.fromkeys(self.kinds))
+        if self.total == 0:
+            return [(FOG, f"{kinds}: keeps no structure")]
+        parts = {"hash": "cells", "tree": "tree boxes", "sweep": "intervals"}
+        what = parts[self.kinds[0]] if len(set(self.kinds)) == 1 and self.kinds[0] in parts else "parts"
+        return [(self.color, f"{kinds}: {self.drawn} of {self.total} {what}")]
+
+
+def thinned(rows, room):
+    """At most `room` of the rows, evenly spread over all."""
+    if len(rows) <= room:
+        return rows
+    return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

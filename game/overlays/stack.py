@@ -1,0 +1,124 @@
+"""The stack of overlay layers over one scene: which are on, drawing them, and their legend."""
+
+import pygame
+
+from game.colors import NIGHT, PAPER, faded
+from game.draw import SMALL
+from game.overlays.layer_bounds import Bounds, Motion
+from game.overlays.layer_contacts import Contacts
+from game.overlays.layer_filters import Filters
+from game.overlays.layer_masks import Masks
+from game.overlays.layer_pairs import Pairs
+from game.overlays.layer_structure import Structure
+from game.overlays.layer_times import Times
+
+TIMES_SIZE = (250, 62)     # of the floating graph, in text pixels (frame pixels / text scale)
+
+
+class Overlays:
+    """`on` is the set of layer names switched on."""
+
+    def __init__(self, on=()):
+        self.layers = (Bounds(), Motion(), Structure(), Pairs(), Masks(), Contacts(), Filters(), Times())
+        self.on = set(on)
+
+    @property
+    def times(self):
+        """The layer that keeps a history, to be told of every step."""
+        return self.layers[-1]
+
+    def toggle(self, name):
+        """Switch a layer."""
+        self.on ^= {name}
+
+    def toggle_all(self):
+        """All off if any is on, else all on."""
+        self.on = set() if self.on else {layer.name for layer in self.layers}
+
+    def shows_geometry(self):
+        """True if a layer lies on the world: sprites are then drawn at the exact poses it shows."""
+        return bool(self.on - {"times"})
+
+    def draw_on_canvas(self, canvas, scene):
+        """Layers that are exact to the canvas pixel; before the canvas is scaled."""
+        for layer in self._active(on_canvas=True):
+            layer.begin(len(scene.views()))
+            for world, camera in scene.views():
+                layer.draw(canvas, camera, world)
+
+    def draw_on_frame(self, frame, scene):
+        """Layers at window resolution, each view clipped to its part of the picture."""
+        surface = frame.surface
+        for layer in self._active(on_canvas=False):
+            layer.begin(len(scene.views()))
+            for world, camera in scene.views():
+                lens = frame.lens(camera)
+                surface.set_clip(lens.clip)
+                layer.draw(frame, lens, world)
+            surface.set_clip(None)
+
+    def draw_labels(self, frame):
+        """Text that follows things, last: it takes only the places that are left."""
+        for layer in self._active(on_canvas=False):
+            if hasattr(layer, "draw_labels"):
+                layer.draw_labels(frame)
+
+    def legend(self):
+        """(color, text) lines of all active layers, in the order of their keys."""
+        return [line for layer in self.layers
+                if layer.name in self.on and layer.name != "times" for line in layer.notes()]
+
+    def draw_floating(self, frame, legend_at=None):
+        """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
+        area = frame.area.clip(frame.rect)
+        scale = frame.text_scale
+        if "times" in self.on:
+            size = (min(TIMES_SIZE[0] * scale, area.width), TIMES_SIZE[1] * scale)
+            place = frame.free_place(size, _corners(area, size, 4 * scale))
+            if place is not None:
+                rect = pygame.Rect(place, size)
+                self.times.draw(frame, rect)
+                frame.reserve(rect)
+        lines = self.legend()
+        if not lines:
+            return
+        size = legend_size(frame, lines, scale)
+        places = _corners(area, size, 4 * scale)
+        if legend_at is not None:
+            places.insert(0, frame.from_canvas((*legend_at, 0, 0)).topleft)
+        place = frame.free_place(size, places)
+        if place is not None:
+            shade = pygame.Surface(size, pygame.SRCALPHA)
+            shade.fill((*faded(NIGHT, 0.5), 190))
+            frame.surface.blit(shade, place)
+            draw_legend(frame, lines, *place, scale)
+
+    def _active(self, on_canvas):
+        return [layer for layer in self.layers
+                if layer.name in self.on and layer.name != "times"
+                and getattr(layer, "on_canvas", False) == on_canvas]
+
+
+def legend_size(frame, lines, scale):
+    """Width and height of the legend with its margin."""
+    widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
+    return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
+
+
+def draw_legend(frame, lines, x, y, scale):
+    """A swatch and a text per line, from the top left (x, y)."""
+    for index, (color, text) in enumerate(lines):
+        top = y + 3 * scale + index * 7 * scale
+        frame.surface.fill(color, (x + 3 * scale, top, 3 * scale, 5 * scale))
+        frame.text(text, x + 8 * scale, top, PAPER, SMALL, scale)
+
+
+def _corners(area, size, margin):
+    """Places to try: down the left, down the right, along the bottom, then the middle of the top."""
+    left, right = area.left + margin, area.right - size[0] - margin
+    top, bottom = area.top + margin, area.bottom - size[1] - margin
+    middle_x, middle_y = (left + right) // 2, (top + bottom) // 2
+    rows = range(top, bottom + 1, 8 * max(1, margin // 4))
+    places = [(left, bottom), (right, bottom), (left, middle_y), (right, middle_y), (right, top), (left, top),
+              (middle_x, bottom), (middle_x, top)]
+    return places + [(x, y) for y in rows for x in (left, right)]

@@ -1,0 +1,71 @@
+"""One finished picture of a scene: canvas, scaling, overlays, panel. The same for a window and a screenshot."""
+
+import pygame
+
+from game.colors import INK
+from game.draw import Canvas
+from game.overlays.stack import draw_legend, legend_size
+from game.presenter import SCREENSHOT_SCALE, Presenter
+
+
+class Picture:
+    """Draws onto `surface`: the window's, or one of screenshot size."""
+
+    def __init__(self, surface=None):
+        if surface is None:
+            surface = pygame.Surface((480 * SCREENSHOT_SCALE, 270 * SCREENSHOT_SCALE))
+        self.canvas = Canvas()
+        self.presenter = Presenter(surface)
+
+    def draw_scene(self, scene, overlays, alpha=1.0, panel=None):
+        """Draw everything and return the frame. With geometry shown, sprites stand where the step left them."""
+        if overlays.shows_geometry():
+            alpha = 1.0
+        self.canvas.begin(INK)
+        scene.draw(self.canvas, alpha)
+        overlays.draw_on_canvas(self.canvas, scene)
+        self.presenter.docked = panel is not None
+        frame = self.presenter.present(self.canvas)
+        scene.draw_on_frame(frame)
+        overlays.draw_on_frame(frame, scene)
+        if panel is None:
+            overlays.draw_floating(frame, scene.legend_at)
+        else:
+            if self.presenter.crowded:
+                frame.begin()          # the panel covers the whole picture, and with it all text so far
+            panel.draw(frame, self.presenter.panel_rect)
+            draw_strip(frame, self.presenter.strip_rect, overlays)
+        overlays.draw_labels(frame)
+        return frame
+
+    def draw_screen(self, screen, alpha=1.0):
+        """Draw a title or menu screen."""
+        self.canvas.begin(INK)
+        screen.draw(self.canvas, alpha)
+        self.presenter.docked = False
+        return self.presenter.present(self.canvas)
+
+
+def draw_strip(frame, rect, overlays):
+    """The strip under a docked game: legend on the left, stage times on the right, whatever is on."""
+    scale = frame.text_scale
+    if rect.height < 40 * scale:
+        return
+    lines = overlays.legend()
+    left = rect.x + 4 * scale
+    if lines:
+        width, _ = legend_size(frame, lines, scale)
+        draw_legend(frame, lines, left, rect.y + 2 * scale, scale)
+        left += width + 4 * scale
+    graph = pygame.Rect(left, rect.y + 4 * scale, rect.right - left - 4 * scale, rect.height - 8 * scale)
+    if "times" in overlays.on and graph.width > 120 * scale:
+        overlays.times.draw(frame, graph)
+    frame.reserve(rect)
+
+
+def save_png(surface, path):
+    """Write a surface as PNG; raises OSError when that is not possible."""
+    try:
+        pygame.image.save(surface, str(path))
+    except pygame.error as error:
+        raise OSError(f"{path}: {error}") from error

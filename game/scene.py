@@ -1,0 +1,185 @@
+"""Scene: one class per file in scenes/. The same scene is played, tested headless, and measured.
+
+update() is one fixed step of 1/60 s: rules, world.step(), events. It is deterministic, touches no display
+and reads no clock. draw() changes nothing: not the state, not the random numbers. What is only seen
+(particles, curves, camera shake) lives outside state() and uses random numbers of its own.
+"""
+
+from dataclasses import dataclass
+from random import Random
+
+from game.camera import Camera
+from game.inputs import CHANGES
+from game.loop import STEP_SECONDS
+from game.particles import Particles
+from physics import BROADPHASES, Effects, World
+
+
+@dataclass(frozen=True)
+class Goal:
+    """One thing a scene must reach. `due`: the frame by which it must be met. `detail`: what is so far."""
+
+    name: str
+    due: int
+    met: bool
+    detail: str = ""
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A value the player may turn. `choices` names the whole numbers low, low + 1, ... when given."""
+
+    name: str
+    low: float
+    high: float
+    start: float
+    unit: str = ""
+    step: float = 1
+    choices: tuple = ()
+
+    def clamp(self, value):
+        """The nearest allowed value; whole when the step is whole."""
+        steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
+        value = min(self.low + steps * self.step, self.high)
+        return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
+
+    def show(self, value):
+        """The value as text."""
+        if self.choices:
+            return self.choices[int(value) - int(self.low)]
+        return f"{value:g}{' ' + self.unit if self.unit else ''}"
+
+
+class Scene:
+    """One level of subclasses, which set the class attributes and define each of DEFINED:
+
+    build(): make the worlds (add_world); called at the start and on every restart.
+    update(inputs): one fixed step.
+    draw(canvas, alpha): draw on the canvas, alpha 0..1 between the step before and the last.
+    check(): the scene's goals, a list of Goal.
+    bot(): the actions held in the next step, a frozenset of names, or a whole InputFrame.
+    state(): the scene's own state for the digest, a flat tuple of ints, floats, bools and strings.
+    """
+
+    DEFINED = ("build", "update", "draw", "check", "bot", "state")
+
+    name = ""                  # as in scenes/__init__.py
+    title = ""
+    about = ""                 # one sentence for the menu
+    effects = Effects()
+    broadphase = "hash"
+    solver = None              # None: the World's own choice
+    features = ()              # short phrases for the menu and --list
+    sliders = ()
+    actions = ()               # (what to press, what it does) pairs for the help line
+    tiers = ()                 # names of the tiers the scene's sprites can be tested at; the first is the start
+    overlays = ()              # overlay layers on from the start
+    legend_at = None           # canvas (x, y) where the overlays' legend goes if it is free
+    hides_pointer = True
+    switches_broadphase = True # False: the scene's worlds have their own
+
+    def __init_subclass__(cls):
+        missing = [name for name in cls.DEFINED if not hasattr(cls, name)]
+        if missing:
+            raise TypeError(f"scene {cls.__name__} must define {', '.join(missing)}")
+
+    def __init__(self, seed=0, broadphase=None, solver=None, tier=None):
+        self.seed = seed
+        self.broadphase = broadphase or type(self).broadphase
+        self.solver = solver or type(self).solver
+        self.tier = tier or (self.tiers[0] if self.tiers else None)
+        self.narrowphase = self.effects.narrowphase
+        self.values = {slider.name: slider.start for slider in self.sliders}
+        self.particles = Particles(seed)
+        self.restart()
+
+    def restart(self):
+        """Back to the first frame with the same seed. Sliders and switches keep what was chosen."""
+        self.frame = 0
+        self.random = Random(self.seed)
+        self.cues = []         # (sound, canvas x, volume) of this step; the app plays them
+        self.worlds = []
+        self.camera = Camera()
+        self.particles.clear()
+        self.build()
+
+    def add_world(self, effects=None, broadphase=None, **settings):
+        """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds."""
+        effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
+        strategy = BROADPHASES[broadphase or self.broadphase]()
+        settings.setdefault("seed", self.seed + len(self.worlds))
+        world = World(effects, strategy, self.solver, **settings)
+        self.worlds.append(world)
+        return world
+
+    @property
+    def world(self):
+        """The first world."""
+        return self.worlds[0]
+
+    def step(self, inputs):
+        """One fixed step: changes from the panel first, then the scene's own update."""
+        self.cues.clear()
+        for name, value in inputs.now.changes:
+            self.change(name, value)
+        self.camera.begin_step(STEP_SECONDS)
+        self.update(inputs)
+        self.particles.step(STEP_SECONDS)
+        self.frame += 1
+
+    def change(self, name, value):
+        """Apply one change that came with the input. An unknown name or value raises ValueError."""
+        if name.startswith("slider:") and name[7:] in self.values:
+            self.change_slider(name[7:], value)
+        elif name == "broadphase" and value in BROADPHASES:
+            self.set_broadphase(value)
+        elif name == "narrowphase" and isinstance(value, bool):
+            self.set_narrowphase(value)
+        elif name == "tier" and value in self.tiers:
+            self.set_tier(value)
+        elif name == "restart":
+            self.restart()
+        else:
+            valid = ", ".join((*CHANGES, *(f"slider:{n}" for n in self.values)))
+            raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
+
+    def change_slider(self, name, value):
+        """Set a slider. A scene whose worlds depend on it overrides this and calls super first."""
+        slider = next(s for s in self.sliders if s.name == name)
+        self.values[name] = slider.clamp(value)
+
+    def set_broadphase(self, name):
+        """Switch the broad phase of every world, mid-game."""
+        self.broadphase = name
+        if self.switches_broadphase:
+            for world in self.worlds:
+                world.broadphase = BROADPHASES[name]()
+
+    def set_narrowphase(self, on):
+        """Stop at boxes, or do not, mid-game."""
+        self.narrowphase = on
+        for world in self.worlds:
+            world.set_narrowphase(on)
+
+    def set_tier(self, name):
+        """Test the bodies that have a tier at another one, mid-game; new ones are to be added with self.tier."""
+        self.tier = name
+        for world in self.worlds:
+            for identity in world.bodies["id"].tolist():
+                body = world.body(identity)
+                if body.tier is not None:
+                    body.tier = name
+
+    def play(self, sound, x=None, volume=1.0):
+        """Ask for a sound effect. x: canvas position for the pan; None: the middle."""
+        self.cues.append((sound, x, volume))
+
+    def views(self):
+        """(world, camera) of each picture on the canvas, for overlays."""
+        return [(self.world, self.camera)]
+
+    def draw_on_frame(self, frame):
+        """Draw at window resolution, under the overlays (curves, thin lines). Most scenes have nothing here."""
+
+    def observe(self):
+        """Note timings after a step, for curves. Never part of the state."""

@@ -1,0 +1,144 @@
+"""Sprites from the atlas files of assets/images, and sprites turned to exactly the pixels that collide."""
+
+import json
+from dataclasses import dataclass
+from functools import lru_cache
+from math import floor
+
+import numpy as np
+import pygame
+
+from game.errors import FileError
+from game.places import IMAGES
+from physics import PixelMask
+
+
+@dataclass(frozen=True)
+class Animation:
+    """Frames at a steady rate."""
+
+    images: tuple
+    names: tuple
+    fps: float
+
+    def index_at(self, seconds, loop=True):
+        """Which frame is shown after so many seconds. Without loop the last one stays."""
+        number = int(seconds * self.fps)
+        return number % len(self.images) if loop else min(number, len(self.images) - 1)
+
+    def at(self, seconds, loop=True):
+        """The image shown after so many seconds."""
+        return self.images[self.index_at(seconds, loop)]
+
+    @property
+    def seconds(self):
+        """How long one round lasts."""
+        return len(self.images) / self.fps
+
+
+class Atlas:
+    """One sheet: images by name, animations by name, and a PixelMask per image, made once."""
+
+    def __init__(self, path, images, animations):
+        self.path, self.images, self.animations = path, images, animations
+        self.masks = {}
+
+    def __getitem__(self, name):
+        """The image of a frame. Raises ValueError naming the sheet for an unknown frame."""
+        if name not in self.images:
+            raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
+        return self.images[name]
+
+    def animation(self, name):
+        """An animation. Raises ValueError naming the sheet for an unknown one."""
+        if name not in self.animations:
+            raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
+        return self.animations[name]
+
+    def mask(self, name):
+        """The pixels of a frame as a PixelMask about its centre."""
+        if name not in self.masks:
+            self.masks[name] = PixelMask.from_surface(self[name])
+        return self.masks[name]
+
+
+def load_image(path):
+    """A picture, converted for fast blits when there is a display. Raises FileError."""
+    try:
+        image = pygame.image.load(str(path))
+    except (OSError, pygame.error) as error:
+        raise FileError(path, "picture", f"{error}; rebuild it with: python -m assets.build") from error
+    return image.convert_alpha() if pygame.display.get_surface() else image
+
+
+@lru_cache(maxsize=None)
+def load_backdrop(name):
+    """assets/images/<name>.png as one picture."""
+    return load_image(IMAGES / f"{name}.png")
+
+
+@lru_cache(maxsize=None)
+def load_atlas(name):
+    """The sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
+    path = IMAGES / f"{name}.json"
+    sheet = load_image(IMAGES / f"{name}.png")
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+        images = {
+            frame: sheet.subsurface((place["x"], place["y"], place["w"], place["h"])).copy()
+            for frame, place in table["frames"].items()
+        }
+        animations = {
+            title: Animation(tuple(images[f] for f in entry["frames"]), tuple(entry["frames"]), entry["fps"])
+            for title, entry in table["animations"].items()
+        }
+    except (OSError, ValueError, KeyError) as error:
+        raise FileError(path, "atlas", f"{error!r}; rebuild it with: python -m assets.build") from error
+    return Atlas(path, images, animations)
+
+
+class TurnedSprites:
+    """A sprite at any angle, drawn from exactly the pixels its mask tests: no fringe that does not hit."""
+
+    def __init__(self, image, mask):
+        self.image, self.mask = image, mask
+        self.cache = {}
+
+    def draw(self, canvas, camera, x, y, angle, alpha=1.0):
+        """Draw with the mask's origin at world (x, y), as the physics places it on the pixel grid."""
+        image, origin = self.at(angle)
+        left, top = camera.view(alpha)
+        place_x = floor(x - origin[0] + 0.5) - left + camera.viewport.x
+        place_y = floor(y - origin[1] + 0.5) - top + camera.viewport.y
+        canvas.surface.blit(image, (place_x, place_y))
+
+    def at(self, angle):
+        """(image, origin in it) at the angle bucket nearest to `angle` [rad]."""
+        turned = self.mask.turned(angle)
+        if id(turned) not in self.cache:
+            # The mask keeps its Turned objects for good, so their ids stay theirs.
+            self.cache[id(turned)] = (pick_pixels(self.image, turned), turned.origin)
+        return self.cache[id(turned)]
+
+
+def pick_pixels(image, turned):
+    """A surface of the turned mask's size with each solid pixel taken from its source pixel."""
+    height, width = turned.solid.shape
+    out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
+    rows, columns = np.nonzero(turned.solid)
+    source = (turned.source_x[rows, columns], turned.source_y[rows, columns])
+    colors = np.zeros((out.get_width(), out.get_height(), 3), dtype=np.uint8)
+    colors[columns, rows] = pygame.surfarray.array3d(image)[source]
+    pygame.surfarray.blit_array(out, colors)
+    alpha = pygame.surfarray.pixels_alpha(out)
+    alpha[:] = 0
+    alpha[columns, rows] = 255
+    del alpha       # unlocks the surface
+    return out
+
+
+def lit(image, amount=110):
+    """A copy made brighter by `amount` 0..255: the flash of a thing that was hit."""
+    copy = image.copy()
+    copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)
+    return copy

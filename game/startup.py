@@ -1,0 +1,69 @@
+"""Checks that must speak before anything heavy is imported: one clear line each.
+
+Old syntax on purpose (see main.py). `*_problem` returns a line that stops the program or "";
+`*_note` returns a line worth saying on the way in or "".
+"""
+
+import os
+import sys
+
+OLDEST_PYTHON = (3, 11)
+INSTALL = "python -m pip install -e ."
+
+
+def python_problem(version, executable):
+    """Say that this Python is too old, and which one it is; "" when it is new enough."""
+    if tuple(version[:2]) >= OLDEST_PYTHON:
+        return ""
+    return "Python %d.%d or newer is needed; this is %d.%d.%d (%s)" % (
+        OLDEST_PYTHON + tuple(version[:3]) + (executable,)
+    )
+
+
+def package_problem():
+    """Name the first package that is missing and how to install it; "" when all are there."""
+    from importlib.util import find_spec
+
+    for module, package in (("numpy", "numpy"), ("pygame", "pygame-ce")):
+        if find_spec(module) is None:
+            return "the package %s is not installed; run: %s" % (package, INSTALL)
+    return ""
+
+
+def installed(package):
+    """True when a distribution of that name is installed in this environment."""
+    from importlib import metadata
+
+    try:
+        metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return False
+    return True
+
+
+def pygame_note(is_installed=installed):
+    """Warn when pygame and pygame-ce are both there: they overwrite each other's files."""
+    if is_installed("pygame") and is_installed("pygame-ce"):
+        return (
+            "both pygame and pygame-ce are installed and share one import name; keep one: "
+            "python -m pip uninstall -y pygame pygame-ce && python -m pip install pygame-ce"
+        )
+    return ""
+
+
+def numba_note(jit):
+    """Say that the kernels run uncompiled. `jit`: physics.JIT."""
+    if jit:
+        return ""
+    return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
+
+
+def prepare_environment():
+    """Keep pygame's greeting off standard output, where --json prints its one object."""
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+
+
+def say(line):
+    """Print one line for the person at the terminal; never on standard output."""
+    if line:
+        sys.stderr.write("hitbox: " + line + "\n")

@@ -1,0 +1,28 @@
+"""Hitbox: the command line, nothing else. `python main.py --help` lists the flags.
+
+The syntax of this file and of game/startup.py stays that of old Pythons, so that the line which says
+"too old" can be printed by them. Everything else is imported after those checks.
+"""
+
+import sys
+
+
+def main(argv=None):
+    """Run the arcade and return the exit code: 0 fine, 1 a check failed, 2 wrong use."""
+    from game import startup
+
+    problem = startup.python_problem(sys.version_info, sys.executable) or startup.package_problem()
+    if problem:
+        sys.stderr.write("hitbox: " + problem + "\n")
+        return 2
+    startup.prepare_environment()
+
+    from game.command_line import run
+    from game.registry import Registry
+    from scenes import SCENES
+
+    return run(sys.argv[1:] if argv is None else argv, Registry(SCENES))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""The lab: one small scene per idea of the physics."""

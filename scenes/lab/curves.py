@@ -1,0 +1,58 @@
+"""Live curves at window resolution: one line per series, on a logarithmic scale, with the present values beside it."""
+
+from collections import deque
+from math import log10
+
+import pygame
+
+from game.colors import FOG, INK, SLATE
+from game.draw import SMALL
+
+HISTORY = 150          # steps kept: 2.5 seconds
+
+
+class Curves:
+    """note(values) once per step; draw() into a canvas rect. `names`: series -> colour."""
+
+    def __init__(self, title, names):
+        self.title, self.names = title, names
+        self.history = {name: deque(maxlen=HISTORY) for name in names}
+        self.smooth = {}
+
+    def note(self, values):
+        """Add one value per series; negative ones count as 0."""
+        for name, value in values.items():
+            self.history[name].append(max(float(value), 0.0))
+            before = self.smooth.get(name, value)
+            self.smooth[name] = before + (value - before) * 0.1
+
+    def draw(self, frame, canvas_rect):
+        """Draw ground, grid and curves; the title and the decades are written where there is room."""
+        rect = frame.from_canvas(canvas_rect)
+        scale = frame.text_scale
+        surface = frame.surface
+        surface.fill(INK, rect)
+        pygame.draw.rect(surface, SLATE, rect, 1)
+        frame.text(self.title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
+        plot = pygame.Rect(rect.x + 2, rect.y + 11 * scale, rect.width - 4, rect.height - 13 * scale)
+        top = max((max(values, default=0.0) for values in self.history.values()), default=0.0)
+        decades = max(1.0, log10(top + 1.0) * 1.08)
+        for decade in range(1, int(decades) + 1):
+            y = plot.bottom - plot.height * decade / decades
+            pygame.draw.line(surface, (52, 46, 76), (plot.left, y), (plot.right, y))
+            frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
+        for name, color in self.names.items():
+            values = self.history[name]
+            if len(values) < 2:
+                continue
+            step = plot.width / (HISTORY - 1)
+            x = plot.right - step * (len(values) - 1)
+            points = [(x + i * step, plot.bottom - plot.height * log10(value + 1.0) / decades)
+                      for i, value in enumerate(values)]
+            pygame.draw.lines(surface, color, False, points, max(1, frame.scale - 1))
+
+
+def _power(decade):
+    """10, 100, 1k, 10k, 100k, 1M ..."""
+    digits = 10 ** (decade % 3)
+    return f"{digits}{('', 'k', 'M', 'G')[decade // 3]}"

@@ -1,0 +1,221 @@
+"""Six kinds of thing, all pairs of kinds: which may meet? A pair needs a yes from both sides.
+
+What to see: each cell holds two discs that swing into each other, the row's kind on the left and the
+column's on the right. A click gives or takes the row's yes to the column. Only where both say yes do the
+discs touch; the broad phase drops all others before a pair is written, so they cost nothing later.
+"""
+
+from math import pi, sin
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SERIES, SLATE, WHITE, YELLOW, faded
+from game.draw import SMALL, TEXT
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from physics import Circle, Effects, Filter
+
+KINDS = ("player", "enemy", "shot", "enemy shot", "wall", "pick-up")
+MEETS = {               # whom each kind says yes to, at the start
+    "player": ("enemy", "enemy shot", "wall", "pick-up"),
+    "enemy": ("player", "shot", "wall"),
+    "shot": ("enemy", "wall"),
+    "enemy shot": ("player", "wall"),
+    "wall": ("player", "enemy", "shot", "enemy shot", "pick-up"),       # one-sided: pick-ups ignore walls
+    "pick-up": ("player",),
+}
+LEFT, TOP, CELL_WIDTH, CELL_HEIGHT = 72, 42, 40, 36
+RADIUS = 6.0
+APART, SWING = 15.0, 7.0       # [px] between the discs' centres: 8 to 22, touching at 12
+SLOP = 0.2                     # [px] a pair that touched may go on touching up to the physics' slop of 0.16 px
+SIDE_X = 322
+CELLS = [(row, column) for row in range(len(KINDS)) for column in range(len(KINDS))]
+BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}        # frame: cell
+
+
+class Filters(Scene):
+    """A grid of pairs, one body of each kind per cell."""
+
+    name = "lab/filters"
+    title = "Filters"
+    about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
+    effects = Effects(persist=True)
+    features = ("membership and mask, tested both ways", "filtered inside the broad phase, before a pair is written")
+    sliders = (Slider("speed", 0.2, 3.0, 1.0, step=0.1),)
+    actions = (("mouse", "click a cell"), ("arrows", "choose"), ("Space", "switch"))
+    legend_at = (322, 176)
+    hides_pointer = False
+
+    def build(self):
+        """The masks, then two discs per cell."""
+        self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
+        self.marked = (0, 1)
+        self.clock = 0.0
+        self.touching = np.zeros((len(KINDS), len(KINDS)), bool)
+        self.steps = self.wrong = self.filtered = self.met = self.clicks = 0
+        self.add_world()
+        self.fill()
+
+    def fill(self):
+        """All discs anew, with the present masks."""
+        self.world.clear()
+        self.cell_of = {}
+        for row, column in CELLS:
+            for kind in (row, column):
+                body = self.world.add_body(Circle(RADIUS), filter=Filter(1 << kind, self.masks[kind]))
+                self.cell_of[body.id] = (row, column)
+        self.place()
+
+    def place(self):
+        """Put every disc where it is at this moment."""
+        bodies = self.world.bodies
+        for number, (row, column) in enumerate(CELLS):
+            x, y = cell_center(row, column)
+            half = (APART + SWING * sin(2 * pi * self.clock + 0.9 * (row + column))) / 2
+            bodies["x"][2 * number], bodies["x"][2 * number + 1] = x - half, x + half
+            bodies["y"][2 * number : 2 * number + 2] = y
+
+    def update(self, inputs):
+        """Clicks and keys switch a cell; discs swing; contacts are compared with the table."""
+        cell = cell_at(*inputs.pointer)
+        if inputs.pointer_pressed and cell is not None:
+            self.marked = cell
+            self.switch(cell)
+        self._keys(inputs)
+        self.clock += self.values["speed"] / 60 / 2
+        self.place()
+        self.world.step()
+        self._judge()
+
+    def _keys(self, inputs):
+        row, column = self.marked
+        row += inputs.pressed("down") - inputs.pressed("up")
+        column += inputs.pressed("right") - inputs.pressed("left")
+        self.marked = (row % len(KINDS), column % len(KINDS))
+        if inputs.pressed("fire"):
+            self.switch(self.marked)
+
+    def switch(self, cell):
+        """Give or take the row's yes to the column."""
+        row, column = cell
+        self.masks[row] ^= 1 << column
+        self.clicks += 1
+        self.fill()
+
+    def says_yes(self, row, column):
+        """True if the row's mask holds the column."""
+        return bool(self.masks[row] >> column & 1)
+
+    def _judge(self):
+        """Every pair of discs that overlap and whose kinds agree must touch, and no other."""
+        self.touching[:] = False
+        for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
+            self.wrong += self.cell_of[a] != self.cell_of[b]
+            self.touching[self.cell_of[a]] = True
+        x = self.world.bodies["x"]
+        gap = x[1::2] - x[::2] - 2 * RADIUS
+        for number, (row, column) in enumerate(CELLS):
+            may = self.says_yes(row, column) and self.says_yes(column, row)
+            touch = bool(self.touching[row, column])
+            if gap[number] <= 0.0 or gap[number] > SLOP or not may:
+                self.wrong += touch != (may and gap[number] <= 0.0)
+        self.steps += 1
+        self.met += int(self.touching.sum())
+        self.filtered += self.world.profile.counters["filtered"]
+
+    def draw(self, canvas, alpha):
+        """The grid with its heads, and the words beside it."""
+        canvas.surface.fill(NIGHT)
+        canvas.text("FILTERS", 4, 4, GOLD)
+        canvas.text("row says yes to column?", LEFT + 240, 6, FOG, SMALL, align="right")
+        for index, kind in enumerate(KINDS):
+            x, y = cell_center(index, index)
+            canvas.text(kind, LEFT - 6, y - 4, SERIES[index], TEXT, align="right")
+            canvas.text(kind, x, TOP - 10, SERIES[index], SMALL, align="center")
+        for cell in CELLS:
+            self._draw_cell(canvas, cell)
+        self._draw_side(canvas)
+
+    def _draw_cell(self, canvas, cell):
+        row, column = cell
+        rect = cell_rect(row, column)
+        own, other = self.says_yes(row, column), self.says_yes(column, row)
+        ground = (24, 62, 58) if own and other else (66, 56, 30) if own or other else INK
+        canvas.surface.fill(ground, rect)
+        pygame.draw.rect(canvas.surface, WHITE if cell == self.marked else faded(SLATE, 0.5), rect, 1)
+        bodies = self.world.bodies
+        touch = self.touching[row, column]
+        for offset, kind in ((0, row), (1, column)):
+            body = bodies[2 * CELLS.index(cell) + offset]
+            place = (round(float(body["x"])), round(float(body["y"])))
+            pygame.draw.circle(canvas.surface, faded(SERIES[kind], 0.0 if own and other else 0.45), place, int(RADIUS))
+            pygame.draw.circle(canvas.surface, WHITE if touch else INK, place, int(RADIUS), 1)
+        for x, yes in ((rect.x + 3, own), (rect.right - 6, other)):
+            canvas.surface.fill(GREEN if yes else RED, (x, rect.bottom - 5, 3, 2))
+
+    def _draw_side(self, canvas):
+        row, column = self.marked
+        own, other = self.says_yes(row, column), self.says_yes(column, row)
+        lines = [
+            (KINDS[row], SERIES[row], TEXT), (f"member {bits(1 << row)}", FOG, SMALL),
+            (f"mask   {bits(self.masks[row])}", PAPER, SMALL), ("", FOG, SMALL),
+            (KINDS[column], SERIES[column], TEXT), (f"member {bits(1 << column)}", FOG, SMALL),
+            (f"mask   {bits(self.masks[column])}", PAPER, SMALL), ("", FOG, SMALL),
+            ("they meet" if own and other else "one yes is not enough" if own or other else "they pass",
+             GREEN if own and other else YELLOW if own or other else RED, TEXT),
+        ]
+        y = TOP
+        for text, color, font in lines:
+            if text:
+                canvas.text(text, SIDE_X, y, color, font)
+            y += 13 if font == TEXT else 9
+        counters = self.world.profile.counters
+        for name, value in (("filtered", counters["filtered"]), ("candidates", counters["candidates"]),
+                            ("touching", int(self.touching.sum()))):
+            y += 11
+            canvas.text(name, SIDE_X, y, FOG, SMALL)
+            canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
+
+    def check(self):
+        """Nobody touches whom it may not, and a click changes who may."""
+        return [
+            Goal("contacts are those both sides allow", 120, self.steps > 0 and self.wrong == 0,
+                 f"{self.wrong} wrong in {self.steps} steps"),
+            Goal("pairs are filtered", 120, self.filtered > 0, f"{self.filtered}"),
+            Goal("allowed pairs touch", 120, self.met > 0, f"{self.met}"),
+            Goal("a click changes a mask", 240, self.clicks >= 3, f"{self.clicks} clicks"),
+        ]
+
+    def bot(self):
+        """Three clicks: one yes taken, one given, the first given back."""
+        cell = BOT_CLICKS.get(self.frame)
+        if cell is None:
+            return frozenset()
+        x, y = cell_center(*cell)
+        return InputFrame(frozenset(), (round(x), round(y)), True)
+
+    def state(self):
+        """Masks and tallies."""
+        return (self.frame, *self.masks, *self.marked, self.clock, self.wrong, self.met, self.filtered, self.clicks)
+
+
+def cell_rect(row, column):
+    """The canvas rect of a cell."""
+    return pygame.Rect(LEFT + column * CELL_WIDTH, TOP + row * CELL_HEIGHT, CELL_WIDTH - 2, CELL_HEIGHT - 2)
+
+
+def cell_center(row, column):
+    """The middle of a cell, a little above its marks [px]."""
+    return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
+
+
+def cell_at(x, y):
+    """(row, column) under a canvas point, or None."""
+    column, row = (x - LEFT) // CELL_WIDTH, (y - TOP) // CELL_HEIGHT
+    return (row, column) if 0 <= row < len(KINDS) and 0 <= column < len(KINDS) else None
+
+
+def bits(word):
+    """The six bits of a word, lowest first, as the grid's columns run."""
+    return "".join("1" if word >> index & 1 else "0" for index in range(len(KINDS)))

@@ -1,0 +1,244 @@
+"""Two planes, four verdicts: circle, box, turned box and pixels. Which of them lie, and what does the truth cost?
+
+What to see: drag one plane along the other. The three cheap shapes say HIT while there is sky between the
+planes; the pixels say HIT when a pixel is shared. Beside each verdict stands what the test took.
+"""
+
+from math import hypot, pi
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene
+from game.sprites import TurnedSprites, load_atlas, load_backdrop
+from physics import Effects, debug
+
+SPRITES = ("large_plane_a", "large_plane_b")
+ARENA = pygame.Rect(0, 16, 316, 254)
+START = ((90.0, 150.0, 0.0), (226.0, 150.0, 0.6))
+TURN_NOTCH = 2 * pi / 64       # [rad] per wheel notch
+TURN_SPEED = 1.2               # [rad/s] with the keys
+MOVE_SPEED = 70.0              # [px/s] with the keys
+COPIES = 24                    # pairs off screen per tier: one pair alone would measure the call, not the test
+SPREAD = 1000.0                # [px] between copies: far beyond the reach of a plane
+COLORS = {"circle": ORANGE, "aabb": GREEN, "obb": SKY, "pixels": YELLOW}
+NAMES = {"circle": "circle", "aabb": "box", "obb": "turned box", "pixels": "pixels"}
+ROWS = ("circle", "aabb", "obb", "pixels")
+TABLE_X, TABLE_Y, ROW_HEIGHT, BAR_WIDTH = 324, 34, 40, 148
+WORDS = ("Drag a plane, turn it with the wheel.", "Cheap shapes say hit where sky", "is all that meets.")
+WORDS_Y = 240
+BOT_PATH = ((90, 150), (90, 60), (150, 84), (226, 150), (150, 216), (90, 150))
+BOT_LEG = 50                   # steps per leg of the bot's path
+
+
+class Masks(Scene):
+    """One world per tier with the two planes in it, and one per tier with copies, for the clock."""
+
+    name = "lab/masks"
+    title = "Masks"
+    about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
+    effects = Effects(response=True)       # for area, normal and depth; kinematic planes are pushed by nobody
+    features = ("pixel masks by bitwise AND, as drawn, at any angle", "bounds, circle and turned box beside them",
+                "what each verdict costs")
+    actions = (("mouse", "drag"), ("wheel", "turn"), ("arrows", "move"), ("Shift+arrows", "turn"),
+               ("Space", "other plane"))
+    overlays = ("masks", "contacts")
+    legend_at = (324, 196)
+    hides_pointer = False
+
+    def build(self):
+        """Eight worlds: four to look at, four to time."""
+        atlas = load_atlas("planes")
+        self.masks = [atlas.mask(name) for name in SPRITES]
+        self.sprites = [TurnedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
+        self.sky = load_backdrop("sky_dusk")
+        self.poses = [list(pose) for pose in START]
+        self.chosen, self.dragged, self.grip = 0, None, (0.0, 0.0)
+        self.shown, self.timed = {}, {}
+        for tier in ROWS:
+            self.shown[tier] = self._world(tier, 1)
+            self.timed[tier] = self._world(tier, COPIES)
+        self.cost = dict.fromkeys(ROWS, 0.0)
+        self.verdicts = dict.fromkeys(ROWS, False)
+        self.lies = dict.fromkeys(ROWS, 0)       # steps in which a tier said hit and the pixels did not
+        self.wrong = self.steps = self.apart = self.hits = 0
+
+    def _world(self, tier, pairs):
+        world = self.add_world()
+        for _ in range(pairs):
+            for mask in self.masks:
+                world.add_body(mask, kind="kinematic", tier=tier)
+        return world
+
+    def update(self, inputs):
+        """Move the planes, put them into every world, and ask all four tiers."""
+        self._hands(inputs)
+        for worlds, pairs in ((self.shown, 1), (self.timed, COPIES)):
+            for world in worlds.values():
+                self._place(world, pairs)
+                world.step()
+        self._judge()
+
+    def _hands(self, inputs):
+        x, y = inputs.pointer
+        if inputs.pointer_pressed and ARENA.collidepoint(x, y):
+            near = [hypot(x - px, y - py) for px, py, _ in self.poses]
+            which = int(near[1] < near[0])
+            if near[which] < reach(self.masks[which]):
+                self.chosen = self.dragged = which
+                self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
+        if not inputs.pointer_down:
+            self.dragged = None
+        pose = self.poses[self.chosen]
+        if self.dragged is not None:
+            pose[0], pose[1] = x + self.grip[0], y + self.grip[1]
+        pose[2] += inputs.wheel * TURN_NOTCH
+        if inputs.pressed("fire"):
+            self.chosen = 1 - self.chosen
+        side, rise = inputs.held("right") - inputs.held("left"), inputs.held("down") - inputs.held("up")
+        if inputs.held("focus"):
+            pose[2] += side * TURN_SPEED / 60
+        else:
+            pose[0] += side * MOVE_SPEED / 60
+            pose[1] += rise * MOVE_SPEED / 60
+        pose[0] = min(max(pose[0], ARENA.left + 20), ARENA.right - 20)
+        pose[1] = min(max(pose[1], ARENA.top + 20), ARENA.bottom - 20)
+
+    def _place(self, world, pairs):
+        bodies = world.bodies
+        shift = np.arange(pairs) * SPREAD
+        for which, (x, y, angle) in enumerate(self.poses):
+            bodies["x"][which::2] = x + shift
+            bodies["y"][which::2] = y
+            bodies["angle"][which::2] = angle
+
+    def _judge(self):
+        self.steps += 1
+        for tier, world in self.shown.items():
+            self.verdicts[tier] = len(world.contacts) > 0
+        truth = self.verdicts["pixels"]
+        self.wrong += truth != share_a_pixel(self.masks, self.poses)
+        for tier in ROWS:
+            self.lies[tier] += self.verdicts[tier] and not truth
+        self.hits += truth
+        self.apart += not any(self.verdicts.values())
+
+    def observe(self):
+        """The clock: one pair's share of what the copies took."""
+        for tier, world in self.timed.items():
+            spent = world.profile.stages["narrow_phase"] / COPIES * 1e6
+            before = self.cost[tier]
+            self.cost[tier] = spent if before == 0.0 else before + (spent - before) * 0.05
+
+    def views(self):
+        """The overlays show the world of the pixels."""
+        return [(self.shown["pixels"], self.camera)]
+
+    def draw(self, canvas, alpha):
+        """The sky, the planes, and the table of verdicts."""
+        canvas.surface.blit(self.sky, (0, 0))
+        for sprite, (x, y, angle) in zip(self.sprites, self.poses, strict=True):
+            sprite.draw(canvas, self.camera, x, y, angle)
+        canvas.surface.fill(INK, (ARENA.right, 0, 480 - ARENA.right, 270))
+        canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
+        canvas.text("MASKS", 4, 4, GOLD)
+        canvas.text("four verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
+        canvas.text("verdict", TABLE_X, TABLE_Y - 14, FOG, SMALL)
+        canvas.text("one test", 474, TABLE_Y - 14, FOG, SMALL, align="right")
+        for row, tier in enumerate(ROWS):
+            self._draw_row(canvas, tier, TABLE_Y + row * ROW_HEIGHT)
+        for number, line in enumerate(WORDS):
+            canvas.text(line, TABLE_X, WORDS_Y + number * 8, FOG, SMALL)
+
+    def _draw_row(self, canvas, tier, y):
+        verdict, color = self.verdicts[tier], COLORS[tier]
+        box = pygame.Rect(TABLE_X - 4, y - 4, 480 - TABLE_X, ROW_HEIGHT - 4)
+        canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
+        canvas.surface.fill(color, (box.x, box.y, 2, box.height))
+        canvas.text(NAMES[tier], TABLE_X + 2, y, color)
+        canvas.text("HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center")
+        cost = self.cost[tier]
+        canvas.text(f"{cost:.2f} us" if cost < 100 else f"{cost:,.0f} us", 474, y, PAPER, align="right")
+        canvas.text(self._remark(tier), TABLE_X + 2, y + 13, PAPER, SMALL)
+        dearest = max(self.cost.values()) or 1.0
+        canvas.surface.fill(INK, (TABLE_X + 2, y + 24, BAR_WIDTH, 3))
+        canvas.surface.fill(color, (TABLE_X + 2, y + 24, max(1, round(BAR_WIDTH * self.cost[tier] / dearest)), 3))
+
+    def _remark(self, tier):
+        contacts = self.shown[tier].contacts
+        if not self.verdicts[tier]:
+            return "apart"
+        depth = max(0.0, -float(contacts["separation"].min()))
+        if tier == "pixels":
+            return f"{int(contacts['area'].sum())} pixels shared, {depth:.1f} px deep"
+        says = "and so do the pixels" if self.verdicts["pixels"] else "but no pixel is shared"
+        return f"{depth:.0f} px deep, {says}"
+
+    def draw_on_frame(self, frame):
+        """The three simple shapes as thin lines: bright where they say hit."""
+        lens = frame.lens(self.camera)
+        frame.surface.set_clip(frame.from_canvas(ARENA))
+        width = max(1, frame.scale - 1)
+        for tier in ("circle", "aabb", "obb"):
+            color = COLORS[tier] if self.verdicts[tier] else faded(COLORS[tier], 0.45)
+            for outline in debug.outlines(self.shown[tier]):
+                self._draw_outline(frame.surface, lens, outline, color, width)
+        frame.surface.set_clip(None)
+
+    def _draw_outline(self, surface, lens, outline, color, width):
+        if outline[0] == "circle":
+            _, x, y, radius = outline
+            pygame.draw.circle(surface, color, lens.points(x, y), radius * lens.scale, width)
+        elif outline[0] == "polygon":
+            x, y = lens.points(outline[1][:, 0], outline[1][:, 1])
+            pygame.draw.lines(surface, color, True, np.column_stack((x, y)).tolist(), width)
+
+    def check(self):
+        """The pixels are right in every step, and each cheap shape was caught lying."""
+        return [
+            Goal("the pixel verdict equals a slow count", 60, self.steps > 0 and self.wrong == 0,
+                 f"{self.wrong} of {self.steps} steps differ"),
+            Goal("planes seen apart", 240, self.apart > 0, f"{self.apart} steps"),
+            Goal("planes seen hitting", 240, self.hits > 0, f"{self.hits} steps"),
+            *(Goal(f"the {NAMES[tier]} says hit where no pixel is shared", 300, self.lies[tier] > 0,
+                   f"{self.lies[tier]} steps") for tier in ("circle", "aabb", "obb")),
+        ]
+
+    def bot(self):
+        """Drag the first plane around and over the second, turning it now and then."""
+        leg, step = divmod(self.frame, BOT_LEG)
+        (ax, ay), (bx, by) = BOT_PATH[leg % len(BOT_PATH)], BOT_PATH[(leg + 1) % len(BOT_PATH)]
+        share = step / BOT_LEG
+        pointer = (round(ax + (bx - ax) * share), round(ay + (by - ay) * share))
+        return InputFrame(frozenset(), pointer, self.frame > 0, 1 if self.frame % 10 == 0 else 0)
+
+    def state(self):
+        """The poses and the tallies."""
+        poses = [value for pose in self.poses for value in pose]
+        return (self.frame, *poses, self.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
+
+
+def reach(mask):
+    """The farthest solid corner from the mask's origin [px]."""
+    left, top, right, bottom = mask.bounds
+    return max(hypot(x, y) for x in (left, right) for y in (top, bottom))
+
+
+def share_a_pixel(masks, poses):
+    """The slow truth: lay both turned pictures on one pixel grid and look for a pixel that is solid in both."""
+    boxes = []
+    for mask, (x, y, angle) in zip(masks, poses, strict=True):
+        turned = mask.turned(angle)
+        left, top = (int(np.floor(v - o + 0.5)) for v, o in zip((x, y), turned.origin, strict=True))
+        boxes.append((turned.solid, left, top))
+    (a, ax, ay), (b, bx, by) = boxes
+    left, top = max(ax, bx), max(ay, by)
+    right, bottom = min(ax + a.shape[1], bx + b.shape[1]), min(ay + a.shape[0], by + b.shape[0])
+    if left >= right or top >= bottom:
+        return False
+    part_a = a[top - ay : bottom - ay, left - ax : right - ax]
+    part_b = b[top - by : bottom - by, left - bx : right - bx]
+    return bool((part_a & part_b).any())

@@ -1,0 +1,105 @@
+"""The level as the game asks about it: the map's solid tiles as one body, and quick questions about single tiles."""
+
+from functools import lru_cache
+from math import floor
+
+from game.places import LEVELS
+from game.tilemap import load_tilemap
+from physics import Filter
+
+# Who is who. Two shapes meet if each one's membership is in the other's mask.
+TILES, HERO, WALKER, CRATE, PLATFORM, TRIGGER = 1, 2, 4, 8, 16, 32
+SOLIDS = TILES | CRATE | PLATFORM
+TILE_FILTER = Filter(TILES, HERO | WALKER | CRATE)
+HERO_FILTER = Filter(HERO, SOLIDS | WALKER | TRIGGER)
+WALKER_FILTER = Filter(WALKER, SOLIDS | HERO)
+CRATE_FILTER = Filter(CRATE, SOLIDS | HERO | WALKER)
+PLATFORM_FILTER = Filter(PLATFORM, HERO | WALKER | CRATE)
+TRIGGER_FILTER = Filter(TRIGGER, HERO)
+
+EMPTY, SOLID, PLANK, SLOPE = "empty", "solid", "one_way", "slope"
+
+
+class Level:
+    """A TileMap and its solid layer. Boxes are whole pixels: left, top, width, height."""
+
+    def __init__(self, tilemap):
+        self.map = tilemap
+        self.grid = self.map.grid("solid")
+        self.size = self.map.size
+        self.tile = self.map.tile_size
+        kinds = {number: self.map.kind_of(number) for number in self.map.tiles}
+        self.kinds = [[kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY
+                       for number in row] for row in self.map.layers["solid"].tolist()]
+        self.slopes = self.grid.slopes.tolist()
+        names = {number: tile.get("name") for number, tile in self.map.tiles.items()}
+        self.torches = [((column + 0.5) * self.tile, (row + 0.5) * self.tile)
+                        for row, line in enumerate(self.map.layers["decor"].tolist())
+                        for column, number in enumerate(line) if names.get(number) == "torch"]
+
+    def add_to(self, world):
+        """Put the tiles into a world as one static body."""
+        return world.add_body(self.grid, kind="static", filter=TILE_FILTER, user="tiles")
+
+    def kind(self, column, row):
+        """What a tile is. Beside the map there is rock, above and below it nothing."""
+        if not 0 <= column < self.map.columns:
+            return SOLID
+        return self.kinds[row][column] if 0 <= row < self.map.rows else EMPTY
+
+    def kind_at(self, x, y):
+        """What the tile at a point [px] is."""
+        return self.kind(floor(x / self.tile), floor(y / self.tile))
+
+    def surface(self, column, row, x):
+        """Top of a tile's ground at the column of pixels x [px], or None where it has none."""
+        kind = self.kind(column, row)
+        if kind == SOLID:
+            return row * self.tile
+        if kind != SLOPE:
+            return None
+        low, high = self.slopes[row][column]
+        share = min(max((x - column * self.tile) / self.tile, 0.0), 1.0)
+        return (row + 1 - low - (high - low) * share) * self.tile
+
+    def blocks(self, left, top, width, height):
+        """Whether a box overlaps rock or the ground of a slope. Planks are open from below, so they never do."""
+        bottom = top + height
+        for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
+            for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1):
+                kind = self.kind(column, row)
+                if kind == SOLID:
+                    return True
+                if kind == SLOPE:
+                    start = max(left, column * self.tile)
+                    end = min(left + width, (column + 1) * self.tile)
+                    highest = min(self.surface(column, row, start), self.surface(column, row, end))
+                    if bottom > highest:
+                        return True
+        return False
+
+    def on_plank(self, left, bottom, width):
+        """Whether feet at the height `bottom` stand on planks alone."""
+        if bottom % self.tile:
+            return False
+        row = bottom // self.tile
+        under = {self.kind(column, row)
+                 for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1)}
+        return PLANK in under and under <= {PLANK, EMPTY}
+
+    def drop_to_ground(self, x, y, most):
+        """How far below y the ground is at x [px], at most `most`. Planks do not count."""
+        row = floor(y / self.tile)
+        column = floor(x / self.tile)
+        while row * self.tile < y + most:
+            top = self.surface(column, row, x)
+            if top is not None and top >= y - 1e-9:
+                return min(top - y, most)
+            row += 1
+        return most
+
+
+@lru_cache(maxsize=4)
+def load_level(path=LEVELS / "platformer.tmj"):
+    """A level, read once: nothing in it changes while it is played. Raises FileError."""
+    return Level(load_tilemap(path))

@@ -1,0 +1,49 @@
+"""The accumulator: whole steps, nothing lost, nothing run away."""
+
+import pytest
+
+from game.loop import LONGEST_FRAME, SPEEDS, STEP_SECONDS, FixedStep
+
+
+def test_first_call_starts_the_clock():
+    assert FixedStep().advance(1000.0) == 0
+
+
+@pytest.mark.parametrize("rate", [30, 60, 144, 1000])
+def test_steps_follow_time_at_any_frame_rate(rate):
+    clock = FixedStep()
+    steps = sum(clock.advance(i / rate) for i in range(10 * rate + 1))
+    assert steps == pytest.approx(600, abs=1)
+    assert 0.0 <= clock.alpha < 1.0
+
+
+def test_a_stall_is_clamped():
+    clock = FixedStep()
+    clock.advance(0.0)
+    assert clock.advance(30.0) == int(LONGEST_FRAME / STEP_SECONDS)
+
+
+def test_time_running_backwards_makes_no_step():
+    clock = FixedStep()
+    clock.advance(5.0)
+    assert clock.advance(4.0) == 0
+
+
+def test_slow_motion_makes_fewer_steps():
+    clock = FixedStep()
+    clock.slower()
+    steps = sum(clock.advance(i / 60) for i in range(121))
+    assert clock.speed == SPEEDS[1] and steps == pytest.approx(60, abs=1)
+    clock.faster()
+    clock.faster()
+    assert clock.speed == 1.0
+
+
+def test_paused_steps_only_on_request():
+    clock = FixedStep()
+    clock.advance(0.0)
+    clock.paused = True
+    assert clock.advance(0.1) == 0
+    clock.request_step()
+    assert clock.advance(0.2) == 1
+    assert clock.advance(0.3) == 0 and clock.alpha == 1.0

@@ -1,0 +1,16 @@
+"""All pairs of closed boxes, by the double loop."""
+
+
+def touching_pairs(lower, upper):
+    """[(a, b), ...] a < b, sorted, of boxes given by their corners; equal borders touch."""
+    found = []
+    for a in range(len(lower)):
+        for b in range(a + 1, len(lower)):
+            if all(lower[a][k] <= upper[b][k] and lower[b][k] <= upper[a][k] for k in (0, 1)):
+                found.append((a, b))
+    return found
+
+
+def agree(a, b):
+    """Whether two (membership, mask) filters let each other through."""
+    return bool(a[0] & b[1]) and bool(b[0] & a[1])

@@ -1,0 +1,68 @@
+"""Exact outlines of shapes at a pose, as shapely geometry: an independent truth for overlap, depth and distance."""
+
+import math
+
+from shapely.geometry import MultiPoint, Point, Polygon, box
+from shapely.ops import unary_union
+
+
+def placed(points, pose):
+    """Points turned clockwise on the screen by pose[2] and moved."""
+    x, y, angle = pose
+    c, s = math.cos(angle), math.sin(angle)
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
+
+
+def polygon(points, pose):
+    """A convex polygon at a pose."""
+    return Polygon(placed(points, pose))
+
+
+def rectangle(width, height, pose):
+    """A box of full sizes around its centre at a pose."""
+    w, h = width / 2.0, height / 2.0
+    return polygon([(-w, -h), (w, -h), (w, h), (-w, h)], pose)
+
+
+def bounds_of(geometry):
+    """The AABB as a polygon."""
+    return box(*geometry.bounds)
+
+
+def pixels(solid, left, top):
+    """The union of pixel squares."""
+    return unary_union([box(left + i, top + j, left + i + 1, top + j + 1)
+                        for j, row in enumerate(solid) for i, pixel in enumerate(row) if pixel])
+
+
+def tiles(solid, slopes, size, x, y):
+    """The union of solid tiles and slopes (left, right heights as fractions) with the top left corner at x, y."""
+    parts = []
+    for j, row in enumerate(solid):
+        for i, full in enumerate(row):
+            left, right = (1.0, 1.0) if full else slopes[j][i]
+            if left > 0.0 or right > 0.0:
+                a, b, bottom = x + i * size, x + (i + 1) * size, y + (j + 1) * size
+                parts.append(MultiPoint([(a, bottom), (b, bottom), (a, bottom - left * size),
+                                         (b, bottom - right * size)]).convex_hull)
+    return unary_union(parts)
+
+
+def disc_gap(geometry, x, y, radius):
+    """Signed gap between a disc and a convex geometry: distance outside, minus the depth of the centre inside."""
+    point = Point(x, y)
+    inside = geometry.contains(point)
+    return (-geometry.exterior.distance(point) if inside else geometry.distance(point)) - radius
+
+
+def convex_depth(a, b):
+    """How deep two overlapping convex polygons are in each other: the least push along a face normal that parts them."""
+    least = math.inf
+    for first, second in ((a, b), (b, a)):
+        corners = list(first.exterior.coords)
+        turn = 1.0 if first.exterior.is_ccw else -1.0
+        for (x0, y0), (x1, y1) in zip(corners, corners[1:]):
+            length = math.hypot(x1 - x0, y1 - y0)
+            nx, ny = turn * (y1 - y0) / length, -turn * (x1 - x0) / length
+            least = min(least, -min(nx * (x - x0) + ny * (y - y0) for x, y in second.exterior.coords))
+    return least

@@ -1,0 +1,1 @@
+"""The physics from outside: public names only."""

@@ -1,0 +1,1 @@
+"""Scenes that must stay numerically stable."""
