@@ -8,7 +8,7 @@ BANNED_CALLS = {"math.hypot", "math.fmod", "np.bitwise_count", "math.pow", "math
 KERNEL_LINES, LONG_LINES = 60, 120
 LONG = {"collide_grid_pairs", "find_impacts", "find_in_cells", "place_changed", "compare_pairs", "project", "clip_edges",
         "collide_mask_polygon", "update_rectangles", "classify", "in_shape", "collide_mask_circle", "walk",
-        "carry_and_push", "sweep_grid", "sweep_pair", "tile_at", "write_contact"}      # colliders, solver passes, broad phases
+        "carry_and_push", "sweep_grid", "sweep_pair", "tile_at", "write_contact", "rebuild"}      # colliders, solver passes, broad phases
 
 
 def decorated(node):

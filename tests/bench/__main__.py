@@ -5,7 +5,7 @@ import importlib
 import os
 import sys
 
-NAMES = ("masks", "broadphase", "scenes")
+NAMES = ("masks", "broadphase")
 
 
 def main(arguments=None):

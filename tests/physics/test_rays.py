@@ -7,7 +7,7 @@ import pytest
 
 from physics import JIT, Bounds, Circle, Effects, Filter, PixelMask, Polygon, TileGrid, World
 
-EDGE = np.nextafter(1.0, 2.0)
+EDGE = 1.0 + 1e-12
 
 
 def world_of(*shapes, **options):

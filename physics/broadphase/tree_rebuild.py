@@ -1,0 +1,129 @@
+"""Builds the tree of the moving proxies anew by median splits: the least height there is, and tight boxes."""
+
+from physics.broadphase.tree_nodes import FREE, ROOT_MOVING, USED, refit, take_node
+from physics.jit import kernel, subkernel
+
+
+@subkernel
+def middle_of(nodes, leaf, axis):
+    """Twice the middle of a leaf's box along an axis [px]."""
+    n = nodes[leaf]
+    return n.lower_x + n.upper_x if axis == 0 else n.lower_y + n.upper_y
+
+
+@subkernel
+def select_median(nodes, first, last, middle, axis, leaves_inout):
+    """Reorder leaves first..last so that none before `middle` lies beyond it along the axis. Source: Hoare 1961."""
+    low = first
+    high = last
+    while low < high:
+        pivot = middle_of(nodes, leaves_inout[(low + high) // 2], axis)
+        i = low
+        j = high
+        while i <= j:
+            while middle_of(nodes, leaves_inout[i], axis) < pivot:
+                i += 1
+            while middle_of(nodes, leaves_inout[j], axis) > pivot:
+                j -= 1
+            if i <= j:
+                leaves_inout[i], leaves_inout[j] = leaves_inout[j], leaves_inout[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            high = j
+        elif middle >= i:
+            low = i
+        else:
+            return
+
+
+@subkernel
+def wider_axis(nodes, leaves, first, last):
+    """The axis along which the middles of the leaves spread more."""
+    low_x = middle_of(nodes, leaves[first], 0)
+    low_y = middle_of(nodes, leaves[first], 1)
+    high_x = low_x
+    high_y = low_y
+    for k in range(first + 1, last + 1):
+        x = middle_of(nodes, leaves[k], 0)
+        y = middle_of(nodes, leaves[k], 1)
+        low_x = min(low_x, x)
+        high_x = max(high_x, x)
+        low_y = min(low_y, y)
+        high_y = max(high_y, y)
+    return 0 if high_x - low_x >= high_y - low_y else 1
+
+
+@kernel
+def rebuild(
+    # read
+    leaf_of,
+    # write
+    leaves_out, spans_out, nodes_inout, state_inout,
+):
+    """Build the tree of the moving leaves anew by median splits: the least height there is, and tight boxes.
+
+    leaf_of (slots): leaf or -1; leaves_out (slots), spans_out (slots, 4): scratch. The inner nodes of the old tree are freed
+    first. O(n log n).
+    """
+    count = 0
+    for slot in range(len(leaf_of)):
+        if leaf_of[slot] >= 0 and not nodes_inout[leaf_of[slot]].still:
+            leaves_out[count] = leaf_of[slot]
+            count += 1
+    for index in range(state_inout[USED]):
+        n = nodes_inout[index]
+        if n.height > 0 and not n.still:
+            n.height = -1
+            n.parent = state_inout[FREE]
+            state_inout[FREE] = index
+    if count < 2:
+        state_inout[ROOT_MOVING] = leaves_out[0] if count == 1 else -1
+        if count == 1:
+            nodes_inout[leaves_out[0]].parent = -1
+        return
+    # Each span: first leaf, last leaf, its node, the parent. A node stands before its children, so that refitting
+    # backwards meets children first.
+    made = 1
+    spans_out[0, 0] = 0
+    spans_out[0, 1] = count - 1
+    spans_out[0, 3] = -1
+    at = 0
+    while at < made:
+        first = spans_out[at, 0]
+        last = spans_out[at, 1]
+        parent = spans_out[at, 3]
+        index = take_node(nodes_inout, state_inout)
+        n = nodes_inout[index]
+        n.slot = -1
+        n.still = False
+        n.parent = parent
+        n.height = 1
+        n.child_a = -1
+        spans_out[at, 2] = index
+        if parent < 0:
+            state_inout[ROOT_MOVING] = index
+        elif nodes_inout[parent].child_a < 0:
+            nodes_inout[parent].child_a = index
+        else:
+            nodes_inout[parent].child_b = index
+        middle = (first + last + 1) // 2
+        select_median(nodes_inout, first, last, middle, wider_axis(nodes_inout, leaves_out, first, last), leaves_out)
+        # The larger half first; a half of one leaf hangs here itself.
+        for half in range(2):
+            start = middle if half == 0 else first
+            end = last if half == 0 else middle - 1
+            if start == end:
+                leaf = leaves_out[start]
+                nodes_inout[leaf].parent = index
+                n.child_b = leaf
+                if half == 0:
+                    n.child_a = leaf
+            else:
+                spans_out[made, 0] = start
+                spans_out[made, 1] = end
+                spans_out[made, 3] = index
+                made += 1
+        at += 1
+    for k in range(made):
+        refit(spans_out[made - 1 - k, 2], nodes_inout)

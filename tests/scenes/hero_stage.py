@@ -1,0 +1,66 @@
+"""A few letters of level with a hero in it, for tests of his moves."""
+
+import numpy as np
+
+from game.inputs import InputFrame, InputState
+from game.tilemap import Thing, TileMap
+from physics import Effects, World
+from scenes.platformer.hero import HEIGHT, Hero
+from scenes.platformer.level import Level
+from scenes.platformer.things import Crate, Platform
+
+TILES = {"#": 0, "-": 1, "/": 2, "\\": 3, "1": 4, "2": 5}
+PROPERTIES = {0: {"kind": "solid"}, 1: {"kind": "one_way"}, 2: {"kind": "slope", "left": 0.0, "right": 1.0},
+              3: {"kind": "slope", "left": 1.0, "right": 0.0}, 4: {"kind": "slope", "left": 0.0, "right": 0.5},
+              5: {"kind": "slope", "left": 0.5, "right": 1.0}}
+
+
+class Stage:
+    """A few letters of level with a hero in it; run(keys, steps) plays."""
+
+    def __init__(self, text, x, things=()):
+        rows = text.strip("\n").split("\n")
+        numbers = np.array([[TILES.get(letter, -1) for letter in row] for row in rows])
+        empty = np.full_like(numbers, -1)
+        self.level = Level(TileMap("stage", numbers.shape[1], numbers.shape[0], 16, {"solid": numbers, "decor": empty},
+                                   {}, PROPERTIES, "", 1, tuple(things), {}))
+        self.world = World(Effects(response=True, one_way=True, sensors=True))
+        self.level.add_to(self.world)
+        floor = next(row for row in range(len(rows)) if rows[row][x] in "#-") * 16
+        self.hero = Hero(self.world, self.level, (x * 16 + 8, floor - HEIGHT / 2))
+        self.platforms = [Platform(self.world, thing) for thing in things if thing.kind == "platform"]
+        self.crates = [Crate(self.world, thing) for thing in things if thing.kind == "crate"]
+        self.inputs = InputState()
+        self.frame = 0
+        self.news = []
+        self.run("", 2)
+        self.news.clear()
+
+    def run(self, keys, count=1):
+        """Hold keys (a string of words) for some steps."""
+        for _ in range(count):
+            self.inputs.set(InputFrame(frozenset(keys.split())))
+            for platform in self.platforms:
+                platform.aim(self.frame)
+            for crate in self.crates:
+                crate.step(self.hero.box)
+            self.hero.crates = tuple(crate.box for crate in self.crates)
+            self.hero.solids = self.hero.crates + tuple(platform.box for platform in self.platforms)
+            self.hero.step(self.inputs)
+            self.news += self.hero.news
+            self.world.step()
+            self.frame += 1
+        return self.hero
+
+    def until(self, keys, met, most=200):
+        """Hold keys until something is so."""
+        for _ in range(most):
+            self.run(keys)
+            if met(self.hero):
+                return self.hero
+        raise AssertionError(f"not within {most} steps of {keys!r}: {self.hero.box}")
+
+
+def thing(kind, x, y, width, height, **properties):
+    """An object of the level."""
+    return Thing(kind, "", x, y, width, height, properties)
