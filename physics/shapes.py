@@ -116,7 +116,10 @@ class TileGrid:
         self.solid = _bools("solid", solid)
         self.tile_size = checks.number("tile_size", tile_size, above=0.0)
         self.one_way = _bools("one_way", one_way if one_way is not None else np.zeros_like(self.solid))
-        slopes = np.zeros(self.solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
+        try:
+            slopes = np.zeros(self.solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise TypeError(f"slopes must be an array [row, col, 2] of numbers (got {type(slopes).__name__})") from None
         if self.one_way.shape != self.solid.shape:
             raise ValueError(f"one_way must have the shape of solid, {self.solid.shape} (got {self.one_way.shape})")
         if slopes.shape != self.solid.shape + (2,):
@@ -145,7 +148,10 @@ class TileGrid:
 
 
 def _bools(name, value):
-    array = np.array(value)
+    try:
+        array = np.array(value)
+    except ValueError:
+        raise TypeError(f"{name} must be an array [row, col] of bool (got rows of different lengths)") from None
     if array.ndim != 2:
         raise ValueError(f"{name} must be an array [row, col] (got {array.ndim} dimensions)")
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):

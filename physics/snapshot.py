@@ -2,15 +2,20 @@
 
 import hashlib
 import json
+import tokenize
 import zipfile
+import zlib
 
 import numpy as np
 
+from physics import checks
 from physics.geometry import Library
 from physics.shapes import PixelMask, Polygon, TileGrid
 from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
 
 VERSION = 1
+DAMAGE = (ValueError, TypeError, KeyError, IndexError, EOFError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error,
+          SyntaxError, tokenize.TokenError)
 TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": EVENT, "sensing": EVENT,
           "contacts": CONTACT}
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
@@ -48,13 +53,14 @@ class Snapshot:
             with np.load(path, allow_pickle=False) as stored:
                 arrays = {name: stored[name] for name in stored.files}
             facts = json.loads(str(arrays.pop("facts")))
-        except (zipfile.BadZipFile, KeyError, ValueError, EOFError) as error:
-            raise ValueError(f"{path} is no snapshot: {error}") from None
-        if facts.get("version") != VERSION:
-            raise ValueError(f"{path} has version {facts.get('version')!r}, this program reads {VERSION}")
-        for name, dtype in TABLES.items():
-            if name not in arrays or arrays[name].dtype != dtype:
-                raise ValueError(f"{path} has other columns in {name} than this program")
+            if facts["version"] != VERSION:
+                raise ValueError(f"it has version {facts['version']!r}, this program reads {VERSION}")
+            for name, dtype in TABLES.items():
+                if arrays[name].dtype != dtype:
+                    raise ValueError(f"it has other columns in {name} than this program")
+            _unpack(arrays, facts)
+        except DAMAGE as error:
+            raise ValueError(f"{path} is no snapshot of this program: {error!r}") from None
         return cls(arrays, facts)
 
 
@@ -73,7 +79,7 @@ def take(world) -> Snapshot:
         arrays[f"mask_{number}"] = shape.solid
     tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
     facts = {"version": VERSION, "effects": world.effects.names(), "next_body": world._next_body,
-             "next_shape": world._next_shape, "gravity": world.gravity, "wind": world.wind, "tiers": tiers,
+             "next_shape": world._next_shape, "gravity": world.gravity, "wind": world.wind, "drag": world.drag, "tiers": tiers,
              "random": world.random.bit_generator.state, "polygons": len(library.outlines),
              "tile_sizes": [shape.tile_size for shape in library.tile_grids],
              "origins": [shape.origin for shape in library.masks]}
@@ -87,7 +93,12 @@ def restore(world, taken):
     facts, arrays = taken.facts, taken.arrays
     if facts["effects"] != world.effects.names():
         raise ValueError(f"snapshot is of a world with {facts['effects']} (this one has {world.effects.names()})")
-    world.library = _library(arrays, facts)
+    try:
+        unpacked = _unpack(arrays, facts)
+    except DAMAGE as error:
+        raise ValueError(f"snapshot is damaged: {error!r}") from None
+    # Everything is known to fit: from here on nothing fails.
+    world.library, world._shapes_of, world._sources, world.random = unpacked
     for table, name in ((world._bodies, "bodies"), (world._shapes, "shapes"), (world.characters, "characters")):
         table.count = 0
         table.append(len(arrays[name]))[:] = arrays[name]
@@ -95,15 +106,30 @@ def restore(world, taken):
     world._sensing.restore(arrays["sensing"])
     world.contacts = arrays["contacts"].copy()
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
-    world.gravity, world.wind = facts["gravity"], facts["wind"]
-    world.random.bit_generator.state = facts["random"]
-    world._shapes_of = {identity: () for identity in world.bodies["id"].tolist()}
-    for row in world.shapes:
-        world._shapes_of[int(row["body"])] += (world.library.shape_of(row),)
+    world.gravity, world.wind, world.drag = facts["gravity"], facts["wind"], facts["drag"]
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
-    world._sources = {identity: (world.library.masks[mask],) for identity, _, mask in facts["tiers"]}
     world.rebuild_proxies()
+
+
+def _unpack(arrays, facts):
+    """(library, shapes of each body, sources of tiers, random generator) of a snapshot; raises one of DAMAGE."""
+    library = _library(arrays, facts)
+    shapes_of = {identity: () for identity in arrays["bodies"]["id"].tolist()}
+    rows = arrays["shapes"]["body_row"]
+    if len(rows) and not (0 <= rows.min() and rows.max() < len(arrays["bodies"])):
+        raise ValueError("a shape belongs to no body")
+    for row in arrays["shapes"]:
+        shapes_of[int(row["body"])] += (library.shape_of(row),)
+    sources = {identity: (library.masks[mask],) for identity, _, mask in facts["tiers"]}
+    random = np.random.default_rng()
+    random.bit_generator.state = facts["random"]
+    for name in ("next_body", "next_shape"):
+        checks.whole(name, facts[name], 0, 2**62)
+    for name in ("gravity", "wind"):
+        checks.vector(name, facts[name])
+    checks.number("drag", facts["drag"], low=0.0)
+    return library, shapes_of, sources, random
 
 
 def _library(arrays, facts):

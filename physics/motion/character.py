@@ -106,11 +106,11 @@ class Character:
 
 
 def _size(shape):
-    if isinstance(shape, Bounds) and isinstance(shape.shape, (Polygon, PixelMask)):
-        shape = shape.shape
-    if isinstance(shape, PixelMask) and shape.bounds is not None:
+    wrapped = isinstance(shape, Bounds) and isinstance(shape.shape, (Polygon, PixelMask))
+    shape = shape.shape if wrapped else shape
+    if wrapped and isinstance(shape, PixelMask) and shape.bounds is not None:
         left, top, right, bottom = shape.bounds
-    elif isinstance(shape, Polygon) and len({x for x, _ in shape.points}) == 2 and len({y for _, y in shape.points}) == 2:
+    elif isinstance(shape, Polygon) and len(shape.points) == 4 and all(len(set(each)) == 2 for each in zip(*shape.points)):
         left, top, right, bottom = *map(min, zip(*shape.points)), *map(max, zip(*shape.points))
     else:
         raise TypeError(f"shape must be Polygon.box(width, height) without angle, or Bounds of a sprite (got {shape!r})")

@@ -111,7 +111,7 @@ def in_shape(geometry, bodies, shapes, characters, row, left, top, width, height
         hit = (left < round_half_up(max_x) and round_half_up(min_x) < left + width
                and top < round_half_up(max_y) and round_half_up(min_y) < top + height)
         return BLOCKED if hit else FREE
-    points = collide_polygons(scratch.a, count, ALL_EDGES, scratch.b, 4, ALL_EDGES, 0.0, 0.0, scratch.manifold)
+    points = collide_polygons(scratch.a, count, ALL_EDGES, scratch.b, 4, ALL_EDGES, 0.0, 0.0, math.inf, scratch.manifold)
     for k in range(points):
         if scratch.manifold[5 + 4 * k] < -slop:
             return BLOCKED

@@ -82,7 +82,8 @@ def step_sideways(geometry, shapes, me, direction, follow, slop, scratch, rows, 
         if below == FREE:
             below, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top + 2, c.width,
                                    c.height, 1, slop, scratch)
-            if below == ON_SLOPE:
+            # From the last pixel of a slope it is one more down to the flat.
+            if below == ON_SLOPE or (below == BLOCKED and c.slope != 0.0):
                 c.top += 1
     c.left = at
     return True

@@ -7,7 +7,7 @@ from physics.masks.shapes import collide_mask_polygon
 from physics.narrowphase.circles import collide_polygon_circle
 from physics.narrowphase.contacts import GRID_ANY, circle_at, corners_of, write_contact
 from physics.narrowphase.placement import aabb_at
-from physics.narrowphase.sat import ALL_EDGES, collide_polygons
+from physics.narrowphase.sat import ALL_EDGES, LEFT_OUT, collide_polygons
 from physics.narrowphase.tiles import edges_facing, tile_at
 from physics.profile import MASK_TESTS
 from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, TILES
@@ -56,38 +56,47 @@ def make_grid_pass(one_way: bool):
             else:
                 n = corners_of(geometry, bodies, shapes, other, scratch.b)
             was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
-            for tile_row in range(first_row, last_row + 1):
-                for tile_column in range(first_column, last_column + 1):
-                    kind = geometry.cells[g.offset + tile_row * g.columns + tile_column].kind
-                    if kind == EMPTY or (kind == ONE_WAY and not one_way):
-                        continue
-                    # Open from below: only what came from above the tile stands on it.
-                    if kind == ONE_WAY and was_above > p.y + tile_row * g.tile_size + margin:
-                        continue
-                    corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, scratch.a)
-                    feature = (tile_row * g.columns + tile_column) * 4096
-                    if o.kind == MASK:
-                        area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                            geometry.rasters, geometry.words, mask, left, top, scratch.a, corners, edges, scratch.depths)
-                        if area > 0:
-                            found = write_contact(shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
-                                                  separation, float(area), feature, contacts_out)
-                    elif o.kind == CIRCLE:
-                        hit, nx, ny, x, y, separation, which = collide_polygon_circle(scratch.a, corners, edges, cx, cy,
-                                                                                      radius)
-                        if hit and separation <= margin:
-                            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y,
-                                                  separation, 0.0, feature + which, contacts_out)
-                    else:
-                        manifold = scratch.manifold
-                        facing = edges_facing(scratch.b, n, edges) if corners == 4 else ALL_EDGES
-                        points = collide_polygons(scratch.a, corners, edges, scratch.b, n,
-                                                  facing, margin, bias, manifold)
-                        for k in range(points):
-                            at = 3 + 4 * k
-                            found = write_contact(shapes, candidates, i, found, sign * manifold[1],
-                                                  sign * manifold[2], manifold[at], manifold[at + 1], manifold[at + 2],
-                                                  0.0, feature + int(manifold[at + 3]), contacts_out)
+            start = found
+            left_out = 0
+            for attempt in range(2):
+                # Once more, without leaving anything to a neighbour, when no neighbour told.
+                if attempt == 1 and (left_out == 0 or found > start):
+                    break
+                deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
+                for tile_row in range(first_row, last_row + 1):
+                    for tile_column in range(first_column, last_column + 1):
+                        kind = geometry.cells[g.offset + tile_row * g.columns + tile_column].kind
+                        if kind == EMPTY or (kind == ONE_WAY and not one_way):
+                            continue
+                        # Open from below: only what came from above the tile stands on it.
+                        if kind == ONE_WAY and was_above > p.y + tile_row * g.tile_size + margin:
+                            continue
+                        corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, scratch.a)
+                        feature = (tile_row * g.columns + tile_column) * 4096
+                        if o.kind == MASK:
+                            area, nx, ny, x, y, separation, which = collide_mask_polygon(
+                                geometry.rasters, geometry.words, mask, left, top, scratch.a, corners, edges, scratch.depths)
+                            if area > 0:
+                                found = write_contact(shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
+                                                      separation, float(area), feature, contacts_out)
+                        elif o.kind == CIRCLE:
+                            hit, nx, ny, x, y, separation, which = collide_polygon_circle(scratch.a, corners, edges, cx, cy,
+                                                                                          radius)
+                            if hit and separation <= margin:
+                                found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y,
+                                                      separation, 0.0, feature + which, contacts_out)
+                        else:
+                            manifold = scratch.manifold
+                            facing = edges_facing(scratch.b, n, edges) if corners == 4 else ALL_EDGES
+                            points = collide_polygons(scratch.a, corners, edges, scratch.b, n,
+                                                      facing, margin, bias, deepest, manifold)
+                            if manifold[0] == LEFT_OUT:
+                                left_out += 1
+                            for k in range(points):
+                                at = 3 + 4 * k
+                                found = write_contact(shapes, candidates, i, found, sign * manifold[1],
+                                                      sign * manifold[2], manifold[at], manifold[at + 1], manifold[at + 2],
+                                                      0.0, feature + int(manifold[at + 3]), contacts_out)
         return found
     return collide_grid_pairs
 

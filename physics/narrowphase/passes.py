@@ -3,6 +3,8 @@
 Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
 """
 
+import math
+
 from physics.jit import kernel
 from physics.narrowphase.circles import collide_circles, collide_polygon_circle
 from physics.narrowphase.contacts import CIRCLES, POLYGON_CIRCLE, POLYGONS, circle_at, corners_of, write_contact
@@ -68,7 +70,7 @@ def collide_polygon_pairs(
             continue
         na = corners_of(geometry, bodies, shapes, candidates[i, 0], scratch.a)
         nb = corners_of(geometry, bodies, shapes, candidates[i, 1], scratch.b)
-        points = collide_polygons(scratch.a, na, ALL_EDGES, scratch.b, nb, ALL_EDGES, margin, bias, manifold)
+        points = collide_polygons(scratch.a, na, ALL_EDGES, scratch.b, nb, ALL_EDGES, margin, bias, math.inf, manifold)
         for k in range(points):
             at = 3 + 4 * k
             found = write_contact(shapes, candidates, i, found, manifold[1], manifold[2], manifold[at],

@@ -18,6 +18,7 @@ from physics.math2d import length_of, unit
 
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
 MANIFOLD = 11
+LEFT_OUT = -1.0            # as the count: they overlap, but a neighbouring tile is expected to tell
 ALL_EDGES = 0xFFFFFFFF       # low 16 bits: edges that may be touched; high 16: edges whose corners may be
 
 
@@ -163,11 +164,13 @@ def corner_manifold(a, a_count, b, b_count, limit, manifold_out):
 
 
 @subkernel
-def collide_polygons(a, a_count, a_edges, b, b_count, b_edges, margin, bias, manifold_out):
+def collide_polygons(a, a_count, a_edges, b, b_count, b_edges, margin, bias, deepest, manifold_out):
     """Manifold of two convex polygons, normal from A to B. Returns the number of points, 0 when apart by > margin.
 
     a, b: world corners (n, 2) [px]; a_edges, b_edges: bits of the edges that may be touched; bias [px]: how much
-    better B's face must separate to be the reference, so that it does not flip between equal faces.
+    better B's face must separate to be the reference, so that it does not flip between equal faces; deepest [px]: what
+    is deeper than that behind every edge that may be touched, and less deep behind one that may not, is left to the
+    neighbour that covers it.
     """
     a_edge, a_separation, a_all = best_edge(a, a_count, a_edges, b, b_count)
     if a_all > margin:
@@ -178,6 +181,10 @@ def collide_polygons(a, a_count, a_edges, b, b_count, b_edges, margin, bias, man
         manifold_out[0] = 0.0
         return 0
     apart = max(a_all, b_all) > 0.0
+    allowed = max(a_separation, b_separation)
+    if -allowed > deepest and max(a_all, b_all) > allowed:
+        manifold_out[0] = LEFT_OUT
+        return 0
     if b_edge >= 0 and b_separation > a_separation + bias:
         count = clip_edges(b, b_count, b_edge, a, a_count, margin, True, manifold_out)
         if not apart and (count == 0 or min(manifold_out[5], manifold_out[9] if count > 1 else math.inf) > 0.0):

@@ -1,0 +1,328 @@
+"""Every argument of every public function, with a wrong kind, a wrong value, NaN and infinity (hard_cases K1 to K6).
+
+The error names the argument and the value; the world is as it was, down to its tables.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import (BROADPHASES, JIT, Bounds, BruteForce, Character, Circle, DynamicTree, Effects, Filter, Material,
+                     PixelMask, Polygon, Snapshot, SpatialHashGrid, SweepAndPrune, TileGrid, World, collide, fit, mass_of)
+
+NAN, INF = math.nan, math.inf
+BOX, BALL = Polygon.box(4, 4), Circle(3.0)
+ALL = Effects(response=True, gravity=True, drag=True, wind=True, rotation=True, friction=True, restitution=True,
+              continuous=True, sensors=True, persist=True, one_way=True)
+NO_NUMBER = ["1", None, [1], (1, 2), {}, 1j, True]
+NOT_FINITE = [NAN, INF, -INF, 10 ** 400]
+NUMBER = NO_NUMBER + NOT_FINITE
+VECTOR = [1.0, "ab", None, (1,), (1, 2, 3), (NAN, 0), (0, INF), ("1", 2), (1, None), {}, (10 ** 400, 0)]
+FLAG = [1, 0, "yes", None, [True]]
+ARRAY = ["ab", None, [[1, 2, 3]], [[NAN, 0]], [[0, INF]], [1, 2], [["a", "b"]], [[1j, 0]], [("1", "2")], 5]
+
+
+def world_of_three():
+    """A world with something in it."""
+    world = World(ALL)
+    world.add_body(BALL, velocity=(5.0, 3.0))
+    world.add_body(BOX, position=(2.0, 1.0), kind="static")
+    world.add_body(PixelMask(np.ones((3, 3), bool)), position=(90.0, 1.0), kind="kinematic", tier="circle")
+    world.step()
+    return world
+
+
+def state(world):
+    """Everything that an argument may not have touched."""
+    return (world.digest(), world.bodies.tobytes(), world.shapes.tobytes(), world.characters.rows.tobytes(),
+            world.gravity, world.wind, world.solver, world.dt, world.drag, world.broadphase, world._next_body, world._next_shape,
+            str(world.random.bit_generator.state), len(world._shapes_of), len(world._users), len(world._tiers))
+
+
+def refused(name, value, call):
+    """The call raises ValueError or TypeError with the argument's name and the value."""
+    with pytest.raises((ValueError, TypeError)) as caught:
+        call()
+    assert not isinstance(caught.value, UnicodeError)
+    text = str(caught.value)
+    assert name in text, f"{text!r} does not name {name}"
+    assert "got" in text and len(text) < 600, text
+
+
+CONSTRUCTORS = [
+    ("radius", lambda v: Circle(v), NUMBER + [0, -1.0]),
+    ("center", lambda v: Circle(1.0, v), VECTOR),
+    ("points", lambda v: Polygon(v), ["ab", None, 5, [], [(0, 0)], [(0, 0), (1, 0), (NAN, 1)], [(0, 0), (1, 0), (INF, 1)],
+                                      [(0, 0, 0)] * 3, [("0", "0"), ("1", "0"), ("0", "1")], [(0, 0), (1, 0), (2, 0)]]),
+    ("width", lambda v: Polygon.box(v, 1), NUMBER + [0, -2]),
+    ("height", lambda v: Polygon.box(1, v), NUMBER + [0, -2]),
+    ("center", lambda v: Polygon.box(1, 1, v), VECTOR),
+    ("angle", lambda v: Polygon.box(1, 1, (0, 0), v), NUMBER),
+    ("shape", lambda v: Bounds(v), [None, 5, "x", TileGrid(np.ones((1, 1), bool), 8), Bounds(BALL)]),
+    ("solid", lambda v: TileGrid(v, 8), [None, "x", [1, 0], 5, [[0.5]], [[1, 0], [1]], [["a"]], [[NAN]]]),
+    ("tile_size", lambda v: TileGrid([[True]], v), NUMBER + [0, -8]),
+    ("one_way", lambda v: TileGrid([[True]], 8, one_way=v), ["x", [1], [[True, True]], [[0.5]], 5]),
+    ("slopes", lambda v: TileGrid([[False]], 8, slopes=v), ["x", [1], [[[0, 2]]], [[[-0.1, 0]]], [[[NAN, 0]]], [[(0, 1, 1)]], 5]),
+    ("cell", lambda v: TileGrid([[True]], 8, one_way=v), [[[True]]]),
+    ("solid", lambda v: PixelMask(v), [None, "x", [1, 0], 5, [[0.5]], [[1, 0], [1]], [[NAN]], [["a"]]]),
+    ("solid", lambda v: PixelMask.from_array(v), [None, [[[1]]], [[0.5]]]),
+    ("origin", lambda v: PixelMask(np.ones((2, 2), bool), v), [x for x in VECTOR if x is not None]),
+    ("snap", lambda v: PixelMask(np.ones((2, 2), bool), None, v), [False, 1, "x", None]),
+    ("surface", lambda v: PixelMask.from_surface(v), [None, 5, np.ones((2, 2))]),
+    ("angle", lambda v: PixelMask(np.ones((2, 2), bool)).turned(v), NUMBER),
+    ("density", lambda v: Material(v), NUMBER + [0, -1]),
+    ("friction", lambda v: Material(friction=v), NUMBER + [-1]),
+    ("restitution", lambda v: Material(restitution=v), NUMBER + [-1]),
+    ("membership", lambda v: Filter(v), [-1, 1 << 32, 1.0, "1", None, True]),
+    ("mask", lambda v: Filter(1, v), [-1, 1 << 32, 1.0, "1", None, True]),
+    ("bits", lambda v: Filter.from_packed(v), [-1, 1 << 32, 1.0, "1", None]),
+    ("cell", lambda v: SpatialHashGrid(v), [x for x in NUMBER if x is not None] + [0, -1]),
+    ("margin", lambda v: DynamicTree(v), [x for x in NUMBER if x is not None] + [-1]),
+    ("axes", lambda v: SweepAndPrune(v), ["x", None, 3, [], NAN]),
+    ("density", lambda v: mass_of(BALL, v), NUMBER + [0, -1]),
+    ("shapes", lambda v: mass_of(v, 1.0), [None, 5, "x", [BALL, 5]]),
+    ("shape_a", lambda v: collide(v, (0, 0, 0), BALL, (0, 0, 0)), [None, 5, "x", Material()]),
+    ("shape_b", lambda v: collide(BALL, (0, 0, 0), v, (0, 0, 0)), [None, 5, "x"]),
+    ("pose_a", lambda v: collide(BALL, v, BALL, (0, 0, 0)), [None, 5, (0, 0), (0, 0, NAN), (INF, 0, 0), ("0", 0, 0), "abc"]),
+    ("pose_b", lambda v: collide(BALL, (0, 0, 0), TileGrid([[True]], 8), v), [(0, 0, 0.1), (0, 0), (0, NAN, 0)]),
+    ("margin", lambda v: collide(BALL, (0, 0, 0), BALL, (0, 0, 0), v), NUMBER + [-1]),
+    ("mask", lambda v: fit(v, "circle"), [None, BALL, np.ones((2, 2))]),
+    ("tier", lambda v: fit(PixelMask(np.ones((2, 2), bool)), v), ["x", None, 5, ""]),
+    ("tolerance", lambda v: fit(PixelMask(np.ones((2, 2), bool)), "obb", v), NUMBER + [0, -1]),
+    ("effects", lambda v: World(v), [5, "all", {}, True]),
+    ("broadphase", lambda v: World(ALL, v), ["hash", 5, BruteForce, object()]),
+    ("solver", lambda v: World(ALL, solver=v), ["soft", 5, ""]),
+    ("gravity", lambda v: World(ALL, gravity=v), [x for x in VECTOR if x is not None]),
+    ("drag", lambda v: World(ALL, drag=v), NUMBER + [-1]),
+    ("wind", lambda v: World(ALL, wind=v), VECTOR),
+    ("pixels_per_meter", lambda v: World(ALL, pixels_per_meter=v), NUMBER + [0, -1]),
+    ("dt", lambda v: World(ALL, dt=v), NUMBER + [0, -1]),
+    ("seed", lambda v: World(ALL, seed=v), [-1, 1.5, "1", None, NAN, 2 ** 63, True]),
+    ("effect gravity", lambda v: Effects(gravity=v), [1, 0, None, "x", np.bool_(True)]),
+]
+
+
+@pytest.mark.parametrize("name, call, values", CONSTRUCTORS, ids=[f"{n}-{i}" for i, (n, _, _) in enumerate(CONSTRUCTORS)])
+def test_wrong_arguments_of_values_and_functions_are_named(name, call, values):
+    for value in values:
+        refused(name, value, lambda: call(value))
+
+
+CHANGES = [
+    ("position", lambda w, v: w.add_body(BALL, position=v), VECTOR),
+    ("angle", lambda w, v: w.add_body(BALL, angle=v), NUMBER),
+    ("kind", lambda w, v: w.add_body(BALL, kind=v), ["moving", None, 2, "Static", ""]),
+    ("velocity", lambda w, v: w.add_body(BALL, velocity=v), VECTOR),
+    ("velocity", lambda w, v: w.add_body(BALL, velocity=v, kind="static"), [(1, 0)]),
+    ("angular_velocity", lambda w, v: w.add_body(BALL, angular_velocity=v), NUMBER),
+    ("material", lambda w, v: w.add_body(BALL, material=v), [None, 5, "x", {}]),
+    ("filter", lambda w, v: w.add_body(BALL, filter=v), [None, 5, "x", (1, 2)]),
+    ("sensor", lambda w, v: w.add_body(BALL, sensor=v), FLAG),
+    ("continuous", lambda w, v: w.add_body(BALL, continuous=v), ["on", None, True, 3, "toi"]),
+    ("fixed_rotation", lambda w, v: w.add_body(BALL, fixed_rotation=v), FLAG),
+    ("gravity_scale", lambda w, v: w.add_body(BALL, gravity_scale=v), NUMBER),
+    ("tier", lambda w, v: w.add_body(BALL, tier=v), ["circle", 5, "x"]),
+    ("tier", lambda w, v: w.add_body(PixelMask(np.ones((2, 2), bool)), tier=v), ["x", 5, True]),
+    ("shapes", lambda w, v: w.add_body(v), [None, 5, "x", [BALL], Circle]),
+    ("shapes", lambda w, v: w.add_body(BALL, v), [None, 5]),
+    ("TileGrid", lambda w, v: w.add_body(TileGrid([[True]], 8), kind=v), ["dynamic"]),
+    ("angle", lambda w, v: w.add_body(TileGrid([[True]], 8), kind="static", angle=v), [0.5]),
+    ("positions", lambda w, v: w.add_bodies(BALL, v), ARRAY),
+    ("velocities", lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], v), [a for a in ARRAY if a is not None] + [[(1, 1)]]),
+    ("angles", lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], None, v), ["ab", [1], [NAN, 1], [[1], [2]], ["1", "2"], 5]),
+    ("kind", lambda w, v: w.add_bodies(BALL, [(0, 0)], kind=v), ["moving", 5]),
+    ("shapes", lambda w, v: w.add_bodies(v, [(0, 0)]), [None, 5]),
+    ("ids", lambda w, v: w.remove_bodies(v), [[0, 0], [1.7], ["x"], "x", [NAN], [True], None, [None]]),
+    ("body", lambda w, v: w.remove_body(v), ["x", None, 1.5, True, NAN]),
+    ("dt", lambda w, v: w.step(v), [x for x in NUMBER if x is not None] + [-1e-9]),
+    ("dt", lambda w, v: setattr(w, "dt", v), NUMBER + [0, -1]),
+    ("drag", lambda w, v: setattr(w, "drag", v), NUMBER + [-1]),
+    ("gravity", lambda w, v: setattr(w, "gravity", v), VECTOR),
+    ("wind", lambda w, v: setattr(w, "wind", v), VECTOR),
+    ("solver", lambda w, v: setattr(w, "solver", v), ["soft", None, 5]),
+    ("broadphase", lambda w, v: setattr(w, "broadphase", v), ["hash", None, 5, BruteForce]),
+    ("narrowphase", lambda w, v: w.set_narrowphase(v), FLAG),
+    ("velocity", lambda w, v: setattr(w.body(0), "velocity", v), VECTOR),
+    ("velocity", lambda w, v: setattr(w.body(1), "velocity", v), [(1, 0)]),
+    ("angular_velocity", lambda w, v: setattr(w.body(0), "angular_velocity", v), NUMBER),
+    ("angular_velocity", lambda w, v: setattr(w.body(1), "angular_velocity", v), [1.0]),
+    ("gravity_scale", lambda w, v: setattr(w.body(0), "gravity_scale", v), NUMBER),
+    ("filter", lambda w, v: setattr(w.body(0), "filter", v), [None, 5, (1, 1)]),
+    ("tier", lambda w, v: setattr(w.body(0), "tier", v), ["circle", 5]),
+    ("tier", lambda w, v: setattr(w.body(2), "tier", v), ["x", 5]),
+    ("force", lambda w, v: w.body(0).apply_force(v), VECTOR),
+    ("point", lambda w, v: w.body(0).apply_force((1e6, 0), v), [x for x in VECTOR if x is not None]),
+    ("impulse", lambda w, v: w.body(0).apply_impulse(v), VECTOR),
+    ("point", lambda w, v: w.body(0).apply_impulse((1e6, 0), v), [x for x in VECTOR if x is not None]),
+    ("torque", lambda w, v: w.body(0).apply_torque(v), NUMBER),
+    ("position", lambda w, v: w.body(0).move_to(v), VECTOR),
+    ("angle", lambda w, v: w.body(0).move_to((7, 7), v), [x for x in NUMBER if x is not None]),
+    ("shapes", lambda w, v: w.body(0).set_shapes(v), [None, 5, "x"]),
+    ("TileGrid", lambda w, v: w.body(0).set_shapes(v), [TileGrid([[True]], 8)]),
+    ("kind", lambda w, v: w.body(0).set_kind(v), ["x", None, 1]),
+    ("shape", lambda w, v: Character(w, v, (0, 0)), [None, BALL, 5, Polygon.box(4, 4, angle=0.2), Polygon([(0, 0), (5, 0), (0, 5)])]),
+    ("position", lambda w, v: Character(w, BOX, v), VECTOR + [(1e300, 0)]),
+    ("filter", lambda w, v: Character(w, BOX, (0, 0), filter=v), [None, 5]),
+    ("pushable", lambda w, v: Character(w, BOX, (0, 0), pushable=v), FLAG),
+    ("origin", lambda w, v: w.ray_cast(v, (1, 0)), VECTOR),
+    ("translation", lambda w, v: w.ray_cast((0, 0), v), VECTOR),
+    ("filter", lambda w, v: w.ray_cast_all((0, 0), (1, 0), filter=v), [None, 5]),
+    ("sensors", lambda w, v: w.ray_cast((0, 0), (1, 0), sensors=v), FLAG),
+    ("shape", lambda w, v: w.overlap(v, (0, 0, 0)), [None, 5, "x"]),
+    ("pose", lambda w, v: w.overlap(BALL, v), [None, 5, (0, 0), (0, 0, NAN), (INF, 0, 0), "abc"]),
+    ("filter", lambda w, v: w.overlap(BALL, (0, 0, 0), filter=v), [None, 5]),
+    ("lower", lambda w, v: w.query_aabb(v, (5, 5)), VECTOR + [(6, 0)]),
+    ("upper", lambda w, v: w.query_aabb((0, 0), v), VECTOR + [(-1, 0)]),
+    ("point", lambda w, v: w.query_point(v), VECTOR),
+    ("snapshot", lambda w, v: w.restore(v), [None, 5, {}]),
+]
+
+
+@pytest.mark.parametrize("name, call, values", CHANGES, ids=[f"{n}-{i}" for i, (n, _, _) in enumerate(CHANGES)])
+def test_wrong_arguments_leave_the_world_as_it_was(name, call, values):
+    world = world_of_three()
+    before = state(world)
+    for value in values:
+        refused(name, value, lambda: call(world, value))
+        assert state(world) == before, f"{name}={value!r} changed the world"
+
+
+def test_moves_of_a_character_are_checked():
+    world = world_of_three()
+    hero = Character(world, BOX, (50, 50))
+    before = state(world)
+    for value in NUMBER:
+        refused("dx", value, lambda: hero.move(value, 0))
+        refused("dy", value, lambda: hero.move(0, value))
+    for value in FLAG:
+        refused("drop", value, lambda: hero.move(0, 0, drop=value))
+    for value in VECTOR:
+        refused("position", value, lambda: hero.move_to(value))
+    assert state(world) == before
+
+
+UNDECLARED = [
+    ("sensors", lambda w: w.add_body(BALL, sensor=True)), ("continuous", lambda w: w.add_body(BALL, continuous="swept")),
+    ("rotation", lambda w: w.add_body(BALL, angular_velocity=1.0)), ("response", lambda w: Character(w, BOX, (0, 0))),
+    ("continuous", lambda w: w.add_body(BALL, continuous="ray")), ("rotation", lambda w: w.body(0).apply_torque(1.0)),
+    ("rotation", lambda w: setattr(w.body(0), "angular_velocity", 1.0)), ("response", lambda w: w.body(0).apply_force((1, 0))),
+]
+
+
+@pytest.mark.parametrize("effect, call", UNDECLARED, ids=[f"{n}-{i}" for i, (n, _) in enumerate(UNDECLARED)])
+def test_what_was_not_declared_is_refused_naming_the_effect(effect, call):
+    world = World(Effects())
+    world.add_body(BALL)
+    before = state(world)
+    with pytest.raises(ValueError, match=effect):
+        call(world)
+    assert state(world) == before
+
+
+@pytest.mark.parametrize("effect", ["friction", "restitution", "one_way"])
+def test_effect_without_its_foundation_names_both(effect):
+    with pytest.raises(ValueError, match=f"{effect}.*response"):
+        Effects(**{effect: True})
+    with pytest.raises(TypeError, match="magic"):
+        Effects().with_(magic=True)
+
+
+def test_removed_bodies_and_strange_handles_say_so():
+    world, other = world_of_three(), world_of_three()
+    body = world.body(0)
+    world.remove_body(body)
+    for call in (lambda: body.position, lambda: body.apply_impulse((1, 0)), lambda: world.remove_body(body), lambda: world.body(0),
+                 lambda: body.move_to((0, 0)), lambda: body.set_shapes(BALL), lambda: body.shapes, lambda: body.tier):
+        with pytest.raises(KeyError, match="0"):
+            call()
+    before = state(world)
+    with pytest.raises((ValueError, KeyError)):
+        world.remove_body(other.body(1))
+    assert state(world) == before
+    assert world.add_body(BALL).id == 3, "ids are never given twice"
+
+
+def test_changing_a_world_during_its_step_raises():
+    world = world_of_three()
+    hero = Character(world, BOX, (50, 50))
+    body, taken = world.body(0), world.snapshot()
+    calls = [lambda: world.add_body(BALL), lambda: world.add_bodies(BALL, [(0, 0)]), lambda: world.remove_body(1),
+             lambda: world.clear(), lambda: world.step(), lambda: body.move_to((0, 0)), lambda: body.apply_impulse((1, 0)),
+             lambda: body.apply_force((1, 0)), lambda: body.apply_torque(1.0), lambda: setattr(body, "velocity", (1, 0)),
+             lambda: setattr(body, "angular_velocity", 1.0), lambda: setattr(body, "filter", Filter()),
+             lambda: body.set_shapes(BALL), lambda: body.set_kind("static"), lambda: setattr(world, "gravity", (0, 0)),
+             lambda: setattr(world, "wind", (0, 0)), lambda: setattr(world, "solver", "blocking"), lambda: hero.move(1, 0),
+             lambda: setattr(world, "broadphase", BruteForce()), lambda: world.restore(taken), lambda: body.restore(),
+             lambda: hero.move_to((0, 0)), lambda: hero.remove(), lambda: setattr(body, "gravity_scale", 2.0),
+             lambda: world.set_narrowphase(False), lambda: setattr(world.body(2), "tier", "obb"), lambda: setattr(world, "dt", 1.0),
+             lambda: setattr(world, "drag", 1.0)]
+    raised = []
+
+    class Meddler(BruteForce):
+        def update(self, arena):
+            before = state(world)
+            for call in calls:
+                with pytest.raises(RuntimeError, match="during its step"):
+                    call()
+                raised.append(call)
+            assert state(world) == before
+
+        def fresh(self):
+            return self
+    world.broadphase = Meddler()
+    world.step()
+    assert len(raised) >= len(calls)
+    world.broadphase = BruteForce()
+    world.add_body(BALL)
+
+
+def test_error_inside_a_step_leaves_the_world_usable():
+    world = world_of_three()
+
+    class Broken(BruteForce):
+        def update(self, arena):
+            raise ZeroDivisionError("broken")
+
+        def fresh(self):
+            return self
+    world.broadphase = Broken()
+    with pytest.raises(ZeroDivisionError):
+        world.step()
+    world.broadphase = BruteForce()
+    world.add_body(BALL)
+    world.step()
+
+
+@pytest.mark.parametrize("name", BROADPHASES)
+def test_empty_worlds_and_worlds_of_statics_step(name):
+    world = World(ALL, BROADPHASES[name]())
+    for _ in range(2):
+        world.step()
+        assert set(world.profile.counters.values()) == {0} and len(world.contacts) == 0
+    world.add_bodies(BOX, [(0, 0), (1, 1)], kind="static")
+    world.step()
+    world.step()
+    assert len(world.candidates) == 0 and world.profile.counters["bodies_integrated"] == 0
+    world.clear()
+    world.step()
+    world.add_body()
+    world.step()
+    assert len(world.bodies) == 1 and world.body(2).mass == 0.0
+    assert len(world.add_bodies(BALL, [])) == 0 and len(world.add_bodies(BALL, np.zeros((0, 2)), kind="static")) == 0
+
+
+@pytest.mark.parametrize("make", [lambda a: a.tolist(), lambda a: a.astype(np.float32), np.asfortranarray,
+                                  lambda a: np.repeat(a, 2, axis=0)[::2], lambda a: a.astype(np.int32)])
+def test_any_array_of_numbers_gives_the_same_world(make):
+    at = np.array([(0, 0), (6, 1), (11, -3), (4, 4)], float)
+    worlds = [World(ALL), World(ALL)]
+    worlds[0].add_bodies(BALL, at, at * 2, at[:, 0])
+    given = make(at)
+    given2 = make(at * 2)
+    worlds[1].add_bodies(BALL, given, given2, make(at)[:, 0] if not isinstance(given, list) else [r[0] for r in given])
+    for world in worlds:
+        world.step()
+    assert worlds[0].digest() == worlds[1].digest() and JIT in (True, False)
+    with pytest.raises(FileNotFoundError):
+        Snapshot.load("/nowhere/at all.npz")
