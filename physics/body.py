@@ -134,8 +134,8 @@ class Body:
         self.world._needs_velocities("apply_force")
         point = None if point is None else checks.vector("point", point)
         row = self._dynamic("apply_force")
-        row["force_x"] += force[0]
-        row["force_y"] += force[1]
+        total = checks.vector("sum of forces", (row["force_x"].item() + force[0], row["force_y"].item() + force[1]))
+        row["force_x"], row["force_y"] = total
         if point is not None:
             x, y = point
             row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
@@ -146,8 +146,9 @@ class Body:
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
         row = self._dynamic("apply_impulse")
-        row["vx"] += row["inverse_mass"] * impulse[0]
-        row["vy"] += row["inverse_mass"] * impulse[1]
+        inverse_mass = row["inverse_mass"].item()
+        row["vx"], row["vy"] = checks.vector("velocity after the impulse", (row["vx"].item() + inverse_mass * impulse[0],
+                                                                             row["vy"].item() + inverse_mass * impulse[1]))
         if point is not None and self.world.effects.rotation:
             x, y = point
             row["angular_velocity"] += row["inverse_inertia"] * ((x - row["center_x"]) * impulse[1]

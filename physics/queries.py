@@ -39,7 +39,7 @@ def ray_cast_all(world, origin, translation, filter, sensors) -> list[RayHit]:
     rows = hits[:found]
     rows = rows[np.argsort(rows[:, 1], kind="stable")]
     return [RayHit(world.body(int(world.shapes["body"][int(row)])), int(world.shapes["id"][int(row)]),
-                   (x + fraction * dx, y + fraction * dy), (nx, ny), fraction) for row, fraction, nx, ny in rows.tolist()]
+                   (x + fraction * dx, y + fraction * dy), (nx + 0.0, ny + 0.0), fraction) for row, fraction, nx, ny in rows.tolist()]
 
 
 def query_aabb(world, lower, upper) -> list:

@@ -97,7 +97,7 @@ class Character:
         row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
         row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)
         row["remainder_x"] = row["remainder_y"] = 0.0
-        row["riding"], row["grounded"] = -1, False
+        row["riding"], row["grounded"], row["squeezed"] = -1, False, False
         self.body.move_to((float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0)))
 
     def remove(self):

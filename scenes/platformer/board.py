@@ -67,6 +67,7 @@ def _draw_signs(canvas, scene):
             height = max(LINE * len(lines) + 9, icon.get_height() + 10)
             left, top = (CANVAS_SIZE[0] - width) // 2, CANVAS_SIZE[1] - height - SIGN_BOTTOM
             draw_box(canvas, (left, top, width, height))
+            canvas.reserve((left, top, width, height))
             canvas.surface.blit(icon, (left + 8, top + (height - icon.get_height()) // 2))
             first = top + (height - LINE * len(lines)) // 2 + 2
             for number, line in enumerate(lines):
@@ -98,6 +99,7 @@ def _draw_result(canvas, scene):
     middle, width, height = CANVAS_SIZE[0] // 2, 214, 134
     left, top = middle - width // 2, 62 + whole(max(0.0, 0.25 - since) ** 2 * 1600)
     draw_box(canvas, (left, top, width, height), "panel")
+    canvas.reserve((left, top, width, height))
     canvas.text("THE FLAG!", middle, top + 10, GOLD, TEXT, 2, "center", True)
     icons = load_atlas("ui")
     for number, (earned, reason) in enumerate(stars(scene)):

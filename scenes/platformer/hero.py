@@ -30,7 +30,7 @@ JUMP_BOOST = 80.0            # [px/s] along the way: a running jump is a long on
 JUMP_HOLD = 0.20             # [s] the speed is kept while jump is held: short and high jumps from one button
 COYOTE = 0.10                # [s] a jump is still one from the ground after the edge: nobody sees the last pixel
 BUFFER = 0.08                # [s] a press this early before the landing counts
-CORNER = 8                   # [px] a head that hits a corner slips past it
+CORNER = 8                   # [px] a head that hits a corner slips past it, and so does he when a corner squeezes him
 # Walls
 SLIDE_SPEED = 40.0           # [px/s] at first; the grip tires over SLIDE_TIME
 SLIDE_TIME = 1.2             # [s]
@@ -73,6 +73,7 @@ class Hero:
     def place(self, position):
         """Stand still somewhere, as at a start."""
         self.character.move_to(position)
+        self.character.move(0.0, 0.0)        # forgets a squeeze that was not told yet
         self.before = self.character.position
         self.vx = self.vy = self.rise_speed = self.lift_x = self.lift_y = self.kept_vx = self.slope = 0.0
         self.buffer = self.coyote = self.rise = self.drop = self.locked = self.kept = self.lift = 0
@@ -176,7 +177,7 @@ class Hero:
 
     def _rise(self, speed):
         self.vy = self.rise_speed = -speed
-        self.rise = steps(JUMP_HOLD)
+        self.rise = steps(JUMP_HOLD) + 1     # the step of the press itself does not count
         self.buffer = self.coyote = 0
         self.grounded = False
         self.grip = steps(SLIDE_TIME)
@@ -199,7 +200,7 @@ class Hero:
         along = 1.0 / sqrt(1.0 + self.slope * self.slope) if self.grounded else 1.0
         dx, dy = self.vx * along * STEP_SECONDS, self.vy * STEP_SECONDS
         moved = self.character.move(dx, dy, drop=self.drop > 0)
-        self.crushed = moved.squeezed
+        self.crushed = moved.squeezed and not self._slip_out()
         if self.vy < 0.0 and moved.y == 0 and dy <= -1.0:
             self._bump(dy)
         if moved.x == 0 and moved.wall and moved.wall * self.vx > 0.0:
@@ -233,6 +234,16 @@ class Hero:
         self.vy = 0.0
         self.rise = 0
         self.news.append("bump")
+
+    def _slip_out(self):
+        """Squeezed by a corner only: out to the nearer side. Returns whether there was room."""
+        x, y = self.character.position
+        for reach in range(1, CORNER + 1):
+            for side in (-1, 1):
+                if not self._blocked(side * reach, 0):
+                    self.character.move_to((x + side * reach, y))
+                    return True
+        return False
 
     def _blocked(self, dx, dy):
         """Whether the box, shifted by whole pixels, would be in something solid."""

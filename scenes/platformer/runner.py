@@ -6,7 +6,6 @@ falling; on the ground jump at what is in the way, over what hurts, onto walkers
 
 from scenes.platformer.hero import HEIGHT
 
-SEES = 5                     # [tiles] it looks ahead
 LEAP = 18                    # [px] before an edge or spikes it jumps
 NEAR_WALKER = 30             # [px] the last chance to jump over a walker
 FLIGHT = 0.63                # [s] from a full jump's start to a walker's back
@@ -69,7 +68,7 @@ class Runner:
                 return self._ride(platform, hero)
             start_left = platform.start[0] - platform.size[0] / 2
             start_top = platform.start[1] - platform.size[1] / 2
-            before = start_left - 40 < right <= start_left + 4 and abs(bottom - start_top) < 8
+            before = start_left - 40 < right <= start_left + 20 and abs(bottom - start_top) < 8
             under = start_left < (left + right) / 2 < start_left + platform.size[0] and bottom > start_top + 16
             if under and platform.end[1] < platform.start[1]:
                 return "left", False         # fallen into its pit: out again on the near side
@@ -155,7 +154,7 @@ class Runner:
         x, bottom = scene.hero.character.position[0], scene.hero.box[3]
         for walker in scene.things.walkers.values():
             ahead = walker.place_after(FLIGHT) - x
-            if abs(walker.bottom - bottom) < 24 and (REACH[0] - 40 < ahead < REACH[0] or REACH[1] < ahead < REACH[1] + 26):
+            if abs(walker.bottom - bottom) < 24 and (REACH[0] - 40 < ahead < REACH[0] or REACH[1] < ahead < REACH[1] + 60):
                 return True
         return False
 

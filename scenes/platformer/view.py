@@ -7,7 +7,8 @@ from functools import lru_cache
 
 import pygame
 
-from game.draw import CANVAS_SIZE, whole
+from game.camera import Camera
+from game.draw import CANVAS_SIZE, Canvas, whole
 from game.sprites import load_atlas, load_backdrop
 from game.tile_picture import TilePicture
 from scenes.platformer import board
@@ -37,6 +38,16 @@ class View:
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
         self.shaped = lru_cache(maxsize=512)(self._shaped)
         self.lowest = level.size[1] - CANVAS_SIZE[1]
+        self._paint_ahead()
+
+    def _paint_ahead(self):
+        """Paint every chunk of tiles now: 0.1 s once, instead of a hitch of 10 ms at each border while playing."""
+        canvas, camera = Canvas(), Camera()
+        for left in range(0, self.level.size[0], CANVAS_SIZE[0]):
+            for top in (0, self.lowest):
+                camera.place(left, top)
+                self.decor.draw(canvas, camera)
+                self.ground.draw(canvas, camera)
 
     def draw(self, scene, canvas, alpha):
         """The whole picture."""

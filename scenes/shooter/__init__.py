@@ -1,0 +1,1 @@
+"""The plane shooter: every hit is pixel against pixel."""

@@ -1,0 +1,57 @@
+"""Compiled kernels and plain Python give the same bits: one busy scene, run both ways, the digests of every step."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from physics import JIT
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = """
+import sys
+import numpy as np
+from physics import *
+from physics import JIT
+kind, steps = sys.argv[1], int(sys.argv[2])
+rng = np.random.default_rng(5)
+effects = Effects(response=True, gravity=True, drag=True, rotation=True, friction=True, restitution=True, continuous=True,
+                  sensors=True, one_way=True) if kind != "detection" else Effects(rotation=True)
+world = World(effects, {"hash": SpatialHashGrid, "tree": DynamicTree, "sweep": SweepAndPrune}.get(sys.argv[3], BruteForce)(),
+              "blocking" if kind == "blocking" else None, drag=0.2)
+slopes = np.zeros((2, 16, 2)); slopes[0, 4] = (0, 1); slopes[0, 5] = (1, .5); slopes[0, 6] = (.5, 0)
+solid = np.zeros((2, 16), bool); solid[1] = True
+one_way = np.zeros((2, 16), bool); one_way[0, 10:12] = True
+world.add_body(TileGrid(solid, 16, one_way=one_way, slopes=slopes), position=(0, 90), kind="static")
+masks = [PixelMask(rng.random((h, w)) < 0.7) for w, h in ((9, 7), (33, 5), (12, 12))]
+for k in range(21):
+    shape = (Circle(5.0, (1, 0)), Polygon.box(9, 6), masks[k % 3], Bounds(Polygon.box(6, 6)))[k % 4]
+    world.add_body(shape, position=tuple(rng.uniform(10, 240, 2) * (1, .35)), velocity=tuple(rng.normal(0, 500, 2)),
+                   angle=float(rng.uniform(0, 6)), angular_velocity=float(rng.normal(0, 3)),
+                   sensor=kind != "detection" and k % 8 == 0, material=Material(restitution=.5, friction=.4))
+hero = Character(world, Polygon.box(8, 12), (40, 60)) if kind != "detection" else None
+for step in range(steps):
+    if hero: hero.move(.8, 1.9)
+    world.step()
+    hit = world.ray_cast((-10, 40 + step), (300, 7))
+    print(world.digest(), hit and (hit.shape, hit.fraction.hex()), len(world.events.begin))
+print("JIT" if JIT else "plain", file=sys.stderr)
+"""
+
+
+def run(kind, broadphase, plain):
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_DISABLE_JIT": "1" if plain else "0"}
+    found = subprocess.run([sys.executable, "-c", SCRIPT, kind, "40", broadphase], cwd=ROOT, env=environment,
+                           capture_output=True, text=True, timeout=300)
+    assert found.returncode == 0, found.stderr
+    assert found.stderr.strip().splitlines()[-1] == ("plain" if plain else "JIT")
+    return found.stdout.splitlines()
+
+
+@pytest.mark.skipif(not JIT, reason="nothing to compare with")
+@pytest.mark.parametrize("kind, broadphase", [("response", "hash"), ("blocking", "tree"), ("detection", "sweep")])
+def test_compiled_and_plain_runs_give_the_same_bits(kind, broadphase):
+    compiled, plain = run(kind, broadphase, False), run(kind, broadphase, True)
+    assert len(compiled) == 40 and compiled == plain
