@@ -5,6 +5,7 @@ folder, so a forgotten line fails.
 """
 
 SCENES = {
+    "shooter": "scenes.shooter.scene:Shooter",
     "platformer": "scenes.platformer.scene:Platformer",
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",

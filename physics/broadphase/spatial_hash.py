@@ -17,6 +17,7 @@ from physics.profile import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERT
 
 LEVELS = 24                # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
 CELL_OF_MEDIAN = 2.0       # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
+SMALLEST_CELL = 2.0 ** -1000   # its inverse is still finite
 CELL_RANGE = 1e9           # cells from the origin up to which coordinates are hashed exactly in 64 bits
 
 
@@ -254,12 +255,12 @@ ENTRY = np.dtype([("lower_x", np.float64), ("lower_y", np.float64), ("upper_x", 
 
 
 class SpatialHashGrid:
-    """cell: size of the finest cells [px]; None tunes itself to the bodies. Raises ValueError for a cell not > 0."""
+    """cell: size of the finest cells [px]; None tunes itself to the bodies. Raises ValueError for a cell below 2^-1000."""
 
     name = "hash"
 
     def __init__(self, cell=None):
-        self.cell = None if cell is None else checks.number("cell", cell, above=0.0)
+        self.cell = None if cell is None else checks.number("cell", cell, low=SMALLEST_CELL)
         self.base = self.cell or 0.0
         self.tuned_for = 0
         self._clear(0, 16)
@@ -310,7 +311,7 @@ class SpatialHashGrid:
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
-        return CELL_OF_MEDIAN * float(np.median(extent)) if len(extent) else 1.0
+        return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
     def query(self, arena):
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""

@@ -13,6 +13,7 @@ from physics.jit import kernel
 from physics.profile import FILTERED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0          # the other axis must vary this much more before the order is sorted anew
+AXIS_INTERVAL = 32         # updates between two looks at how the bodies are spread
 SWAP_BUDGET = 16           # swaps per body after which a full sort is cheaper than going on inserting
 
 
@@ -250,6 +251,7 @@ class SweepAndPrune:
         if axes not in ("auto", "both"):
             raise ValueError(f"axes must be auto or both (got {axes!r})")
         self.axes = axes
+        self.updates = 0
         self.sorted = [Axis(0), Axis(1)] if axes == "both" else [Axis(0)]
 
     def find_pairs(self, lower, upper):
@@ -262,7 +264,8 @@ class SweepAndPrune:
 
     def update(self, arena):
         """Sort what changed into its place."""
-        if self.axes == "auto":
+        self.updates += 1
+        if self.axes == "auto" and (self.updates % AXIS_INTERVAL == 1 or len(arena.changed) > 2 * len(self.sorted[0].order)):
             best = self._best_axis(arena.proxies)
             if best != self.sorted[0].axis:
                 everything = arena.changed

@@ -1,8 +1,9 @@
 """Passes over the candidate pairs with masks: mask against mask by AND, mask against circle, polygon and bounds."""
 
 from physics.jit import kernel
+from physics.masks.bits import columns_up_to, first_shared_row, lowest_bit
 from physics.masks.contact import center_normal, mask_contact
-from physics.masks.overlap import first_pixel
+from physics.masks.overlap import first_pixel, shared_rectangle
 from physics.masks.shapes import collide_mask_circle, collide_mask_polygon
 from physics.narrowphase.contacts import MASK_CIRCLE, MASK_POLYGON, MASKS, circle_at, corners_of, write_contact
 from physics.narrowphase.sat import ALL_EDGES
@@ -33,20 +34,34 @@ def make_mask_pass(full: bool):
             top = a.top
             dx = b.left - left
             dy = b.top - top
-            hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
-            if not hit:
-                continue
-            feature = y * geometry.rasters[a.raster].width + x
+            r = geometry.rasters[a.raster]
+            s = geometry.rasters[b.raster]
+            if r.stride == 1 and s.stride == 1:
+                # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row. Called from here
+                # and not from first_pixel: a call within a call costs as much as the test.
+                x, y, right, bottom = shared_rectangle(r, s, dx, dy)
+                if x >= right or y >= bottom:
+                    continue
+                row, shared = first_shared_row(geometry.words, r.offset + y, x, s.offset + y - dy, x - dx, bottom - y,
+                                               columns_up_to(right - x))
+                if row == bottom - y:
+                    continue
+                x += lowest_bit(shared)
+                y += row
+            else:
+                hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
+                if not hit:
+                    continue
+            feature = y * r.width + x
             if full:
                 q = bodies[b.body_row]
-                r = geometry.rasters[b.raster]
                 area, px, py, nx, ny, separation = mask_contact(
-                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, q.x - r.origin_x + 0.5 - b.left,
-                    q.y - r.origin_y + 0.5 - b.top)
+                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, q.x - s.origin_x + 0.5 - b.left,
+                    q.y - s.origin_y + 0.5 - b.top)
                 found = write_contact(shapes, candidates, i, found, nx, ny, left + px, top + py, separation,
                                       float(area), feature, contacts_out)
             else:
-                nx, ny = center_normal(geometry.rasters[a.raster], geometry.rasters[b.raster], dx, dy)
+                nx, ny = center_normal(r, s, dx, dy)
                 found = write_contact(shapes, candidates, i, found, nx, ny, left + x + 0.5, top + y + 0.5, -1.0,
                                       0.0, feature, contacts_out)
         return found

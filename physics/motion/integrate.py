@@ -88,7 +88,10 @@ def refresh_centers(bodies_inout):
     """Write the world centres of mass [px] at the present poses. O(bodies)."""
     for i in range(len(bodies_inout)):
         b = bodies_inout[i]
-        u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+        u = b.local_center_x
+        v = b.local_center_y
+        if b.angle != 0.0:
+            u, v = turned(u, v, math.cos(b.angle), math.sin(b.angle))
         b.center_x = b.x + u
         b.center_y = b.y + v
         if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:

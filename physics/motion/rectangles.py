@@ -5,7 +5,7 @@ import math
 from physics.jit import kernel
 from physics.math2d import length_of, turned
 from physics.narrowphase.placement import aabb_at
-from physics.tables import STATIC
+from physics.tables import BOUNDS, MASK, STATIC
 
 
 def make_rectangle_pass(rotation: bool):
@@ -55,7 +55,14 @@ def make_rectangle_pass(rotation: bool):
                     u, v = turned(b.local_center_x, b.local_center_y, math.cos(angle), math.sin(angle))
                     x -= u
                     y -= v
-                left, top, right, bottom = aabb_at(geometry, shapes_inout, row, x, y, angle)
+                if not rotation and s.kind != MASK and (s.kind != BOUNDS or s.wrapped != MASK):
+                    # Not turned and not on the pixel grid: the box moves as its body does.
+                    left = lower_x + (x - b.x)
+                    top = lower_y + (y - b.y)
+                    right = upper_x + (x - b.x)
+                    bottom = upper_y + (y - b.y)
+                else:
+                    left, top, right, bottom = aabb_at(geometry, shapes_inout, row, x, y, angle)
                 lower_x = min(lower_x, left) - bulge
                 lower_y = min(lower_y, top) - bulge
                 upper_x = max(upper_x, right) + bulge

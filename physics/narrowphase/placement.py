@@ -12,7 +12,8 @@ TAU = math.tau
 @subkernel
 def bucket_at(angle, buckets):
     """The angle bucket nearest to an angle [rad]."""
-    return math.floor(angle * buckets / TAU + 0.5) % buckets
+    # Buckets are a power of two: the mask is the remainder, also of negative numbers, without a division.
+    return math.floor(angle * buckets / TAU + 0.5) & (buckets - 1)
 
 
 @subkernel

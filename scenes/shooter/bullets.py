@@ -63,16 +63,9 @@ class Bullets:
         """Rows of the world's bodies, in the order of the table."""
         return self.world.rows(self.ids)
 
-    def strays(self):
-        """Ids of those that have left the sky."""
-        bodies, rows = self.world.bodies, self.places()
-        return self.ids[outside(bodies["x"][rows], bodies["y"][rows])]
-
     def forget(self, ids):
-        """Drop rows of bullets whose bodies are removed; other ids are ignored. Returns how many were there."""
-        gone = np.isin(self.ids, ids)
-        self.table.keep(~gone)
-        return int(gone.sum())
+        """Drop the rows of bullets whose bodies are removed; other ids are ignored."""
+        self.table.keep(~np.isin(self.ids, ids))
 
 
 def outside(x, y):

@@ -7,7 +7,7 @@ its place, drifts, and fills the sky with patterns.
 from math import atan2, cos, hypot, pi, sin
 
 from game.sprites import load_atlas
-from scenes.shooter.bullets import DOWN, aimed, fan, outside, ring
+from scenes.shooter.bullets import DOWN, aimed, fan, ring
 from scenes.shooter.cast import HOSTILE, WIDTH, steps
 
 ENTRY_Y = -40.0               # [px] all enter from above the picture
@@ -141,10 +141,9 @@ KINDS = {each.kind: each for each in (Dart, Saucer, Gunship)}
 class Fleet:
     """All enemies, by body id in the order in which they came."""
 
-    def __init__(self, world):
-        self.world = world
+    def __init__(self, world, tier):
+        self.world, self.tier = world, tier
         self.planes = {}
-        self.tier = None
         self.longest = 0             # steps that any enemy has been in the sky
 
     def __len__(self):
@@ -177,14 +176,9 @@ class Fleet:
         for column in ("vx", "vy", "angle"):
             bodies[column][rows] = [getattr(plane, column) for plane in planes]
 
-    def strays(self):
-        """Ids of those that have left: below, or above when they go home."""
-        return [plane.id for plane in self.planes.values()
-                if outside(plane.x, plane.y) or (plane.mode == "leave" and plane.y < ENTRY_Y)]
-
     def forget(self, ids):
         """Drop planes whose bodies are removed."""
-        for identity in ids:
+        for identity in ids.tolist():
             self.planes.pop(identity, None)
 
 

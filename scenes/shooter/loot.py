@@ -3,7 +3,6 @@
 from math import cos, hypot, pi
 
 from game.sprites import load_atlas
-from scenes.shooter.bullets import outside
 from scenes.shooter.cast import LOOT, WIDTH
 
 FALL, SWAY, SWINGS = 34.0, 26.0, 0.5      # [px/s], [px/s], swings per second
@@ -18,6 +17,9 @@ class Loot:
         self.world = world
         self.born = {}
 
+    def __len__(self):
+        return len(self.born)
+
     def drop(self, x, y, now, tier):
         """Leave one at a place [px]."""
         body = self.world.add_body(load_atlas("planes").mask("powerup_0"), kind="kinematic", sensor=True, filter=LOOT,
@@ -25,12 +27,11 @@ class Loot:
         self.born[body.id] = now
 
     def step(self, now, plane):
-        """Choose velocities; returns the ids of those that fell out of the sky."""
+        """Choose the velocities of the coming step."""
         if not self.born:
-            return []
+            return
         rows, bodies = self.world.rows(list(self.born)), self.world.bodies
-        lost = []
-        for row, (identity, born) in zip(rows.tolist(), self.born.items(), strict=True):
+        for row, born in zip(rows.tolist(), self.born.values(), strict=True):
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
             far = hypot(plane.x - x, plane.y - y)
             if plane.body is not None and far < REACH:
@@ -40,11 +41,8 @@ class Loot:
                 vx, vy = SWAY * cos(2 * pi * SWINGS * (now - born) / 60), FALL
                 vx = max(vx, 0.0) if x < EDGE else min(vx, 0.0) if x > WIDTH - EDGE else vx
             bodies["vx"][row], bodies["vy"][row] = vx, vy
-            if outside(x, y):
-                lost.append(identity)
-        return lost
 
     def forget(self, ids):
         """Drop those whose bodies are removed."""
-        for identity in ids:
+        for identity in ids.tolist():
             self.born.pop(identity, None)

@@ -3,17 +3,17 @@
 from math import pi
 
 from game.sprites import load_atlas
-from scenes.shooter.cast import HEIGHT
+from scenes.shooter.cast import WIDTH
 
 FIRE = ((255, 255, 240), (255, 226, 130), (255, 160, 50), (216, 78, 40), (120, 40, 52), (60, 34, 50))
 SPARK = ((255, 255, 255), (255, 240, 170), (255, 180, 70), (170, 80, 50))
 BLUE = ((255, 255, 255), (170, 236, 255), (70, 160, 240), (40, 70, 160))
 GOLD = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
 ROSE = ((255, 255, 255), (255, 170, 190), (220, 80, 130), (110, 40, 90))
-SCROLL = 26.0                # [px/s] of the sea
 SMOKE_EVERY = 5              # steps between puffs of a damaged gunship
 FLASH = 3                    # steps that a plane stays white when it is hit
 CALM = 0.965                 # of the shock of an explosion that is left a step later
+LEAN_RATE = 0.06             # share of the way to the plane that the parallax goes in a step
 # kind -> explosion, sound, volume, shake, sparks, pieces of debris
 DEATHS = {"dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
           "saucer": ("explosion_small", "explosion", 0.7, 0.10, 24, 5),
@@ -37,11 +37,14 @@ class Spectacle:
         self.shock = 0.0             # light of explosions on the picture, 1..0
         self.news = 0                # steps that the name of the wave is still shown
         self.pulse = 0.0             # the score jumps when it grows, 1..0
+        self.lean = self.lean_before = 0.0     # [px] off the middle, as the parallax sees it: slower than the plane
 
     def step(self, dt):
         """Everything ages."""
         self.time += dt
         self.muzzle += 1
+        self.lean_before = self.lean
+        self.lean += (self.scene.plane.x - WIDTH / 2 - self.lean) * LEAN_RATE
         self.shock *= CALM
         self.pulse = max(0.0, self.pulse - 5.0 * dt)
         self.news = max(0, self.news - 1)
@@ -64,6 +67,10 @@ class Spectacle:
             word[2] -= 18.0 * dt
             word[3] += dt
         self.words = [word for word in self.words if word[3] < 0.8]
+
+    def lean_at(self, alpha):
+        """The parallax' shift between two steps [px]."""
+        return self.lean_before + (self.lean - self.lean_before) * alpha
 
     # --- what the scene reports --------------------------------------------------------------------------------------
 
@@ -185,7 +192,3 @@ class Spectacle:
         for number in range(count):
             self.debris.append([f"debris_{frames[number % 2]}", x, y, vx * 0.3 + self.random.uniform(-90, 90),
                                 vy * 0.3 + self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])
-
-    def sea(self, alpha):
-        """How far the sea has moved, interpolated like everything else [px]."""
-        return (self.time + (alpha - 1.0) / 60) * SCROLL % (4 * HEIGHT)

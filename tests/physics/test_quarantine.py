@@ -9,6 +9,7 @@ from physics import (JIT, BruteForce, Character, Circle, DynamicTree, Effects, P
                      SweepAndPrune, World)
 
 ALL = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True)
+MASK = PixelMask(np.ones((7, 9), bool))          # one object, so that its turned masks are made once
 STRATEGIES = [BruteForce, SweepAndPrune, lambda: SweepAndPrune(axes="both"), SpatialHashGrid, DynamicTree]
 
 
@@ -17,7 +18,7 @@ def pile(strategy, seed=0):
     world = World(ALL, strategy())
     world.add_body(Polygon.box(400, 20), position=(100, 120), kind="static")
     for k in range(30 if JIT else 14):
-        shape = (Circle(6.0), Polygon.box(10, 8), PixelMask(np.ones((7, 9), bool)))[k % 3]
+        shape = (Circle(6.0), Polygon.box(10, 8), MASK)[k % 3]
         world.add_body(shape, position=tuple(rng.uniform(0, 110, 2)), velocity=tuple(rng.normal(0, 100, 2)))
     return world
 

@@ -228,7 +228,7 @@ def test_impulses_act_on_both_sides_alike():
     assert world.events.hits["normal_impulse"].tolist() == [j] and j > 0
 
 
-def test_conveyor_of_zero_friction_and_inert_material_values_do_nothing():
+def test_material_values_without_their_effect_are_inert():
     plain = World(Effects(response=True), gravity=(0, 0))
     rough = World(Effects(response=True), gravity=(0, 0))
     for world, material in ((plain, Material(friction=0.0)), (rough, Material(friction=1.0, restitution=1.0))):
@@ -247,7 +247,7 @@ def test_zero_step_moves_nothing():
     world.step(0)
     for name in ("x", "y", "angle", "vx", "vy", "angular_velocity"):
         assert (world.bodies[name] == before[name]).all(), name
-    assert len(world.contacts) == 3 or len(world.contacts) >= 2
+    assert len(world.contacts) >= 2
 
 
 @pytest.mark.parametrize("dt", [1e-9, 1.0, 100.0])
