@@ -117,6 +117,7 @@ CHARACTER = np.dtype([                 # one per Character: moves in whole pixel
     ("remainder_x", np.float64), ("remainder_y", np.float64),   # [px] motion that has not made a whole pixel yet
     ("previous_left", np.int64), ("previous_top", np.int64),    # before the last move: for interpolated drawing
     ("riding", np.int64),              # id of the body under its feet that may carry it, -1: none
+    ("carried", np.int64),             # [px] by what it rides, along the axis that is being carried
     ("grounded", np.bool_),
     ("squeezed", np.bool_),            # by a solid that it could not give way to, since its last move
     ("pushable", np.bool_),            # solid for the others, and gives way to them

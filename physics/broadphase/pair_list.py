@@ -68,6 +68,16 @@ class PairList:
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
+    def widen(self, shapes, margin):
+        """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed."""
+        slots = shapes["proxy"]
+        for low, high, axis in (("lower_x", "min_x", -1.0), ("lower_y", "min_y", -1.0), ("upper_x", "max_x", 1.0),
+                                ("upper_y", "max_y", 1.0)):
+            pick = np.minimum if axis < 0.0 else np.maximum
+            self.proxies[low][slots] = pick(self.proxies[low][slots], shapes[high] + axis * margin)
+        self.proxies["changed"][slots] = True
+        self.changed[:len(slots)] = slots
+
     def set_filter(self, slots, value):
         """Change the filter of slots."""
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
@@ -107,7 +117,7 @@ class PairList:
             self._rename(shapes)
         self.free += self.freed
         self.freed = []
-        work[CANDIDATES] += self.count
+        work[CANDIDATES] = self.count
 
     def _collect(self, strategy, shapes):
         arena, proxies = self.arena, self.proxies

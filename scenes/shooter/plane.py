@@ -17,7 +17,7 @@ AWAY = steps(1.0)                    # steps between two lives
 BANK_RATE = 0.34                     # frames of bank per step
 BANKS = ("player_left2", "player_left1", "player", "player_right1", "player_right2")
 LIVES, MOST_LIVES, TOP_POWER = 3, 6, 5
-COOLDOWN = 7                         # steps between two volleys
+COOLDOWN = 8                         # steps between two volleys
 SHOT_SPEED, SIDE_SPEED = 540.0, 460.0
 # What a volley is, by power: shots by their x [px] off the nose, side bullets by their lean [rad] from straight up.
 VOLLEYS = (

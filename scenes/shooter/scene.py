@@ -8,7 +8,7 @@ from physics import Effects
 from scenes.shooter.bullets import Bullets, outside
 from scenes.shooter.cast import FIRED, INCOMING, steps
 from scenes.shooter.close_call import close_calls
-from scenes.shooter.enemies import KINDS, Fleet
+from scenes.shooter.enemies import KINDS, Fleet, draw_turned
 from scenes.shooter.loot import Loot
 from scenes.shooter.pilot import Pilot
 from scenes.shooter.plane import MOST_LIVES, Plane
@@ -20,7 +20,7 @@ from scenes.shooter.waves import Director
 FREEZE = 4                    # steps that the game stands still when the player is hit: 67 ms are felt, not noticed
 RESTART_AFTER = steps(1.2)    # steps of game over before a key starts anew: nobody skips it by firing
 SURVIVE = 3600                # steps that the bot is to survive
-DROP_EVERY = 14               # kills between two power-ups that nobody carried
+DROP_EVERY = 22               # kills between two power-ups that nobody carried
 
 
 class Shooter(Scene):
@@ -38,6 +38,7 @@ class Shooter(Scene):
 
     def build(self):
         """An empty sky, and you."""
+        draw_turned()
         world = self.add_world()
         self.incoming, self.shots = Bullets(world, INCOMING), Bullets(world, FIRED)
         self.fleet, self.loot = Fleet(world, self.tier), Loot(world)

@@ -116,7 +116,7 @@ class Spectacle:
         self._sparks(x, y, sparks // 3, SPARK, 260)
         self._pieces(enemy.kind, x, y, enemy.vx, enemy.vy, pieces)
         self._puffs(x, y, 2 if enemy.kind != "gunship" else 6)
-        self.word(f"{worth}", x, y - 8, (255, 236, 170))
+        self.word(f"{worth}", x, y - 24, (255, 236, 170))
         self.pulse = 1.0
         self.scene.camera.shake(shake)
         self.scene.play(sound, x, volume)

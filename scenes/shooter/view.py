@@ -31,10 +31,11 @@ class View:
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
-        self.layers = [(ready(load_backdrop(name), name == "sea"), *rest) for name, *rest in LAYERS]
+        self.layers = [(load_backdrop(name), *rest) for name, *rest in LAYERS]
         self.turned = {}             # (atlas, frame) -> TurnedSprites
         self.shaded, self.whitened = lru_cache(maxsize=512)(shade), lru_cache(maxsize=512)(lit)
         self.outlined = lru_cache(maxsize=16)(outline)
+        self.ghostly = lru_cache(maxsize=16)(ghostly)
         self.dimmed = lru_cache(maxsize=64)(dimmed)
 
     def sprite(self, atlas, frame, angle=0.0):
@@ -94,8 +95,10 @@ class View:
                 image, origin = self.sprite(self.planes, self._frame(plane), angle)
                 drawn.append((image, self._at(px, py, origin), plane.id in flashes))
         player = scene.plane
-        if player.body is not None and not (player.safe and not player.entering and player.safe % BLINK < BLINK // 2):
+        if player.body is not None:
             image, origin = self.sprite(self.planes, player.frame)
+            if player.safe % BLINK >= BLINK // 2:
+                image = self.ghostly(image)
             x, y, _ = self._places(scene, [player.body.id])
             drawn.append((image, self._at(x[0], y[0], origin), False))
         return drawn
@@ -204,17 +207,6 @@ def the_view():
     return View()
 
 
-def ready(picture, opaque):
-    """A backdrop in the form that blits fastest: opaque, or with its clear pixels packed away."""
-    if opaque:
-        copy = pygame.Surface(picture.get_size())
-        copy.blit(picture, (0, 0))
-        return copy
-    copy = picture.copy()
-    copy.set_alpha(255, pygame.RLEACCEL)
-    return copy
-
-
 def tile(surface, picture, x, y):
     """Cover the surface with a picture that repeats both ways, its corner at (x, y)."""
     width, height = picture.get_size()
@@ -231,6 +223,13 @@ def shade(image):
     silhouette = pygame.mask.from_surface(image).to_surface(setcolor=SHADOW, unsetcolor=(0, 0, 0, 0))
     width, height = image.get_size()
     return pygame.transform.scale(silhouette, (max(1, width * 3 // 4), max(1, height * 3 // 4)))
+
+
+def ghostly(image):
+    """A plane that nothing can hit, in every other moment: bright and clear."""
+    copy = lit(image, 90)
+    copy.fill((255, 255, 255, 120), special_flags=pygame.BLEND_RGBA_MULT)
+    return copy
 
 
 def outline(image):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from scenes.shooter.cast import WIDTH, steps
 
 PAUSE = 0.9              # [s] of peace between two waves
-PATIENCE = 13.0          # [s] after which the next wave comes although some planes of the last are left
+PATIENCE = 10.0          # [s] after which the next wave comes although some planes of the last are left
 
 
 @dataclass(frozen=True)
@@ -31,22 +31,27 @@ class Wave:
 
 
 WAVES = (
-    Wave("FIRST CONTACT", (Group("dart", (0.30, 0.70, 0.42, 0.58), every=0.8),)),
-    Wave("WEAVERS", (Group("saucer", (0.30,) * 3, every=0.7, sway=70),
-                     Group("saucer", (0.70,) * 3, every=0.7, after=1.4, sway=-70, carries=True))),
-    Wave("ARROWHEAD", (Group("dart", (0.50, 0.42, 0.58, 0.34, 0.66), every=0.18, hover=64),)),
-    Wave("GUNSHIP", (Group("gunship", (0.50,), hover=62, carries=True),)),
-    Wave("TWO STREAMS", (Group("saucer", (0.16, 0.16, 0.16, 0.16), every=0.55, sway=44),
-                         Group("saucer", (0.84, 0.84, 0.84, 0.84), every=0.55, sway=-44))),
-    Wave("ESCORT", (Group("gunship", (0.30,), hover=54, carries=True),
-                    Group("dart", (0.60, 0.72, 0.84, 0.90), every=0.5, after=2.0))),
-    Wave("STORM", (Group("dart", (0.10, 0.90, 0.26, 0.74, 0.42, 0.58, 0.34, 0.66), every=0.34, hover=46),)),
-    Wave("CROSSING", (Group("saucer", (0.50,) * 7, every=0.42, sway=170, carries=True),
-                      Group("dart", (0.12, 0.88), every=1.2, after=2.0))),
-    Wave("TWINS", (Group("gunship", (0.26, 0.74), every=0.9, hover=58, carries=True),)),
-    Wave("ALL OUT", (Group("gunship", (0.50,), hover=48, carries=True),
-                     Group("saucer", (0.20, 0.80, 0.20, 0.80), every=0.6, after=1.0, sway=50),
-                     Group("dart", (0.30, 0.70, 0.38, 0.62), every=0.5, after=3.2))),
+    Wave("FIRST CONTACT", (Group("dart", (0.30, 0.70, 0.42, 0.58, 0.22, 0.78), every=0.6),)),
+    Wave("WEAVERS", (Group("saucer", (0.28,) * 4, every=0.6, sway=70),
+                     Group("saucer", (0.72,) * 4, every=0.6, after=1.2, sway=-70, carries=True))),
+    Wave("ARROWHEAD", (Group("dart", (0.50, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74), every=0.16, hover=66),
+                       Group("saucer", (0.12, 0.88), every=0.1, after=1.2, sway=24))),
+    Wave("GUNSHIP", (Group("gunship", (0.50,), hover=62, carries=True),
+                     Group("saucer", (0.14, 0.86, 0.14, 0.86), every=0.5, after=2.4, sway=30))),
+    Wave("TWO STREAMS", (Group("saucer", (0.16,) * 6, every=0.5, sway=44),
+                         Group("saucer", (0.84,) * 6, every=0.5, sway=-44, carries=True))),
+    Wave("ESCORT", (Group("gunship", (0.30,), hover=54),
+                    Group("dart", (0.60, 0.72, 0.84, 0.92, 0.66, 0.78), every=0.45, after=1.4),
+                    Group("saucer", (0.50, 0.50, 0.50), every=0.6, after=3.0, sway=120))),
+    Wave("STORM", (Group("dart", (0.10, 0.90, 0.26, 0.74, 0.42, 0.58, 0.34, 0.66, 0.18, 0.82, 0.50, 0.30, 0.70, 0.50),
+                         every=0.28, hover=46),)),
+    Wave("CROSSING", (Group("saucer", (0.50,) * 10, every=0.36, sway=170, carries=True),
+                      Group("dart", (0.12, 0.88, 0.20, 0.80), every=0.9, after=1.6))),
+    Wave("TWINS", (Group("gunship", (0.24, 0.76), every=0.7, hover=58, carries=True),
+                   Group("dart", (0.40, 0.60, 0.44, 0.56), every=0.8, after=3.0, hover=34))),
+    Wave("ALL OUT", (Group("gunship", (0.50,), hover=50, carries=True),
+                     Group("saucer", (0.16, 0.84) * 4, every=0.4, after=0.8, sway=44),
+                     Group("dart", (0.30, 0.70, 0.38, 0.62, 0.24, 0.76), every=0.5, after=3.0))),
 )
 
 
