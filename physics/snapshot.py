@@ -15,7 +15,7 @@ from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
 
 VERSION = 1
 DAMAGE = (ValueError, TypeError, KeyError, IndexError, EOFError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error,
-          SyntaxError, tokenize.TokenError)
+          RuntimeError, SyntaxError, tokenize.TokenError)
 TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": EVENT, "sensing": EVENT,
           "contacts": CONTACT}
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
