@@ -135,8 +135,8 @@ CONTACT = np.dtype([                   # one per point
     ("normal_impulse", np.float64), ("tangent_impulse", np.float64),
     ("area", np.float64),              # [px2] that two masks share; 0 for other shapes
     ("feature", np.int64),             # which corner, edge, tile or pixel it came from
-    ("body_row_a", np.int64), ("body_row_b", np.int64), ("row_a", np.int64), ("row_b", np.int64),
-    ("candidate", np.int64),           # row of the pair it came from
+    ("body_row_a", np.int32), ("body_row_b", np.int32), ("row_a", np.int32), ("row_b", np.int32),
+    ("candidate", np.int32),           # row of the pair it came from
     ("anchor_x", np.float64), ("anchor_y", np.float64),  # [px] displacement of B against A when it was detected
     ("friction", np.float64), ("restitution", np.float64),   # mixed
     ("speed", np.float64),             # [px/s] approach along the normal before the response

@@ -115,14 +115,19 @@ def sweep_one(
         other_high = boxes[i, 3]
         changed = proxies[a].changed
         j = i + 1 if changed else next_changed[i]
+        if changed:
+            tested -= j
         while j < count and boxes[j, 0] <= upper:
-            tested += 1
+            if not changed:
+                tested += 1
             # Written always and counted only on overlap: no branch to mispredict. The last row takes what is too many.
             at = min(found, room)
             pairs_out[at, 0] = a
             pairs_out[at, 1] = order[j]
             found += int((boxes[j, 2] <= other_high) & (boxes[j, 3] >= other_low))
             j = j + 1 if changed else next_changed[j]
+        if changed:
+            tested += j
     work_inout[PAIRS_TESTED] += tested
     if found > room:
         return found + 1

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SAMPLES = 8       # per side of a pixel: coverage in steps of 1/64
-CENTRAL = 1       # samples nearest to the centre that make a pixel part of the turned shape
+SAMPLES = 5       # per side of a pixel, so that one is its centre: coverage in steps of 1/25
 
 
 @dataclass(frozen=True)
@@ -58,23 +57,28 @@ def _any_turn(solid, origin, angle):
     origin_x, origin_y = -math.floor(out_x.min()), -math.floor(out_y.min())
     width, height = math.ceil(out_x.max()) + origin_x, math.ceil(out_y.max()) + origin_y
 
-    coverage = np.zeros((height, width), np.int64)
-    centered = np.zeros((height, width), bool)
-    source_x, source_y = np.full((height, width), -1), np.full((height, width), -1)
-    pixel_y, pixel_x = np.mgrid[0:height, 0:width]
+    rows, columns = solid.shape
+    padded = np.zeros((rows + 2, columns + 2), bool)         # a clear border catches what falls beside the source
+    padded[1:-1, 1:-1] = solid
+    coverage = np.zeros(height * width, np.int64)
+    centered = np.zeros(height * width, bool)
+    source = np.full(height * width, -1)
+    pixel_y, pixel_x = np.mgrid[0.0:height, 0.0:width]
+    base_x = (cosine * (pixel_x - origin_x) + sine * (pixel_y - origin_y) + (origin[0] + 1.0)).ravel()
+    base_y = (cosine * (pixel_y - origin_y) - sine * (pixel_x - origin_x) + (origin[1] + 1.0)).ravel()
     offsets = [((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)]
     offsets.sort(key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at))   # the centre decides the colour
-    for number, (offset_x, offset_y) in enumerate(offsets):
-        x, y = pixel_x + (offset_x - origin_x), pixel_y + (offset_y - origin_y)
-        at_x = np.floor(cosine * x + sine * y + origin[0]).astype(np.int64)
-        at_y = np.floor(cosine * y - sine * x + origin[1]).astype(np.int64)
-        inside = (at_x >= 0) & (at_y >= 0) & (at_x < solid.shape[1]) & (at_y < solid.shape[0])
-        covered = inside & solid[np.where(inside, at_y, 0), np.where(inside, at_x, 0)]
-        first = covered & (source_x < 0)
-        source_x[first], source_y[first] = at_x[first], at_y[first]
+    for number, (x, y) in enumerate(offsets):
+        at_x = np.clip(base_x + (cosine * x + sine * y), 0.0, columns + 1.0).astype(np.intp)
+        at_y = np.clip(base_y + (cosine * y - sine * x), 0.0, rows + 1.0).astype(np.intp)
+        at = at_y * (columns + 2) + at_x
+        covered = padded.ravel()[at]
+        source = np.where(covered & (source < 0), at, source)
         coverage += covered
-        if number < CENTRAL:
-            centered |= covered
+        if number == 0:
+            centered = covered
+    coverage, centered = coverage.reshape(height, width), centered.reshape(height, width)
+    source_y, source_x = (each.reshape(height, width) - 1 for each in np.divmod(source, columns + 2))
     kept = _as_many(centered, coverage, int(solid.sum()))
     return Turned(kept, (float(origin_x), float(origin_y)), np.where(kept, source_x, -1), np.where(kept, source_y, -1))
 

@@ -4,7 +4,7 @@ import math
 
 from physics.jit import kernel
 from physics.math2d import length_of, turned
-from physics.narrowphase.placement import aabb_at
+from physics.narrowphase.placement import aabb_at, raster_aabb, raster_at
 from physics.tables import BOUNDS, MASK, STATIC
 
 
@@ -34,7 +34,12 @@ def make_rectangle_pass(rotation: bool):
             if b.kind == STATIC and not fresh and not p.changed and (b.x == b.previous_x and b.y == b.previous_y
                                                    and b.angle == b.previous_angle):
                 continue
-            lower_x, lower_y, upper_x, upper_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)
+            raster = 0
+            if s.kind == MASK:
+                raster = raster_at(geometry, s.geometry, b.angle)
+                lower_x, lower_y, upper_x, upper_y = raster_aabb(geometry, raster, b.x, b.y)
+            else:
+                lower_x, lower_y, upper_x, upper_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)
             if b.kind != STATIC:
                 x = b.x + dt * b.vx
                 y = b.y + dt * b.vy
@@ -55,7 +60,9 @@ def make_rectangle_pass(rotation: bool):
                     u, v = turned(b.local_center_x, b.local_center_y, math.cos(angle), math.sin(angle))
                     x -= u
                     y -= v
-                if not rotation and s.kind != MASK and (s.kind != BOUNDS or s.wrapped != MASK):
+                if not rotation and s.kind == MASK:
+                    left, top, right, bottom = raster_aabb(geometry, raster, x, y)
+                elif not rotation and (s.kind != BOUNDS or s.wrapped != MASK):
                     # Not turned and not on the pixel grid: the box moves as its body does.
                     left = lower_x + (x - b.x)
                     top = lower_y + (y - b.y)

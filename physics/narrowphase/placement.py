@@ -29,6 +29,17 @@ def snapped(coordinate, origin):
 
 
 @subkernel
+def raster_aabb(geometry, raster, x, y):
+    """AABB [px] of the solid pixels of a raster whose body is at (x, y); the point itself when there is none."""
+    r = geometry.rasters[raster]
+    if r.area == 0:
+        return x, y, x, y
+    left = float(snapped(x, r.origin_x))
+    top = float(snapped(y, r.origin_y))
+    return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+
+
+@subkernel
 def polygon_at(geometry, polygon, x, y, cosine, sine, corners_out):
     """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Returns their number."""
     span = geometry.polygons[polygon]
@@ -72,12 +83,7 @@ def aabb_at(geometry, shapes, row, x, y, angle):
     if kind == TILES:
         g = geometry.grids[s.geometry]
         return x, y, x + g.columns * g.tile_size, y + g.rows * g.tile_size
-    r = geometry.rasters[raster_at(geometry, s.geometry, angle)]
-    if r.area == 0:
-        return x, y, x, y
-    left = float(snapped(x, r.origin_x))
-    top = float(snapped(y, r.origin_y))
-    return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+    return raster_aabb(geometry, raster_at(geometry, s.geometry, angle), x, y)
 
 
 @subkernel

@@ -10,18 +10,27 @@ HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))      # by how much is 
 FADE = 0.55                  # [s] after which a rising word is written darker
 
 
-def draw_board(canvas, scene, view):
-    """All words. `view`: world point at the top left of the picture."""
+HELD = ((0, 0, 112, 32), (396, 0, 84, 34), (180, 0, 120, 28))  # [canvas px] where the fixed words stand
+
+
+def draw_words(canvas, scene, view):
+    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's top left."""
+    for rect in HELD:
+        canvas.reserve(rect)
+    left, top = view
+    for text, x, y, age, color in scene.spectacle.words:
+        faded = tuple(c * 2 // 3 for c in color) if age > FADE else color
+        canvas.text_if_free(text, x - left, y - top, faded, SMALL, align="center", outline=True)
+
+
+def draw_board(canvas, scene):
+    """The fixed words."""
     _draw_score(canvas, scene)
     _draw_lives(canvas, scene)
     if scene.over:
         _draw_end(canvas, scene)
     elif scene.spectacle.news and scene.director.number:
         _draw_wave(canvas, scene)
-    left, top = view
-    for text, x, y, age, color in scene.spectacle.words:
-        faded = tuple(c * 2 // 3 for c in color) if age > FADE else color
-        canvas.text_if_free(text, x - left, y - top, faded, SMALL, align="center", outline=True)
 
 
 def _draw_score(canvas, scene):

@@ -6,6 +6,8 @@ its place, drifts, and fills the sky with patterns.
 
 from math import atan2, cos, hypot, pi, sin
 
+import numpy as np
+
 from game.sprites import load_atlas
 from scenes.shooter.bullets import DOWN, aimed, fan, ring
 from scenes.shooter.cast import HOSTILE, WIDTH, steps
@@ -45,6 +47,10 @@ class Enemy:
         speed = min(most, APPROACH * far)
         self.vx, self.vy = (0.0, 0.0) if far < 0.5 else (speed * (x - self.x) / far, speed * (y - self.y) / far)
         return far
+
+    def ahead(self, seconds):
+        """Where it will be after so many seconds (array), as far as anybody can tell: x and y [px]."""
+        return self.x + self.vx * seconds, self.y + self.vy * seconds
 
     def state(self):
         """For the digest."""
@@ -100,6 +106,11 @@ class Saucer(Enemy):
             sky.incoming.fire("red", self.x, self.y + 8.0, fan(heading, count, 0.4), self.BULLET * sky.pace.speed)
             sky.spectacle.enemy_fires(self)
 
+    def ahead(self, seconds):
+        turn = 2 * pi * self.TURNS
+        return (self.x + self.sway * (np.sin(turn * (self.age / 60 + seconds)) - sin(turn * self.age / 60)),
+                self.y + self.vy * seconds)
+
 
 class Gunship(Enemy):
     """Takes its place, drifts from side to side, fires fans and rings by turns; leaves when its time is up."""
@@ -107,6 +118,7 @@ class Gunship(Enemy):
     kind, frame, health, points = "gunship", "gunship_0", 55, 1000
     BETWEEN, FIRST = 1.15, 0.6                # [s]
     FAN, RING = 104.0, 82.0                   # [px/s]
+    FAN_GAP = 0.31                            # [rad] a plane fits through it from 140 px on
     DRIFT, STAY = 26.0, 16.0                  # [px/s], [s]
 
     def think(self, sky):
@@ -130,7 +142,8 @@ class Gunship(Enemy):
         pace = sky.pace
         if self.volleys % 2 == 0:
             heading = aimed(self.x, self.y + 14.0, sky.target)[0]
-            spokes = fan(heading, 7 + pace.extra // 2, 1.3)
+            count = 5 + pace.extra // 2
+            spokes = fan(heading, count, self.FAN_GAP * (count - 1))
             sky.incoming.fire("orange", self.x, self.y + 14.0, spokes, self.FAN * pace.speed)
         else:
             spokes = ring(16 + pace.extra, 0.26 * self.volleys)

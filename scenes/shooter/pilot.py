@@ -16,6 +16,7 @@ FLOWN = (5.0, 12.0, 26.0)                   # steps that a direction is held
 HALF_WIDTH, HALF_HEIGHT = 13.0, 15.0        # [px] of the plane, for the prediction
 RADIUS = {"red": 5.0, "purple": 4.0, "orange": 6.0, "needle": 5.0}
 ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0}
+CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}      # factor on sizes: what is tested is larger
 COMFORT = 1.75                              # in sizes: nearer than this is uncomfortable
 DEADLY = 1.08                               # nearer than this is a hit
 NEAR = 190.0                                # [px] farther threats can wait
@@ -64,15 +65,14 @@ class Pilot:
 
     def _danger(self, scene, x, y, place_x, place_y):
         """Cost of each plan by what comes near."""
-        tx, ty, vx, vy, radius = threats(scene)
-        near = (np.abs(tx - x) < NEAR) & (np.abs(ty - y) < NEAR)
+        ahead_x, ahead_y, radius = threats(scene)
+        near = (np.abs(ahead_x[0] - x) < NEAR) & (np.abs(ahead_y[0] - y) < NEAR)
         if not near.any():
             return np.zeros(len(place_x))
-        tx, ty, vx, vy, radius = (column[near] for column in (tx, ty, vx, vy, radius))
-        ahead = MOMENTS[:, None] / 60
-        off_x = place_x[:, :, None] - (tx + vx * ahead)[None]
-        off_y = place_y[:, :, None] - (ty + vy * ahead)[None]
-        off = np.sqrt((off_x / (HALF_WIDTH + radius)) ** 2 + (off_y / (HALF_HEIGHT + radius)) ** 2)
+        radius, care = radius[near], CAUTION[scene.tier] if scene.narrowphase else CAUTION["aabb"]
+        off_x = place_x[:, :, None] - ahead_x[None, :, near]
+        off_y = place_y[:, :, None] - ahead_y[None, :, near]
+        off = np.sqrt((off_x / (HALF_WIDTH + radius)) ** 2 + (off_y / (HALF_HEIGHT + radius)) ** 2) / care
         fear = np.maximum(COMFORT - off, 0.0) ** 2 + 60.0 * (off < DEADLY)
         return (fear.sum(axis=2) * WEIGHTS).sum(axis=1)
 
@@ -95,10 +95,16 @@ class Pilot:
 
 
 def threats(scene):
-    """Columns x, y, vx, vy [px, px/s] and radius [px] of all bullets and enemies."""
+    """Where all bullets and enemies will be, x and y [moment, threat] in px, and the radius [px] of each."""
     bodies, incoming = scene.world.bodies, scene.incoming
+    ahead, rows = MOMENTS[:, None] / 60, incoming.places()
+    columns_x = [bodies["x"][rows] + bodies["vx"][rows] * ahead]
+    columns_y = [bodies["y"][rows] + bodies["vy"][rows] * ahead]
     fleet = list(scene.fleet.planes.values())
-    rows = np.concatenate([incoming.places(), scene.world.rows([e.id for e in fleet])]).astype(np.int64)
+    for enemy in fleet:
+        x, y = enemy.ahead(ahead)
+        columns_x.append(x)
+        columns_y.append(y)
     sizes = np.array([RADIUS.get(name, 5.0) for name in NAMES])
-    radius = np.concatenate([sizes[incoming.table.rows["look"]], [ENEMY_RADIUS[e.kind] for e in fleet]])
-    return bodies["x"][rows], bodies["y"][rows], bodies["vx"][rows], bodies["vy"][rows], radius
+    radius = np.concatenate([sizes[incoming.table.rows["look"]], [ENEMY_RADIUS[enemy.kind] for enemy in fleet]])
+    return np.concatenate(columns_x, axis=1), np.concatenate(columns_y, axis=1), radius

@@ -106,12 +106,12 @@ class Plane:
         return 0.45 if self.focusing else 1.0
 
     def lose_life(self):
-        """It is hit. Its body leaves the world at once."""
-        self.world.remove_body(self.body)
-        self.body = None
+        """It is hit. Returns the id of its body, which is to be removed."""
+        wreck, self.body = self.body.id, None
         self.lives -= 1
         self.power = max(self.power - 1, 1)
         self.away = AWAY
+        return wreck
 
     def strengthen(self):
         """A power-up. Returns False when there is nothing left to gain."""

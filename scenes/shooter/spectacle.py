@@ -121,8 +121,15 @@ class Spectacle:
         self.scene.camera.shake(shake)
         self.scene.play(sound, x, volume)
 
+    def player_hit(self, plane, hit_by, still):
+        """Pixels met: plane and bullet stand white for as many steps as all stands still."""
+        for identity in (plane.body.id, *hit_by):
+            self.flashes[identity] = still + 1
+        self.scene.camera.shake(0.35)
+        self.scene.play("hurt", plane.x, 0.8)
+
     def player_lost(self, plane):
-        """The player is hit."""
+        """The plane bursts."""
         x, y = plane.x, plane.y
         self._burst("explosion_large", x, y, 0.0, 12.0)
         for number in range(4):
@@ -133,8 +140,7 @@ class Spectacle:
         self._pieces("player", x, y, 0.0, 0.0, 10)
         self._puffs(x, y, 6)
         self.shock = 1.0
-        self.scene.camera.shake(0.6)
-        self.scene.play("hurt", x, 0.8)
+        self.scene.camera.shake(0.5)
         self.scene.play("big_explosion", x, 0.8)
 
     def bullets_burnt(self, places):

@@ -21,8 +21,9 @@ LAYERS = (("sea", 22.0, 0.04, 0), ("cloud_shadows", 36.0, 0.06, 40), ("clouds_lo
 SHADOW_AT = (15, 24)         # [px] from a plane to its shadow on the sea
 SHADOW = (8, 12, 30, 84)
 CYCLES = {"red": "bullet_red", "purple": "bullet_purple", "orange": "bullet_orange"}
-GLOWS = {"shot": "glow_blue", "red": "glow_small", "orange": "glow_small"}
+GLOWS = {"shot": "glow_blue", "red": "glow_small", "orange": "glow_small", "purple": "glow_blue"}
 EXHAUST_AT = 21              # [px] from the plane's middle to that of its flames
+STREAKS = 16                 # wisps of air that show the speed
 BLINK = 8                    # steps of one blink of a ghost
 
 
@@ -32,6 +33,9 @@ class View:
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
         self.layers = [(load_backdrop(name), *rest) for name, *rest in LAYERS]
+        self.streak = pygame.Surface((1, 14), pygame.SRCALPHA)
+        for row in range(14):
+            self.streak.set_at((0, row), (220, 236, 255, 4 + 4 * row))
         self.turned = {}             # (atlas, frame) -> TurnedSprites
         self.shaded, self.whitened = lru_cache(maxsize=512)(shade), lru_cache(maxsize=512)(lit)
         self.outlined = lru_cache(maxsize=16)(outline)
@@ -63,9 +67,10 @@ class View:
         self._draw_debris(scene)
         self._draw_bursts(scene)
         scene.particles.draw(canvas, scene.camera, alpha)
+        board.draw_words(canvas, scene, (self.left, self.top))
         self._draw_bullets(scene, scene.incoming)
         self._draw_light(scene)
-        board.draw_board(canvas, scene, (self.left, self.top))
+        board.draw_board(canvas, scene)
 
     def _places(self, scene, ids):
         """Interpolated x and y of bodies [px], as arrays, and their angles."""
@@ -83,7 +88,13 @@ class View:
         time = self.time + (self.alpha - 1.0) / 60
         off = scene.spectacle.lean_at(self.alpha)
         for picture, speed, share, shift in self.layers:
-            tile(self.surface, picture, -off * share - self.left * share * 3 + shift, time * speed - self.top * share * 3 + shift)
+            tile(self.surface, picture, shift - off * share, time * speed + shift)
+        drawn = []
+        for number in range(STREAKS):
+            across = number * 97 % CANVAS_SIZE[0] + off * -0.3
+            down = (time * (260 + 23 * (number % 5)) + number * 61) % (CANVAS_SIZE[1] + 60) - 30
+            drawn.append((self.streak, (int(across) % CANVAS_SIZE[0], int(down))))
+        blit_many(self.surface, drawn)
 
     def _planes(self, scene):
         """(picture, place, white) of every plane in the air, the player last."""
@@ -100,7 +111,7 @@ class View:
             if player.safe % BLINK >= BLINK // 2:
                 image = self.ghostly(image)
             x, y, _ = self._places(scene, [player.body.id])
-            drawn.append((image, self._at(x[0], y[0], origin), False))
+            drawn.append((image, self._at(x[0], y[0], origin), player.body.id in flashes))
         return drawn
 
     def _frame(self, plane):
@@ -184,7 +195,8 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_bursts(self, scene):
-        for name, x, y, _, _, age in scene.spectacle.bursts:
+        # Smoke lies under fire, whatever came first.
+        for name, x, y, _, _, age in sorted(scene.spectacle.bursts, key=lambda burst: burst[0] != "smoke"):
             if age < 0.0:
                 continue
             image = self.effects.animation(name).at(age, loop=False)

@@ -1,10 +1,11 @@
-"""The waves, as data, and the director who sends them. After the last wave comes the first again, harder."""
+"""The waves, as data, and the director who sends them: once in this order, then for ever in any, always harder."""
 
 from dataclasses import dataclass
 
 from scenes.shooter.cast import WIDTH, steps
 
 PAUSE = 0.9              # [s] of peace between two waves
+SCATTER = 0.03           # of the width that a plane may enter beside its place
 PATIENCE = 10.0          # [s] after which the next wave comes although some planes of the last are left
 
 
@@ -74,7 +75,7 @@ class Pace:
     @property
     def extra(self):
         """More bullets in fans and rings."""
-        return min(2 * self.round, 8)
+        return min(2 * self.round, 4)
 
     @property
     def armour(self):
@@ -90,12 +91,13 @@ class Director:
         self.clock = 0               # steps since this wave began
         self.idle = 0                # steps without any enemy
         self.mirrored = False
+        self.order = list(range(len(WAVES)))     # of this round
         self.due = []                # (step, group, number in the group), earliest first
 
     @property
     def wave(self):
         """The wave that runs."""
-        return WAVES[(self.number - 1) % len(WAVES)]
+        return WAVES[self.order[(self.number - 1) % len(WAVES)]]
 
     @property
     def pace(self):
@@ -110,7 +112,7 @@ class Director:
             self._begin(random)
         while self.due and self.due[0][0] <= self.clock:
             _, group, number = self.due.pop(0)
-            at = 1.0 - group.at[number] if self.mirrored else group.at[number]
+            at = (1.0 - group.at[number] if self.mirrored else group.at[number]) + random.uniform(-SCATTER, SCATTER)
             sway = -group.sway if self.mirrored else group.sway
             last = number == len(group.at) - 1
             fleet.launch(group.kind, WIDTH * at, group.hover, sway, group.carries and last, self.pace)
@@ -118,6 +120,8 @@ class Director:
     def _begin(self, random):
         self.number += 1
         self.clock = self.idle = 0
+        if self.pace.round and self.number % len(WAVES) == 1:
+            random.shuffle(self.order)
         self.mirrored = random.random() < 0.5
         due = [(steps(group.after + group.every * number), order, group, number)
                for order, group in enumerate(self.wave.groups) for number in range(len(group.at))]
@@ -125,4 +129,4 @@ class Director:
 
     def state(self):
         """For the digest."""
-        return (self.number, self.clock, self.idle, self.mirrored, len(self.due))
+        return (self.number, self.clock, self.idle, self.mirrored, len(self.due), *self.order)
