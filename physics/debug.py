@@ -56,13 +56,17 @@ def structure(world) -> Structure:
     elif isinstance(strategy, DynamicTree):
         rects, depth = strategy.boxes()
     elif isinstance(strategy, SweepAndPrune):
-        parts = []
-        for axis in strategy.sorted:
-            slots = axis.order[world.pairs.proxies["row"][axis.order] >= 0]
-            shapes = world.shapes["id"][world.pairs.proxies["row"][slots]]
-            ends = axis.boxes[:len(axis.order), :2][world.pairs.proxies["row"][axis.order] >= 0]
-            parts.append(np.column_stack([np.full(len(slots), axis.axis), ends, shapes]))
-        intervals = np.concatenate(parts) if parts else intervals
+        # One axis is sorted; along the other the same boxes are tested: both are shown.
+        axis = strategy.sorted[0]
+        # By slot: the rows that proxies know are those of the last step.
+        owner = np.full(len(world.pairs.proxies), -1)
+        active = world.shapes["proxy"] >= 0
+        owner[world.shapes["proxy"][active]] = world.shapes["id"][active]
+        there = owner[axis.order] >= 0
+        shapes = owner[axis.order[there]]
+        boxes = axis.boxes[:len(axis.order)][there]
+        intervals = np.concatenate([np.column_stack([np.full(len(shapes), each), ends, shapes]) for each, ends in
+                                    ((axis.axis, boxes[:, :2]), (1 - axis.axis, boxes[:, 2:]))])
     return Structure(strategy.name, rects, depth, intervals)
 
 

@@ -176,6 +176,7 @@ class PixelMask:
         self.solid = solid
         solid.flags.writeable = False
         self._turned = {}
+        self.fitted = {}               # tier -> the shapes that stand for it, kept by fitting.fit
 
     @classmethod
     def from_array(cls, solid, origin=None, snap=True) -> "PixelMask":

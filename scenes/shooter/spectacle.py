@@ -49,6 +49,10 @@ class Spectacle:
         self.pulse = max(0.0, self.pulse - 5.0 * dt)
         self.news = max(0, self.news - 1)
         self.flashes = {identity: left - 1 for identity, left in self.flashes.items() if left > 1}
+        for enemy in self.scene.fleet.planes.values():
+            if enemy.full > 8 and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
+                side = -15 if enemy.age % (2 * SMOKE_EVERY) else 15
+                self._burst("smoke", enemy.x + side, enemy.y - 6, self.random.uniform(-8, 8), -26.0)
         for burst in self.bursts:
             burst[1] += burst[3] * dt
             burst[2] += burst[4] * dt
@@ -169,11 +173,6 @@ class Spectacle:
         """An extra life."""
         self.word("1UP", plane.x, plane.y - 24, (170, 255, 190))
         self.scene.play("powerup", plane.x, 0.9)
-
-    def smoulder(self, enemy):
-        """A damaged gunship smokes."""
-        if enemy.age % SMOKE_EVERY == 0:
-            self._burst("smoke", enemy.x - 10, enemy.y - 4, self.random.uniform(-8, 8), -26.0)
 
     def word(self, text, x, y, color):
         """A word that rises from a place, unless one was just written there."""

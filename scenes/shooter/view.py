@@ -23,6 +23,7 @@ SHADOW = (8, 12, 30, 84)
 CYCLES = {"red": "bullet_red", "purple": "bullet_purple", "orange": "bullet_orange"}
 GLOWS = {"shot": "glow_blue", "red": "glow_small", "orange": "glow_small", "purple": "glow_blue"}
 EXHAUST_AT = 21              # [px] from the plane's middle to that of its flames
+WHITE, PALE = 190, 60         # how much a hit brightens a plane; what takes many hits only glimmers
 STREAKS = 16                 # wisps of air that show the speed
 BLINK = 8                    # steps of one blink of a ghost
 
@@ -58,11 +59,13 @@ class View:
         self.time = scene.spectacle.time
         self._draw_ground(scene)
         planes = self._planes(scene)
-        blit_many(self.surface, [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in planes])
+        below = [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in planes]
+        blit_many(self.surface, below)
         self._draw_loot(scene)
         self._draw_bullets(scene, scene.shots)
         self._draw_exhaust(scene)
-        blit_many(self.surface, [(self.whitened(image, 190) if white else image, place) for image, place, white in planes])
+        shown = [(self.whitened(image, white) if white else image, place) for image, place, white in planes]
+        blit_many(self.surface, shown)
         self._draw_marks(scene)
         self._draw_debris(scene)
         self._draw_bursts(scene)
@@ -97,21 +100,21 @@ class View:
         blit_many(self.surface, drawn)
 
     def _planes(self, scene):
-        """(picture, place, white) of every plane in the air, the player last."""
+        """(picture, place, whiteness) of every plane in the air, the player last."""
         drawn = []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
         if fleet:
             x, y, angles = self._places(scene, list(fleet))
             for plane, px, py, angle in zip(fleet.values(), x.tolist(), y.tolist(), angles.tolist(), strict=True):
                 image, origin = self.sprite(self.planes, self._frame(plane), angle)
-                drawn.append((image, self._at(px, py, origin), plane.id in flashes))
+                drawn.append((image, self._at(px, py, origin), flash_of(plane) if plane.id in flashes else 0))
         player = scene.plane
         if player.body is not None:
             image, origin = self.sprite(self.planes, player.frame)
             if player.safe % BLINK >= BLINK // 2:
                 image = self.ghostly(image)
             x, y, _ = self._places(scene, [player.body.id])
-            drawn.append((image, self._at(x[0], y[0], origin), player.body.id in flashes))
+            drawn.append((image, self._at(x[0], y[0], origin), WHITE if player.body.id in flashes else 0))
         return drawn
 
     def _frame(self, plane):
@@ -217,6 +220,11 @@ class View:
 def the_view():
     """The one View, made when the first picture is wanted."""
     return View()
+
+
+def flash_of(plane):
+    """How white a plane turns when it is hit."""
+    return PALE if plane.full > 8 else WHITE
 
 
 def tile(surface, picture, x, y):
