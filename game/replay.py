@@ -9,6 +9,7 @@ import json
 from game.data_folder import write_atomically
 from game.digest import scene_digest
 from game.errors import FileError, ReplayDiverged
+from game.json_file import read_json
 from game.inputs import ACTIONS, NOTHING, InputFrame
 
 FORMAT, VERSION = "hitbox replay", 1
@@ -84,15 +85,7 @@ class Replay:
 
 def load_replay(path):
     """Read a recording. Raises FileError naming the file, the place and the reason."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            data = json.load(file)
-    except OSError as error:
-        raise FileError(path, "file", error.strerror) from error
-    except UnicodeDecodeError as error:
-        raise FileError(path, f"byte {error.start}", "not UTF-8 text") from error
-    except json.JSONDecodeError as error:
-        raise FileError(path, f"line {error.lineno} column {error.colno}", error.msg) from error
+    data = read_json(path)
     _check_head(path, data)
     frames = []
     for index, run in enumerate(data["inputs"]):

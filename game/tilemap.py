@@ -6,13 +6,13 @@ Refused with the cure: infinite maps, tilesets in files of their own, other enco
 
 import base64
 import gzip
-import json
 import zlib
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from game.errors import FileError
+from game.json_file import read_json
 from physics import TileGrid
 
 FLIPS = 0xF0000000          # the top bits of a tile number say how it is mirrored
@@ -98,15 +98,7 @@ class TileMap:
 
 def load_tilemap(path):
     """Read a .tmj file. Raises FileError naming file, place and reason."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            data = json.load(file)
-    except OSError as error:
-        raise FileError(path, "file", error.strerror) from error
-    except UnicodeDecodeError as error:
-        raise FileError(path, f"byte {error.start}", "not UTF-8 text") from error
-    except json.JSONDecodeError as error:
-        raise FileError(path, f"line {error.lineno} column {error.colno}", error.msg) from error
+    data = read_json(path)
     reader = _Reader(path)
     return reader.read(data)
 

@@ -42,7 +42,7 @@ def settle(screen, steps=3):
 
 
 def test_title_options_and_loading():
-    message = ("/home/somebody/with/a/long/name/.local/share/hitbox/settings.json: version: must be 1; "
+    message = ("/data/somebody/with/a/long/name/.local/share/hitbox/settings.json: version: must be 1; "
                "defaults are used, the old file is kept as settings.json.damaged-1")
     loading = Loading("Broad phases")
     loading.what = "physics.broadphase.spatial_hash.update_cells_of_moved_proxies_incrementally"

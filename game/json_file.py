@@ -1,0 +1,20 @@
+"""Reads a JSON file, or says which file cannot be used, where and why."""
+
+import json
+
+from game.errors import FileError
+
+
+def read_json(path):
+    """The content of a JSON file. Raises FileError naming file, place and reason, also for nesting without end."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except OSError as error:
+        raise FileError(path, "file", error.strerror) from error
+    except UnicodeDecodeError as error:
+        raise FileError(path, f"byte {error.start}", "not UTF-8 text") from error
+    except json.JSONDecodeError as error:
+        raise FileError(path, f"line {error.lineno} column {error.colno}", error.msg) from error
+    except RecursionError as error:
+        raise FileError(path, "file", "nested too deeply") from error
