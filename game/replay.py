@@ -9,8 +9,8 @@ import json
 from game.data_folder import write_atomically
 from game.digest import scene_digest
 from game.errors import FileError, ReplayDiverged
-from game.json_file import read_json
 from game.inputs import ACTIONS, NOTHING, InputFrame
+from game.json_file import read_json
 
 FORMAT, VERSION = "hitbox replay", 1
 DIGEST_EVERY = 1       # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
