@@ -2,8 +2,8 @@
 
 A leaf holds a fat box: a proxy that moves within it costs one comparison. Insertion descends by surface area to a leaf
 or its parent, then single rotations restore the AVL balance on the way up; children have no order, so a single rotation
-always suffices, and the height stays within 1.45·log2(n) + 2. When most proxies move at once, the tree of the moving
-ones is built anew by median splits. Source: Catto, Dynamic Bounding Volume Hierarchies,
+always suffices, and the height stays within 1.45·log2(n) + 2. When most proxies of a tree change at once, it is built
+anew by median splits. Source: Catto, Dynamic Bounding Volume Hierarchies,
 GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many still things and few moving ones.
 """
 
@@ -24,15 +24,15 @@ STACK = 256                        # far above any height that fits in memory
 @kernel
 def place_changed(
     # read
-    proxies, changed, margin, margin_fraction, loose,
+    proxies, changed, margin, margin_fraction, loose, loose_still,
     # write
     leaf_of_inout, nodes_inout, state_inout, work_inout,
 ):
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
 
     changed: slots; margin [px] and margin_fraction of the box: by the smaller a leaf outgrows it; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose 1: moving leaves are neither hung in nor
-    unhung, because the tree is rebuilt next. Returns the number of leaves that were moved. O(moved · log n).
+    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the still
+    tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were moved. O(moved · log n).
     """
     moved = 0
     for i in range(len(changed)):
@@ -49,7 +49,7 @@ def place_changed(
                          <= 8.0 * grow + (p.upper_x - p.lower_x) + (p.upper_y - p.lower_y)):
                 continue
             moved += 1
-            if n.still or loose == 0:
+            if (loose_still if n.still else loose) == 0:
                 remove_leaf(leaf, nodes_inout, state_inout, work_inout)
             if p.row < 0:
                 n.height = -1
@@ -75,7 +75,7 @@ def place_changed(
         n.height = 0
         n.slot = slot
         n.still = p.still
-        if n.still or loose == 0:
+        if (loose_still if n.still else loose) == 0:
             insert_leaf(leaf, nodes_inout, state_inout, work_inout)
         work_inout[REINSERTS] += 1
     return moved
@@ -148,19 +148,26 @@ class DynamicTree:
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
-            nodes = np.zeros(2 * slots + 2, NODE)
+            # Leaves, inner nodes of both trees, and those of an old tree until it is rebuilt.
+            nodes = np.zeros(3 * slots + 2, NODE)
             nodes[:len(self.nodes)] = self.nodes
             self.nodes = nodes
-        # When most move, building anew costs less than moving each, and gives the better tree.
-        moving = int(np.count_nonzero(self.leaf_of >= 0)) if len(arena.changed) > REBUILD_FROM else 0
-        loose = len(arena.changed) > max(REBUILD_FROM, moving // 2)
-        moved = place_changed(arena.proxies, arena.changed, self.margin, AABB_MARGIN_FRACTION, int(loose), self.leaf_of,
-                              self.nodes, self.state, arena.work)
-        if loose and moved:
-            if len(self.spans) < len(self.leaf_of):
-                self.leaves = np.zeros(len(self.leaf_of), np.int64)
-                self.spans = np.zeros((len(self.leaf_of), 4), np.int64)
-            rebuild(self.leaf_of, self.leaves, self.spans, self.nodes, self.state)
+        loose, loose_still = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (False, False)
+        moved = place_changed(arena.proxies, arena.changed, self.margin, AABB_MARGIN_FRACTION, int(loose), int(loose_still),
+                              self.leaf_of, self.nodes, self.state, arena.work)
+        if len(self.spans) < len(self.leaf_of):
+            self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
+        for still, wanted in ((0, loose), (1, loose_still)):
+            if wanted and moved:
+                rebuild(self.leaf_of, still, self.leaves, self.spans, self.nodes, self.state)
+
+    def _rebuilds(self, arena):
+        """Whether so many of the moving, of the still proxies changed that building their tree anew costs less than
+        moving each leaf, and gives the better tree."""
+        still = arena.proxies["still"]
+        total = np.bincount(still[self.leaf_of[:len(still)] >= 0], minlength=2)
+        changed = np.bincount(still[arena.changed], minlength=2)
+        return tuple(bool(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena):
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""

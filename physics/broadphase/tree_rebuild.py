@@ -1,6 +1,6 @@
-"""Builds the tree of the moving proxies anew by median splits: the least height there is, and tight boxes."""
+"""Builds one of the two trees anew by median splits: the least height there is, and tight boxes."""
 
-from physics.broadphase.tree_nodes import FREE, ROOT_MOVING, USED, refit, take_node
+from physics.broadphase.tree_nodes import FREE, ROOT_MOVING, ROOT_STILL, USED, refit, take_node
 from physics.jit import kernel, subkernel
 
 
@@ -57,28 +57,29 @@ def wider_axis(nodes, leaves, first, last):
 @kernel
 def rebuild(
     # read
-    leaf_of,
+    leaf_of, still,
     # write
     leaves_out, spans_out, nodes_inout, state_inout,
 ):
-    """Build the tree of the moving leaves anew by median splits: the least height there is, and tight boxes.
+    """Build the tree of the still leaves (still 1) or of the moving ones (0) anew by median splits.
 
     leaf_of (slots): leaf or -1; leaves_out (slots), spans_out (slots, 4): scratch. The inner nodes of the old tree are freed
     first. O(n log n).
     """
+    root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
     for slot in range(len(leaf_of)):
-        if leaf_of[slot] >= 0 and not nodes_inout[leaf_of[slot]].still:
+        if leaf_of[slot] >= 0 and nodes_inout[leaf_of[slot]].still == (still == 1):
             leaves_out[count] = leaf_of[slot]
             count += 1
     for index in range(state_inout[USED]):
         n = nodes_inout[index]
-        if n.height > 0 and not n.still:
+        if n.height > 0 and n.still == (still == 1):
             n.height = -1
             n.parent = state_inout[FREE]
             state_inout[FREE] = index
     if count < 2:
-        state_inout[ROOT_MOVING] = leaves_out[0] if count == 1 else -1
+        state_inout[root] = leaves_out[0] if count == 1 else -1
         if count == 1:
             nodes_inout[leaves_out[0]].parent = -1
         return
@@ -96,13 +97,13 @@ def rebuild(
         index = take_node(nodes_inout, state_inout)
         n = nodes_inout[index]
         n.slot = -1
-        n.still = False
+        n.still = still == 1
         n.parent = parent
         n.height = 1
         n.child_a = -1
         spans_out[at, 2] = index
         if parent < 0:
-            state_inout[ROOT_MOVING] = index
+            state_inout[root] = index
         elif nodes_inout[parent].child_a < 0:
             nodes_inout[parent].child_a = index
         else:

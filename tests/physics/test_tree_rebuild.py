@@ -1,0 +1,54 @@
+"""The two trees through bulk changes: everything moves, everything changes sides, most is removed and added again."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import JIT, BruteForce, Circle, DynamicTree, Effects, World
+
+COUNT = 400 if JIT else 150
+
+
+def limit(n):
+    return 1.45 * math.log2(max(n, 2)) + 2
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_bulk_changes_find_what_brute_force_finds_and_stay_balanced(seed):
+    rng = np.random.default_rng(seed)
+    worlds = [World(Effects(), BruteForce()), World(Effects(), DynamicTree())]
+    places = rng.uniform(0, 400, (COUNT, 2))
+    ids = [world.add_bodies(Circle(9), places) for world in worlds][0]
+    for step in range(24):
+        what = rng.integers(0, 4)
+        chosen = ids[rng.random(len(ids)) < rng.choice([0.05, 0.6, 1.0])]
+        fresh = rng.uniform(0, 400, (len(chosen), 2))
+        kind = str(rng.choice(["static", "dynamic", "kinematic"]))
+        for world in worlds:
+            if what == 0:
+                for identity, place in zip(chosen.tolist(), fresh.tolist()):
+                    world.body(identity).move_to(place)
+            elif what == 1:
+                for identity in chosen.tolist():
+                    world.body(identity).set_kind(kind)
+            elif what == 2 and len(chosen) < len(ids):
+                world.remove_bodies(chosen)
+                added = world.add_bodies(Circle(9), fresh, kind=kind)
+        if what == 2 and len(chosen) < len(ids):
+            ids = np.concatenate([np.setdiff1d(ids, chosen), added])
+        for world in worlds:
+            world.step()
+        assert np.array_equal(worlds[0].candidates, worlds[1].candidates), f"step {step}"
+        assert worlds[1].broadphase.height <= limit(len(ids))
+
+
+def test_all_at_once_is_built_balanced():
+    world = World(Effects(), DynamicTree())
+    world.add_bodies(Circle(2), np.random.default_rng(9).uniform(0, 900, (COUNT, 2)), kind="static")
+    world.add_bodies(Circle(2), np.zeros((COUNT, 2)))
+    world.step()
+    assert world.broadphase.height <= math.ceil(math.log2(COUNT))
+    world.clear()
+    world.step()
+    assert world.broadphase.height == -1
