@@ -1,5 +1,7 @@
 """What a run measured: per stage, per frame, counters and events, summed over the scene's worlds."""
 
+from array import array
+
 import numpy as np
 
 from game.digest import scene_digest
@@ -12,8 +14,8 @@ class RunReport:
 
     def __init__(self):
         self.steps = 0
-        self.frames = []           # [s] update, and drawing where there was any
-        self.updates = []          # [s] update alone
+        self.frames = array("d")   # [s] update, and drawing where there was any
+        self.updates = array("d")  # [s] update alone
         self.stages = {}           # name -> [s] per step
         self.counters = {}
         self.events = dict.fromkeys(EVENTS, 0)
@@ -34,7 +36,7 @@ class RunReport:
                 self.events[name] += len(getattr(world.events, name))
             self.quarantined += len(world.events.quarantined)
         for name, spent in step_stages.items():
-            self.stages.setdefault(name, []).append(spent)
+            self.stages.setdefault(name, array("d")).append(spent)
 
     def note_drawing(self, seconds):
         """Add drawing time to the frame of the last step."""
