@@ -135,6 +135,8 @@ def _positions(effects):
     def run(world, dt):
         integrate(dt, world.bodies, world.profile.work)
         refresh_centers(world.bodies)
+        # What was stopped on its way may stand at an angle between the two that were foreseen.
+        add_missing_rasters(world, 0.0)
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)
     return Stage("integrate_positions", run)
 
@@ -143,7 +145,6 @@ def _narrow_phase(effects):
     narrow = NarrowPhase(full_masks=effects.response, one_way=effects.one_way, boxes_only=not effects.narrowphase)
 
     def run(world, dt):
-        add_missing_rasters(world, 0.0)
         world.detect = lambda: narrow.collide(world.library.tables, world.bodies, world.shapes, world.pairs.rows,
                                               len(world.pairs.rows), world.tolerances.slop, 0.1 * world.tolerances.slop,
                                               world.profile.work)
