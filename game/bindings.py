@@ -47,8 +47,3 @@ def _code(key):
         if code is not None:
             return code
     raise ValueError(f"no key is called {key!r}; examples: a, space, left shift, f1")
-
-
-def key_names(action, names=None):
-    """The keys of an action, for help texts."""
-    return "/".join((names or DEFAULT_KEYS)[action])

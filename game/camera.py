@@ -2,7 +2,6 @@
 
 from math import exp, sin
 
-import numpy as np
 import pygame
 
 from game.draw import CANVAS_SIZE, whole
@@ -84,13 +83,6 @@ class Camera:
         """World position of a canvas point, as last drawn without interpolation."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
-
-    def sees(self, min_x, min_y, max_x, max_y):
-        """Which boxes (arrays, world px) reach into the picture, as a bool array."""
-        left, top = self.view()
-        width, height = self.size
-        seen_x = (np.asarray(max_x) >= left) & (np.asarray(min_x) <= left + width)
-        return seen_x & (np.asarray(max_y) >= top) & (np.asarray(min_y) <= top + height)
 
     def _limited(self, x, y):
         if self.limits is None:

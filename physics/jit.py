@@ -174,13 +174,11 @@ def _compile(function):
 
 def subkernel(function):
     """A function that kernels call: compiled, or left as it is."""
-    function.is_kernel = True
     return _compile(function)
 
 
 def kernel(function):
     """A function that a stage calls with tables, arrays and scalars: compiled, or given views of its arguments."""
-    function.is_kernel = True
     if JIT:
         return _compile(function)
 

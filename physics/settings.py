@@ -14,11 +14,9 @@ AABB_MARGIN = 0.05           # [m] how far a fat AABB of the tree outgrows its b
 AABB_MARGIN_FRACTION = 0.125  # … this share of the box, so that tiny bodies stay tight
 RESTITUTION_SPEED = 1.0      # [m/s] slower impacts do not bounce, or a resting body would tremble for ever
 HIT_SPEED = 1.0              # [m/s] slower contacts are not reported as hits: no sound for a crate that rests
-RAY_BACK_OFF = 0.005         # [m] a ray-approximated bullet stops this far before the surface
 
 MASK_ANGLE_BUCKETS = 128     # masks are turned to multiples of 360/128 = 2.8 degrees: the edge of a 64 px sprite moves by
                              # at most 0.8 px within a bucket, below the pixel grid it is drawn on
-FAST_FRACTION = 0.5          # continuous="auto": swept when a body moves more than this share of its size in a step
 PROJECTION_PASSES = 4        # how often the push-out sees every contact; a crate between two walls needs two
 SPEED_LIMIT = 1e9            # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
 POSITION_LIMIT = 2.0 ** 52   # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined
@@ -29,15 +27,12 @@ class Tolerances:
     """The tolerances of one world in its own pixels."""
     pixels_per_meter: float
     slop: float
-    aabb_margin: float
     restitution_speed: float
     hit_speed: float
-    ray_back_off: float
     speed_limit: float
 
 
 def tolerances(pixels_per_meter: float) -> Tolerances:
     """All tolerances scaled to a world's pixels per metre."""
     scale = pixels_per_meter
-    return Tolerances(scale, LINEAR_SLOP * scale, AABB_MARGIN * scale, RESTITUTION_SPEED * scale, HIT_SPEED * scale,
-                      RAY_BACK_OFF * scale, SPEED_LIMIT * scale)
+    return Tolerances(scale, LINEAR_SLOP * scale, RESTITUTION_SPEED * scale, HIT_SPEED * scale, SPEED_LIMIT * scale)

@@ -13,7 +13,7 @@ def check_shapes(shapes, kind, angles, swept):
             raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
         if isinstance(shape, PixelMask) and swept in (RAY, SWEPT):
             raise ValueError(f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "
-                             "masks are not swept; what is swept against them is")
+                             "masks are not swept, nor is anything against them")
         if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
             raise ValueError(f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
                              f"{np.asarray(angles).tolist()})")

@@ -9,7 +9,7 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
-from physics.narrowphase.circles import collide_circles, collide_polygon_circle
+from physics.narrowphase.circles import collide_polygon_circle
 from physics.narrowphase.placement import corners_at
 from physics.narrowphase.sat import ALL_EDGES, edge_normal
 from physics.narrowphase.tiles import tile_at
@@ -234,7 +234,7 @@ def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, gr
 
 @subkernel
 def is_fast(body, dt):
-    """Whether a body's continuous mode asks for a sweep in this step; "auto" by its motion against its size."""
+    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size."""
     if body.continuous == OFF or body.kind == STATIC or body.quarantined:
         return False
     if body.continuous == AUTO:
