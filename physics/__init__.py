@@ -10,12 +10,15 @@ from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.collide import Manifold, collide
+from physics.distance import Distance, distance
 from physics.effects import Effects
 from physics.fitting import TIERS, fit
+from physics.impact import TimeOfImpact, time_of_impact
 from physics.jit import JIT
 from physics.motion.character import Character, Moved
 from physics.queries import RayHit
-from physics.shapes import Bounds, Circle, Filter, Mass, Material, PixelMask, Polygon, TileGrid, mass_of
+from physics.shapes import (Bounds, Capsule, Chain, Circle, Filter, Mass, Material, PixelMask, Polygon, Segment, TileGrid,
+                            mass_of)
 from physics.snapshot import Snapshot
 from physics.tables import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
@@ -23,7 +26,7 @@ from physics.world import SOLVERS, World
 
 BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
-__all__ = ["BROADPHASES", "Body", "Bounds", "BruteForce", "Character", "Circle", "DYNAMIC", "DynamicTree", "Effects",
+__all__ = ["BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC", "Distance", "DynamicTree", "Effects",
            "Filter", "JIT", "KINEMATIC", "Manifold", "Mass", "Material", "Moved", "PixelMask", "Polygon", "RayHit",
-           "SOLVERS", "STATIC", "Snapshot", "SpatialHashGrid", "SweepAndPrune", "TIERS", "TileGrid", "World", "collide",
-           "fit", "mass_of", "warmup"]
+           "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid", "SweepAndPrune", "TIERS", "TileGrid", "TimeOfImpact", "World", "collide",
+           "distance", "fit", "mass_of", "time_of_impact", "warmup"]

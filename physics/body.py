@@ -1,6 +1,6 @@
 """Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
 
-from physics import checks, edits
+from physics import checks, edits, sleep
 from physics.tables import DYNAMIC, KINDS, STATIC
 
 
@@ -65,6 +65,7 @@ class Body:
         if row["kind"] == STATIC and value != (0.0, 0.0):
             raise ValueError(f"velocity must be (0, 0) for static body {self.id} (got {value})")
         row["vx"], row["vy"] = value
+        self._stir(row)
 
     @property
     def angular_velocity(self):
@@ -80,6 +81,7 @@ class Body:
         if row["kind"] == STATIC and value != 0.0:
             raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
         row["angular_velocity"] = value
+        self._stir(row)
 
     @property
     def gravity_scale(self):
@@ -89,7 +91,9 @@ class Body:
     @gravity_scale.setter
     def gravity_scale(self, value):
         self.world._unlocked()
-        self._row["gravity_scale"] = checks.number("gravity_scale", value)
+        row = self._row
+        row["gravity_scale"] = checks.number("gravity_scale", value)
+        self._stir(row)
 
     @property
     def user(self):
@@ -136,6 +140,7 @@ class Body:
         row = self._dynamic("apply_force")
         total = checks.vector("sum of forces", (row["force_x"].item() + force[0], row["force_y"].item() + force[1]))
         row["force_x"], row["force_y"] = total
+        self._stir(row)
         if point is not None:
             x, y = point
             row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
@@ -146,6 +151,7 @@ class Body:
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
         row = self._dynamic("apply_impulse")
+        self._stir(row)
         inverse_mass = row["inverse_mass"].item()
         row["vx"], row["vy"] = checks.vector("velocity after the impulse", (row["vx"].item() + inverse_mass * impulse[0],
                                                                              row["vy"].item() + inverse_mass * impulse[1]))
@@ -159,7 +165,13 @@ class Body:
         self.world._unlocked()
         torque = checks.number("torque", torque)
         self.world._needs("rotation", "apply_torque", True)
-        self._dynamic("apply_torque")["torque"] += torque
+        row = self._dynamic("apply_torque")
+        self._stir(row)
+        row["torque"] += torque
+
+    def _stir(self, row):
+        if not row["awake"]:
+            sleep.wake_ids(self.world, [self.id])
 
     def _dynamic(self, what):
         row = self._row
@@ -175,6 +187,12 @@ class Body:
     def set_shapes(self, *shapes):
         """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""
         edits.set_shapes(self.world, self.id, shapes)
+
+    def wake(self):
+        """Wake it, and all it is piled up with."""
+        self.world._unlocked()
+        self._row
+        sleep.wake_ids(self.world, [self.id])
 
     def set_kind(self, kind):
         """static, kinematic or dynamic. A body that becomes static stops."""

@@ -8,11 +8,19 @@ from physics import tables
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
+from physics.distance import gjk_steps
+from physics.narrowphase.axes import sat_axes
 from physics.narrowphase.placement import refresh_aabbs
-from physics.stages import add_missing_rasters
+from physics.rasters import add_missing_rasters
+
+__all__ = ["bounds", "contact_points", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
+           "pairs", "sat_axes", "shape_rows", "structure"]
 
 ROW = np.dtype([("shape", np.int64), ("body", np.int64), ("kind", np.int64), ("membership", np.int64),
                 ("mask", np.int64), ("sensor", np.bool_), ("awake", np.bool_)])
+
+
+LINES = (tables.POLYGON, tables.CAPSULE, tables.SEGMENT, tables.CHAIN)
 
 
 class Structure(NamedTuple):
@@ -92,11 +100,14 @@ def _candidate_rows(world):
     return rows[(known[rows] == ids).all(axis=1)]
 
 
-def outlines(world) -> list:
-    """One entry per shape: ("circle", x, y, r), ("polygon", (k, 2)), ("mask", shape id) or ("tiles", shape id)."""
+def outlines(world, rows=None) -> list:
+    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
+    ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask", shape id)
+    or ("tiles", shape id)."""
     found = []
     boxes = bounds(world)
-    for row, shape in enumerate(world.shapes):
+    for row in range(len(world.shapes)) if rows is None else rows:
+        shape = world.shapes[row]
         body = world.bodies[shape["body_row"]]
         cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
         origin = np.array([body["x"], body["y"]])
@@ -104,14 +115,26 @@ def outlines(world) -> list:
         if shape["kind"] == tables.CIRCLE:
             center = origin + np.array([shape["local_x"], shape["local_y"]]) @ turn
             found.append(("circle", float(center[0]), float(center[1]), float(shape["radius"])))
-        elif shape["kind"] == tables.POLYGON:
-            found.append(("polygon", origin + np.array(world.library.outlines[shape["geometry"]].points) @ turn))
+        elif shape["kind"] in LINES:
+            drawn = (world.library.chain_shapes if shape["kind"] == tables.CHAIN else world.library.outlines)[shape["geometry"]]
+            found.append(_line(drawn, int(shape["kind"]), origin + np.array(drawn.points) @ turn))
         elif shape["kind"] == tables.BOUNDS:
             x0, y0, x1, y1 = boxes[row]
             found.append(("polygon", np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])))
         else:
             found.append(("mask" if shape["kind"] == tables.MASK else "tiles", int(shape["id"])))
     return found
+
+
+def _line(shape, kind, points):
+    """The outline of a polygon, capsule, segment or chain whose points stand in the world."""
+    if kind == tables.CHAIN:
+        return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
+    if kind == tables.CAPSULE:
+        return "capsule", *points.ravel().tolist(), shape.radius
+    if kind == tables.POLYGON and shape.radius > 0.0:
+        return "rounded", points, shape.radius
+    return "segment" if kind == tables.SEGMENT else "polygon", points
 
 
 def masks(world) -> list:
@@ -147,3 +170,62 @@ def mask_hits(world) -> list:
             if shared.any():
                 found.append((left, top, shared))
     return found
+
+
+POINT = np.dtype([(name, np.float64) for name in ("point_x", "point_y", "normal_x", "normal_y", "separation", "normal_impulse",
+                                                  "tangent_impulse")]
+                 + [(name, np.int64) for name in ("feature", "body_a", "body_b", "shape_a", "shape_b", "state", "color")])
+SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
+
+
+def contact_points(world) -> np.ndarray:
+    """POINT rows of all contacts that the last step kept in mind, also those that only might have met, and those that sleep.
+
+    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP; color: of the graph colouring, -1 without one.
+    """
+    found = world.found_contacts
+    sensed = world.sensed if world.sensed is not None else found[found["sensor"]]
+    parts = []
+    for rows, state in ((found[~found["sensor"]], None), (sensed, SENSOR), (world.parked, ASLEEP)):
+        points = np.zeros(len(rows), POINT)
+        for name in POINT.names:
+            if name != "state":
+                points[name] = rows[name]
+        if state is None:
+            acting = (rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0) | rows["swept"]
+            points["state"] = np.where(rows["persisted"], PERSISTED, np.where(acting, NEW, SPECULATIVE))
+            points["state"][~acting & (rows["separation"] > world.tolerances.slop)] = SPECULATIVE
+            if not world.effects.stacking:         # no contact remembers the step before: the events do
+                begun = world.events.begin
+                old = ~np.isin(rows["shape_a"] << 32 | rows["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
+                points["state"][old & (points["state"] == NEW)] = PERSISTED
+        else:
+            points["state"] = state
+        parts.append(points)
+    return np.concatenate(parts)
+
+
+def islands(world) -> np.ndarray:
+    """Island of every body, by row: the lowest body id of those it is piled up with; -1 for what is in none."""
+    bodies = world.bodies
+    return np.where((bodies["kind"] == tables.DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1)
+
+
+GHOST = np.dtype([("body", np.int64), ("x", np.float64), ("y", np.float64), ("angle", np.float64), ("fraction", np.float64)])
+
+
+def impact_ghosts(world) -> np.ndarray:
+    """GHOST rows of the bodies that a sweep stopped in the last step: the pose that they would have had, and the fraction."""
+    rows = world.impact_ghosts
+    if rows is None or not len(rows):
+        return np.zeros(0, GHOST)
+    ghosts = np.zeros(len(rows), GHOST)
+    ghosts["body"], ghosts["fraction"] = rows[:, 0], rows[:, 7]
+    known = np.isin(ghosts["body"], world.bodies["id"])
+    ghosts, rows = ghosts[known], rows[known]
+    at = world.rows(ghosts["body"])
+    ghosts["angle"] = rows[:, 6]
+    cosine, sine = np.cos(rows[:, 6]), np.sin(rows[:, 6])
+    u, v = world.bodies["local_center_x"][at], world.bodies["local_center_y"][at]
+    ghosts["x"], ghosts["y"] = rows[:, 4] - cosine * u + sine * v, rows[:, 5] - sine * u - cosine * v
+    return ghosts

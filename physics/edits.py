@@ -1,7 +1,10 @@
 """Changes to a body that stands in a world already: filter, pose, kind, shapes, tier. Body is the way in."""
 
+from dataclasses import fields
+
 import numpy as np
 
+from physics import sleep
 from physics.fitting import fit
 from physics.motion.integrate import refresh_centers
 from physics.shape_rows import add_shapes, check_shapes, set_mass
@@ -25,6 +28,7 @@ def set_filter(world, identity, value):
     own = world.shapes["body"] == identity
     world.shapes["membership"][own], world.shapes["mask"][own] = value.membership, value.mask
     world.pairs.set_filter(world.shapes["proxy"][own], value)
+    sleep.wake_ids(world, [identity])
 
 
 def move_to(world, identity, position, angle):
@@ -40,7 +44,8 @@ def move_to(world, identity, position, angle):
 
 
 def refresh(world, identity):
-    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle."""
+    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle. Its neighbours wake."""
+    sleep.wake_ids(world, [identity])
     at = world._row_number(identity)
     refresh_centers(world.bodies[at:at + 1])
     world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
@@ -76,9 +81,9 @@ def set_shapes(world, identity, shapes):
     check_shapes(shapes, int(row["kind"]), [row["angle"].item()], int(row["continuous"]))
     own = world.shapes["body"] == identity
     first = world.shapes[own][0] if own.any() else None
-    material = Material() if first is None else Material(float(first["density"]), float(first["friction"]),
-                                                         float(first["restitution"]))
+    material = Material() if first is None else Material(*(float(first[each.name]) for each in fields(Material)))
     filter, sensor = filter_of(world, identity), bool(first is not None and first["sensor"])
+    sleep.wake_ids(world, [identity])
     world._drop_shapes(~own)
     at = world._row_number(identity)
     world._shapes_of[identity] = tuple(shapes)
@@ -88,6 +93,7 @@ def set_shapes(world, identity, shapes):
         own = world.shapes["body"] == identity
         world.pairs.free_proxies(world.shapes["proxy"][own])
         world.shapes["proxy"][own] = -1
+    sleep.forget(world, [])
     world._tiers.pop(identity, None)
     world._sources.pop(identity, None)
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 
-NEEDS_RESPONSE = ("friction", "restitution", "one_way")
+NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor")
 
 
 @dataclass(frozen=True)
@@ -19,10 +19,13 @@ class Effects:
     rotation: bool = False       # angular velocity turns bodies, impulses spin them
     friction: bool = False
     restitution: bool = False
+    stacking: bool = False       # piles stand: contacts remember their impulses
     continuous: bool = False     # fast bodies stop at what is in their way
+    sleeping: bool = False       # what has come to rest costs nothing until it is disturbed
     sensors: bool = False
     persist: bool = False        # the `persist` event: pairs that go on touching
     one_way: bool = False        # tiles open from below
+    conveyor: bool = False       # surfaces that run: Material.surface_speed
 
     def __post_init__(self):
         for field in fields(self):
@@ -32,6 +35,8 @@ class Effects:
         for name in NEEDS_RESPONSE:
             if getattr(self, name) and not self.response:
                 raise ValueError(f"effect {name} needs response: declare both, or neither")
+        if self.sleeping and not self.stacking:
+            raise ValueError("effect sleeping needs stacking: without it nothing comes to rest")
 
     @classmethod
     def detection(cls) -> "Effects":
@@ -40,9 +45,9 @@ class Effects:
 
     @classmethod
     def rigid_bodies(cls) -> "Effects":
-        """All that bodies which fall, bounce, rub and trigger need."""
-        return cls(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True,
-                   sensors=True)
+        """All that bodies which fall, bounce, rub, pile up and trigger need."""
+        return cls(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True,
+                   continuous=True, sleeping=True, sensors=True)
 
     def with_(self, **changes) -> "Effects":
         """A copy with some effects changed."""

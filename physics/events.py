@@ -38,13 +38,14 @@ def copy_event(events, source, target, events_out):
 @kernel
 def compare_pairs(
     # read
-    before, contacts, sensors, slop, hit_speed,
+    before, contacts, parked, sensors, slop, hit_speed,
     # write
     now_out, begin_out, persist_out, end_out, hits_out, keep_out, counts_out,
 ):
     """Compare the pairs that touched before with the contacts of this step, both in the order of shape ids.
 
-    before EVENT rows; contacts CONTACT rows; sensors: 1 to look at contacts of sensors only, 0 at the others only;
+    before EVENT rows; contacts CONTACT rows; parked CONTACT rows of pairs that sleep: they go on touching and say
+    nothing; sensors: 1 to look at contacts of sensors only, 0 at the others only;
     slop [px]: a pair that touched goes on touching up to it; hit_speed [px/s]. now_out: the pairs that touch; keep_out
     (contacts) bool: contacts of such pairs; counts_out: rows written to now, begin, persist, end, hits. O(both).
     """
@@ -55,6 +56,7 @@ def compare_pairs(
     hits = 0
     i = 0
     j = 0
+    asleep = 0
     while i < len(before) or j < len(contacts):
         if j < len(contacts) and contacts[j].sensor != (sensors == 1):
             j += 1
@@ -72,8 +74,16 @@ def compare_pairs(
             old = p.shape_a < c.shape_a or (p.shape_a == c.shape_a and p.shape_b <= c.shape_b)
             new = not old or (p.shape_a == c.shape_a and p.shape_b == c.shape_b)
         if not new:
-            copy_event(before, i, ended, end_out)
-            ended += 1
+            p = before[i]
+            while asleep < len(parked) and (parked[asleep].shape_a < p.shape_a or (
+                    parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b < p.shape_b)):
+                asleep += 1
+            if asleep < len(parked) and parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b == p.shape_b:
+                copy_event(before, i, touching, now_out)
+                touching += 1
+            else:
+                copy_event(before, i, ended, end_out)
+                ended += 1
             i += 1
             continue
         c = contacts[j]
@@ -135,7 +145,7 @@ class Pairs:
         self.keep = np.zeros(16, np.bool_)
         self.counts = np.zeros(5, np.int64)
 
-    def compare(self, contacts, sensors: bool, slop: float, hit_speed: float):
+    def compare(self, contacts, parked, sensors: bool, slop: float, hit_speed: float):
         """Take in the contacts of a step. Returns (begin, persist, end, hits, keep)."""
         room = self.count + len(contacts)
         if room > len(self.keep):
@@ -143,7 +153,7 @@ class Pairs:
             before = np.zeros(2 * room, EVENT)
             before[:self.count] = self.before[:self.count]
             self.before, self.keep = before, np.zeros(2 * room, np.bool_)
-        compare_pairs(self.before[:self.count], contacts, int(sensors), slop, hit_speed, *self.tables, self.keep,
+        compare_pairs(self.before[:self.count], contacts, parked, int(sensors), slop, hit_speed, *self.tables, self.keep,
                       self.counts)
         now, *changes = (table[:count] for table, count in zip(self.tables, self.counts.tolist()))
         self.count = len(now)

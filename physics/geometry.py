@@ -3,6 +3,7 @@
 A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up.
 """
 
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
@@ -10,40 +11,48 @@ import numpy as np
 from physics import tables
 from physics.masks.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
-from physics.shapes import Bounds, Circle, PixelMask, Polygon, TileGrid, packed
-from physics.tables import GRID, RASTER, Table
+from physics.shapes import Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, packed
+from physics.tables import BLOCK_LINKS, CHAIN_SPAN, GRID, LINK, LINK_BLOCK, RASTER, Table
 
 SPAN = np.dtype([("offset", np.int64), ("count", np.int64)])
 CORNER = np.dtype([("x", np.float64), ("y", np.float64)])
-CELL = np.dtype([("kind", np.int64), ("left", np.float64), ("right", np.float64)])
+CELL = np.dtype([("kind", np.int64), ("left", np.float64), ("right", np.float64),
+                 ("first", np.int64), ("last", np.int64)])      # columns of the run of like cells that it belongs to
+KIND_OF = {Polygon: tables.POLYGON, Capsule: tables.CAPSULE, Segment: tables.SEGMENT, Chain: tables.CHAIN,
+           TileGrid: tables.TILES, PixelMask: tables.MASK}
 
 
 class Geometry(NamedTuple):
     """What kernels read of the shapes' geometry."""
-    polygons: np.ndarray        # SPAN of corners
+    polygons: np.ndarray        # SPAN of corners: polygons, and capsules and segments as hulls of two
     corners: np.ndarray         # CORNER [px] body space, clockwise on the screen
+    chains: np.ndarray          # CHAIN_SPAN
+    links: np.ndarray           # LINK
+    link_blocks: np.ndarray     # LINK_BLOCK
     grids: np.ndarray           # GRID
-    cells: np.ndarray           # CELL: kind, surface heights of a slope as fractions
+    cells: np.ndarray           # CELL: kind, surface heights of a slope as fractions, the run it belongs to
     rasters: np.ndarray         # RASTER
     words: np.ndarray           # uint64 pixels of all rasters
     raster_of: np.ndarray       # (masks, buckets) raster row, -1 where not drawn at that angle yet
 
 
 class Library:
-    """Adds shapes to the flat arrays. The same shape object, and equal polygons, are added once."""
+    """Adds shapes to the flat arrays. The same grid or mask, and equal other shapes, are added once."""
 
     def __init__(self):
         self.polygons, self.corners = Table(SPAN), Table(CORNER)
+        self.chains, self.links, self.link_blocks = Table(CHAIN_SPAN), Table(LINK), Table(LINK_BLOCK)
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
         self.shapes = {}            # key -> (row, shape); holds the shape, so that an id cannot be given twice
-        self.masks, self.tile_grids, self.outlines = [], [], []
+        self.masks, self.tile_grids = [], []
+        self.outlines, self.chain_shapes = [], []      # polygons, capsules and segments by their row; chains by theirs
         self.tables = self._tables()
 
     def _tables(self):
-        return Geometry(self.polygons.data, self.corners.data, self.grids.data, self.cells.data, self.rasters.data,
-                        self.words.data, self.raster_of)
+        return Geometry(self.polygons.data, self.corners.data, self.chains.data, self.links.data, self.link_blocks.data,
+                        self.grids.data, self.cells.data, self.rasters.data, self.words.data, self.raster_of)
 
     def add(self, shape) -> tuple[int, int, int]:
         """(kind, geometry row, kind inside a Bounds) of a shape."""
@@ -52,19 +61,46 @@ class Library:
             return tables.BOUNDS, row, kind
         if isinstance(shape, Circle):
             return tables.CIRCLE, -1, -1
-        key = shape if isinstance(shape, Polygon) else id(shape)
+        key = id(shape) if isinstance(shape, (TileGrid, PixelMask)) else shape
         if key not in self.shapes:
-            add = {Polygon: self._add_polygon, TileGrid: self._add_grid, PixelMask: self._add_mask}[type(shape)]
+            add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(type(shape), self._add_hull)
             self.shapes[key] = (add(shape), shape)
             self.tables = self._tables()
-        kind = {Polygon: tables.POLYGON, TileGrid: tables.TILES, PixelMask: tables.MASK}[type(shape)]
-        return kind, self.shapes[key][0], -1
+        return KIND_OF[type(shape)], self.shapes[key][0], -1
 
-    def _add_polygon(self, shape):
+    def _add_hull(self, shape):
         row = self.polygons.count
         self.polygons.append()[:] = (self.corners.count, len(shape.points))
         self.corners.append(len(shape.points))[:] = list(shape.points)
         self.outlines.append(shape)
+        return row
+
+    def _add_chain(self, shape):
+        row, count = self.chains.count, shape.links
+        blocks = -(-count // BLOCK_LINKS)
+        self.chains.append()[:] = (self.links.count, count, self.link_blocks.count, blocks)
+        a = np.array(shape.points)
+        b = np.roll(a, -1, axis=0)[:count]
+        # Neighbours: the listed ones, round the loop, or the ghosts at the ends of an open chain.
+        before, after = np.roll(a, 1, axis=0)[:count], np.roll(a, -2, axis=0)[:count]
+        links = self.links.append(count)
+        links["has_before"] = links["has_after"] = links["last_owned"] = True
+        if not shape.loop:
+            ghosts = shape.ghosts or (None, None)
+            links["has_before"][0], links["has_after"][-1] = (each is not None for each in ghosts)
+            links["first_owned"][0] = True
+            before[0] = a[0] if ghosts[0] is None else ghosts[0]
+            after[-1] = b[-1] if ghosts[1] is None else ghosts[1]
+        for name, points in (("a", a[:count]), ("b", b), ("before_", before), ("after_", after)):
+            links[name + "x"], links[name + "y"] = points.T
+        for name, as_shape in (("friction", -1.0), ("restitution", -1.0), ("rolling_resistance", -1.0), ("surface_speed", np.nan)):
+            links[name] = as_shape if shape.materials is None else [getattr(each, name) for each in shape.materials]
+        for block, box in enumerate(self.link_blocks.append(blocks)):
+            part = slice(block * BLOCK_LINKS, (block + 1) * BLOCK_LINKS)
+            ends = np.concatenate([a[:count][part], b[part]])
+            box["min_x"], box["min_y"] = ends.min(axis=0)
+            box["max_x"], box["max_y"] = ends.max(axis=0)
+        self.chain_shapes.append(shape)
         return row
 
     def _add_grid(self, shape):
@@ -75,6 +111,15 @@ class Library:
         kind = np.where(shape.solid, tables.SOLID, np.where(shape.one_way, tables.ONE_WAY, tables.EMPTY))
         cells["kind"] = np.where((shape.slopes > 0).any(axis=2), tables.SLOPE, kind).ravel()
         cells["left"], cells["right"] = shape.slopes.reshape(-1, 2).T
+        kinds = cells["kind"].reshape(rows, columns)
+        first = np.tile(np.arange(columns), (rows, 1))
+        last = first.copy()
+        merges = np.isin(kinds, (tables.SOLID, tables.ONE_WAY))
+        joined = merges[:, 1:] & (kinds[:, 1:] == kinds[:, :-1])
+        for column in range(1, columns):
+            first[:, column] = np.where(joined[:, column - 1], first[:, column - 1], column)
+            last[:, -1 - column] = np.where(joined[:, -column], last[:, -column], columns - 1 - column)
+        cells["first"], cells["last"] = first.ravel(), last.ravel()
         self.tile_grids.append(shape)
         return row
 
@@ -106,9 +151,28 @@ class Library:
         if inner == tables.CIRCLE:
             shape = Circle(float(row["radius"]), (float(row["local_x"]), float(row["local_y"])))
         else:
-            shape = {tables.POLYGON: self.outlines, tables.TILES: self.tile_grids,
-                     tables.MASK: self.masks}[inner][int(row["geometry"])]
+            shape = {tables.TILES: self.tile_grids, tables.MASK: self.masks,
+                     tables.CHAIN: self.chain_shapes}.get(inner, self.outlines)[int(row["geometry"])]
         return Bounds(shape) if kind == tables.BOUNDS else shape
+
+    @contextmanager
+    def visited(self):
+        """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
+        kept = [(table, table.count) for table in (self.polygons, self.corners, self.chains, self.links, self.link_blocks,
+                                                   self.grids, self.cells, self.rasters, self.words)]
+        lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
+        known = len(self.shapes)
+        try:
+            yield
+        finally:
+            for key in list(self.shapes)[known:]:
+                del self.shapes[key]
+            for table, count in kept:
+                table.count = count
+            for each, count in lists:
+                del each[count:]
+            self.raster_of[self.raster_of >= self.rasters.count] = -1
+            self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
         """The raster of a mask at an angle, added where it is missing."""

@@ -1,6 +1,7 @@
 """Shapes: immutable values in body space, in pixels; x right, y down, angles clockwise on the screen.
 
 A shape knows its geometry and its mass; where it is, its body knows. All but PixelMask and TileGrid compare by value.
+All kinds are named here; those that are no sprites stand in convex, lines and tile_grid.
 """
 
 import math
@@ -10,153 +11,16 @@ from functools import cached_property
 import numpy as np
 
 from physics import checks
+from physics.convex import MAX_CORNERS, Capsule, Circle, Polygon
+from physics.lines import Chain, Segment
+from physics.mass import NOTHING, Mass, together
 from physics.masks.rotate import Turned, bucket_of, turn
+from physics.material import Material
 from physics.settings import MASK_ANGLE_BUCKETS
+from physics.tile_grid import TileGrid, bools
 
-MAX_CORNERS = 16
-
-
-@dataclass(frozen=True)
-class Mass:
-    """Mass, centre of mass in body space [px], and inertia about that centre."""
-    mass: float
-    center: tuple[float, float]
-    inertia: float
-
-
-@dataclass(frozen=True)
-class Circle:
-    """A disc. Raises ValueError for a radius that is not > 0."""
-    radius: float
-    center: tuple[float, float] = (0.0, 0.0)
-
-    def __post_init__(self):
-        object.__setattr__(self, "radius", checks.number("radius", self.radius, above=0.0))
-        object.__setattr__(self, "center", checks.vector("center", self.center))
-
-    @property
-    def smallest_half(self):
-        return self.radius
-
-    def mass_of(self, density):
-        mass = density * math.pi * self.radius * self.radius
-        return Mass(mass, self.center, mass * self.radius * self.radius / 2.0)
-
-
-@dataclass(frozen=True)
-class Polygon:
-    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen.
-
-    Raises ValueError for too few or many corners, for zero area, for three corners in line or equal ones, and for a
-    concave outline.
-    """
-    points: tuple[tuple[float, float], ...]
-
-    def __post_init__(self):
-        points = checks.columns("points", self.points)
-        if not 3 <= len(points) <= MAX_CORNERS:
-            raise ValueError(f"points must be 3..{MAX_CORNERS} corners (got {len(points)})")
-        edges = np.roll(points, -1, axis=0) - points
-        following = np.roll(edges, -1, axis=0)
-        turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
-        scale = np.hypot(*edges.T) * np.hypot(*following.T)
-        if np.any(np.abs(turns) <= 1e-12 * scale):
-            raise ValueError(f"points must have no equal corners and no three in line (got {points.tolist()})")
-        # All turns to one side, and once around: a star also turns to one side only.
-        around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
-        if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
-            raise ValueError(f"points must be convex (got {points.tolist()}); split a concave outline into convex parts")
-        if turns[0] < 0:
-            points = points[::-1]
-        object.__setattr__(self, "points", tuple((float(x), float(y)) for x, y in points))
-
-    @classmethod
-    def box(cls, width, height, center=(0.0, 0.0), angle=0.0):
-        """A box of full sizes, turned about its centre."""
-        half_width = checks.number("width", width, above=0.0) / 2.0
-        half_height = checks.number("height", height, above=0.0) / 2.0
-        x, y = checks.vector("center", center)
-        angle = checks.number("angle", angle)
-        cosine, sine = math.cos(angle), math.sin(angle)
-        corners = ((-half_width, -half_height), (half_width, -half_height),
-                   (half_width, half_height), (-half_width, half_height))
-        return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
-
-    @property
-    def smallest_half(self):
-        """Half of the least width, over the directions of the edges' normals."""
-        points = np.array(self.points)
-        edges = np.roll(points, -1, axis=0) - points
-        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
-        return float(np.ptp(points @ normals.T, axis=0).min() / 2.0)
-
-    def mass_of(self, density):
-        """Shoelace integrals about the first corner, so that a far polygon loses no digits."""
-        base = np.array(self.points[0])
-        a = np.array(self.points) - base
-        b = np.roll(a, -1, axis=0)
-        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-        area = cross.sum() / 2.0
-        center = ((a + b) * cross[:, None]).sum(axis=0) / (6.0 * area)
-        a, b = a - center, b - center
-        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-        second = (cross * ((a * a).sum(1) + (a * b).sum(1) + (b * b).sum(1))).sum() / 12.0
-        return Mass(density * area, tuple((base + center).tolist()), density * second)
-
-
-class TileGrid:
-    """Solid tiles of one size; origin at the top left corner of tile (0, 0).
-
-    solid[row, col] bool; one_way[row, col] bool: open from below; slopes[row, col] = (left, right): height of the
-    surface above the tile's bottom as a fraction 0..1, (0, 1) rises to the right, (0, 0) is no slope. Raises
-    ValueError when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
-    """
-
-    def __init__(self, solid, tile_size, one_way=None, slopes=None):
-        self.solid = _bools("solid", solid)
-        self.tile_size = checks.number("tile_size", tile_size, above=0.0)
-        self.one_way = _bools("one_way", one_way if one_way is not None else np.zeros_like(self.solid))
-        try:
-            slopes = np.zeros(self.solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise TypeError(f"slopes must be an array [row, col, 2] of numbers (got {type(slopes).__name__})") from None
-        if self.one_way.shape != self.solid.shape:
-            raise ValueError(f"one_way must have the shape of solid, {self.solid.shape} (got {self.one_way.shape})")
-        if slopes.shape != self.solid.shape + (2,):
-            raise ValueError(f"slopes must have shape {self.solid.shape + (2,)} (got {slopes.shape})")
-        bad = ~((slopes >= 0.0) & (slopes <= 1.0)).all(axis=2)
-        if bad.any():
-            at = tuple(int(v) for v in np.argwhere(bad)[0])
-            raise ValueError(f"slopes[{at[0]}, {at[1]}] must be within 0..1 (got {slopes[at].tolist()})")
-        kinds = self.solid.astype(int) + self.one_way + (slopes > 0.0).any(axis=2)
-        if (kinds > 1).any():
-            at = tuple(int(v) for v in np.argwhere(kinds > 1)[0])
-            raise ValueError(f"cell [{at[0]}, {at[1]}] must be one of solid, one_way and slope (got {kinds[at]} of them)")
-        self.slopes = slopes
-        for array in (self.solid, self.one_way, self.slopes):
-            array.flags.writeable = False
-
-    @property
-    def smallest_half(self):
-        return self.tile_size / 2.0
-
-    def mass_of(self, density):
-        return Mass(0.0, (0.0, 0.0), 0.0)        # tiles are ground: they only carry
-
-    def __repr__(self):
-        return f"TileGrid({self.solid.shape[0]} x {self.solid.shape[1]} tiles of {self.tile_size} px)"
-
-
-def _bools(name, value):
-    try:
-        array = np.array(value)
-    except ValueError:
-        raise TypeError(f"{name} must be an array [row, col] of bool (got rows of different lengths)") from None
-    if array.ndim != 2:
-        raise ValueError(f"{name} must be an array [row, col] (got {array.ndim} dimensions)")
-    if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
-        raise TypeError(f"{name} must be an array of bool (got {array.dtype})")
-    return np.ascontiguousarray(array != 0)
+__all__ = ["Bounds", "Capsule", "Chain", "Circle", "Filter", "MAX_CORNERS", "Mass", "Material", "PixelMask", "Polygon",
+           "SHAPES", "Segment", "TileGrid", "mass_of", "packed"]
 
 
 class PixelMask:
@@ -166,7 +30,7 @@ class PixelMask:
     """
 
     def __init__(self, solid, origin=None, snap=True):
-        solid = _bools("solid", solid)
+        solid = bools("solid", solid)
         if snap is not True:
             raise ValueError(f"snap must be True (got {snap!r}): masks are tested as drawn")
         height, width = solid.shape
@@ -242,12 +106,18 @@ class PixelMask:
     def mass_of(self, density):
         """Of the union of pixel squares: each adds 1/6 to the second moment about its own centre."""
         if self.area == 0:
-            return Mass(0.0, (0.0, 0.0), 0.0)
+            return NOTHING
         rows, columns = np.nonzero(self.solid)
         x, y = columns + (0.5 - self.origin[0]), rows + (0.5 - self.origin[1])
         center = (float(x.mean()), float(y.mean()))
         second = float(((x - center[0]) ** 2 + (y - center[1]) ** 2).sum()) + self.area / 6.0
         return Mass(density * self.area, center, density * second)
+
+    def reach(self, x, y):
+        if self.bounds is None:
+            return 0.0
+        left, top, right, bottom = self.bounds
+        return float(np.hypot(max(x - left, right - x), max(y - top, bottom - y)))
 
     def __repr__(self):
         return f"PixelMask({self.size[0]} x {self.size[1]}, {self.area} solid, origin {self.origin})"
@@ -264,11 +134,11 @@ def packed(solid: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class Bounds:
     """The wrapped shape's world AABB at its pose, as a shape: the AABB tier."""
-    shape: Circle | Polygon | PixelMask
+    shape: Circle | Capsule | Polygon | PixelMask
 
     def __post_init__(self):
-        if not isinstance(self.shape, (Circle, Polygon, PixelMask)):
-            raise TypeError(f"shape must be a Circle, Polygon or PixelMask (got {self.shape!r})")
+        if not isinstance(self.shape, (Circle, Capsule, Polygon, PixelMask)):
+            raise TypeError(f"shape must be a Circle, Capsule, Polygon or PixelMask (got {self.shape!r})")
 
     @property
     def smallest_half(self):
@@ -277,21 +147,12 @@ class Bounds:
     def mass_of(self, density):
         return self.shape.mass_of(density)
 
+    def reach(self, x, y):
+        """Of the AABB at any angle: no corner of it is further from the origin than the shape reaches, times sqrt 2."""
+        return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
-SHAPES = (Circle, Polygon, TileGrid, PixelMask, Bounds)
 
-
-@dataclass(frozen=True)
-class Material:
-    """What a shape is made of: density [mass per px2], friction >= 0, restitution >= 0. Raises ValueError."""
-    density: float = 1.0
-    friction: float = 0.6
-    restitution: float = 0.0
-
-    def __post_init__(self):
-        object.__setattr__(self, "density", checks.number("density", self.density, above=0.0))
-        object.__setattr__(self, "friction", checks.number("friction", self.friction, low=0.0))
-        object.__setattr__(self, "restitution", checks.number("restitution", self.restitution, low=0.0))
+SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 
 
 @dataclass(frozen=True)
@@ -324,11 +185,4 @@ def mass_of(shapes, density) -> Mass:
     for shape in shapes:
         if not isinstance(shape, SHAPES):
             raise TypeError(f"shapes must be shapes (got {shape!r})")
-    parts = [shape.mass_of(density) for shape in shapes]
-    mass = sum(part.mass for part in parts)
-    if mass == 0.0:
-        return Mass(0.0, (0.0, 0.0), 0.0)
-    x = sum(part.mass * part.center[0] for part in parts) / mass
-    y = sum(part.mass * part.center[1] for part in parts) / mass
-    inertia = sum(part.inertia + part.mass * ((part.center[0] - x) ** 2 + (part.center[1] - y) ** 2) for part in parts)
-    return Mass(mass, (x, y), inertia)
+    return together([shape.mass_of(density) for shape in shapes])

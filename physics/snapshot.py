@@ -5,22 +5,24 @@ import json
 import tokenize
 import zipfile
 import zlib
+from dataclasses import astuple
 
 import numpy as np
 
 from physics import checks
 from physics.geometry import Library
-from physics.shapes import PixelMask, Polygon, TileGrid
+from physics.shapes import Capsule, Chain, Material, PixelMask, Polygon, Segment, TileGrid
 from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
 
-VERSION = 1
+VERSION = 2
 DAMAGE = (ValueError, TypeError, KeyError, IndexError, EOFError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error,
           RuntimeError, SyntaxError, tokenize.TokenError)
 TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": EVENT, "sensing": EVENT,
-          "contacts": CONTACT}
+          "contacts": CONTACT, "found": CONTACT, "parked": CONTACT}
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
-WALK = ("body", "left", "top", "remainder_x", "remainder_y", "riding", "grounded", "squeezed")
+WALK = ("body", "left", "top", "remainder_x", "remainder_y", "riding", "grounded", "squeezed", "pressed", "carry_x", "carry_y",
+        "push_vx", "push_vy", "deep", "wedged")
 
 
 def digest(world) -> str:
@@ -69,9 +71,12 @@ def take(world) -> Snapshot:
     library = world.library
     arrays = {"bodies": world.bodies.copy(), "shapes": world.shapes.copy(), "characters": world.characters.rows.copy(),
               "touching": world._touching.before[:world._touching.count].copy(),
-              "sensing": world._sensing.before[:world._sensing.count].copy(), "contacts": world.contacts.copy()}
+              "sensing": world._sensing.before[:world._sensing.count].copy(), "contacts": world.contacts.copy(),
+              "found": world.found_contacts.copy(), "parked": world.parked.copy()}
     for number, shape in enumerate(library.outlines):
-        arrays[f"polygon_{number}"] = np.array(shape.points)
+        arrays[f"hull_{number}"] = np.array(shape.points)
+    for number, shape in enumerate(library.chain_shapes):
+        arrays[f"chain_{number}"] = np.array(shape.points)
     for number, shape in enumerate(library.tile_grids):
         arrays[f"solid_{number}"], arrays[f"one_way_{number}"] = shape.solid, shape.one_way
         arrays[f"slopes_{number}"] = shape.slopes
@@ -80,7 +85,10 @@ def take(world) -> Snapshot:
     tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
     facts = {"version": VERSION, "effects": world.effects.names(), "next_body": world._next_body,
              "next_shape": world._next_shape, "gravity": world.gravity, "wind": world.wind, "drag": world.drag, "tiers": tiers,
-             "random": world.random.bit_generator.state, "polygons": len(library.outlines),
+             "random": world.random.bit_generator.state,
+             "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in library.outlines],
+             "chains": [[shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
+                        for shape in library.chain_shapes],
              "tile_sizes": [shape.tile_size for shape in library.tile_grids],
              "origins": [shape.origin for shape in library.masks]}
     return Snapshot(arrays, facts)
@@ -104,7 +112,8 @@ def restore(world, taken):
         table.append(len(arrays[name]))[:] = arrays[name]
     world._touching.restore(arrays["touching"])
     world._sensing.restore(arrays["sensing"])
-    world.contacts = arrays["contacts"].copy()
+    world.tell_contacts(arrays["contacts"].copy())
+    world.found_contacts, world.parked = arrays["found"].copy(), arrays["parked"].copy()
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
     world.gravity, world.wind, world.drag = facts["gravity"], facts["wind"], facts["drag"]
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
@@ -134,8 +143,12 @@ def _unpack(arrays, facts):
 
 def _library(arrays, facts):
     library = Library()
-    for number in range(facts["polygons"]):
-        library.add(Polygon(tuple(map(tuple, arrays[f"polygon_{number}"].tolist()))))
+    for number, (name, radius) in enumerate(facts["hulls"]):
+        points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
+        library.add({"Polygon": lambda: Polygon(points, radius), "Capsule": lambda: Capsule(*points, radius),
+                     "Segment": lambda: Segment(*points)}[name]())
+    for number, (loop, ghosts, materials) in enumerate(facts["chains"]):
+        library.add(Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials)))
     for number, size in enumerate(facts["tile_sizes"]):
         library.add(TileGrid(arrays[f"solid_{number}"], size, arrays[f"one_way_{number}"], arrays[f"slopes_{number}"]))
     for number, origin in enumerate(facts["origins"]):

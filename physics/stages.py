@@ -9,14 +9,16 @@ from typing import Callable
 
 import numpy as np
 
+from physics import sleep, stacking, sweeps
 from physics.broadphase.pair_list import PairList
 from physics.motion import carry
 from physics.motion.integrate import find_broken, make_position_pass, make_velocity_pass, refresh_centers
 from physics.motion.rectangles import make_rectangle_pass
-from physics.motion.time_of_impact import make_impact_pass, stop_at_impacts
+from physics.motion.time_of_impact import find_impacts_by_mode, stop_at_impacts
 from physics.narrowphase.contacts import new_scratch, write_impacts
 from physics.narrowphase.dispatch import NarrowPhase
-from physics.narrowphase.placement import missing_rasters, refresh_aabbs
+from physics.narrowphase.placement import refresh_aabbs
+from physics.rasters import add_missing_rasters
 from physics.profile import CONTACTS, COUNTERS
 from physics.settings import POSITION_LIMIT, PROJECTION_PASSES
 from physics.solver.approach import advance_contacts, measure_approach, prepare_contacts
@@ -32,7 +34,6 @@ VELOCITIES = {(g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotati
               for g in BOTH for d in BOTH for w in BOTH for r in BOTH}
 POSITIONS = {r: make_position_pass(rotation=r) for r in (False, True)}
 RECTANGLES = {r: make_rectangle_pass(rotation=r) for r in (False, True)}
-IMPACTS = {o: make_impact_pass(one_way=o) for o in (False, True)}
 PROJECTIONS = {(r, f, b): make_projection_pass(rotation=r, friction=f, restitution=b)
                for r in (False, True) for f in (False, True) for b in (False, True)}
 
@@ -46,6 +47,8 @@ class Stage:
 
 def plan(effects, solver) -> list[Stage]:
     """The stages that these effects call for, in order."""
+    if solver in stacking.SOLVE:
+        return _plan_piles(effects, solver)
     found = []
     if effects.gravity or effects.drag or effects.wind or effects.response:
         found.append(_velocities(effects))
@@ -64,10 +67,27 @@ def plan(effects, solver) -> list[Stage]:
     return found
 
 
+def _plan_piles(effects, solver):
+    """The stages of a world with a solver for piles: contacts first, then the solver, which also moves the bodies."""
+    found = [Stage("motion_rectangles", _fat_rectangles), Stage("broad_phase", _broad_phase),
+             Stage("narrow_phase", stacking.narrow_phase(effects)), Stage(solver, stacking.solve_contacts(effects, solver))]
+    if effects.continuous:
+        found.append(Stage("time_of_impact", sweeps.Sweeper(effects.one_way).run))
+    found += [Stage("carry", lambda world, dt: carry.carry_characters(world))]
+    if effects.sensors:
+        found.append(Stage("sensors", stacking.sense(effects)))
+    if effects.sleeping:
+        found.append(Stage("islands", sleep.rest))
+    found.append(_events(effects))
+    return found
+
+
 def _velocities(effects):
     integrate = VELOCITIES[effects.gravity, effects.drag, effects.wind, effects.rotation]
 
     def run(world, dt):
+        if effects.stacking:                  # under another solver for the moment
+            stacking.bear_characters(world)
         integrate(*world.gravity, world.drag, *world.wind, dt, world.bodies)
     return Stage("integrate_velocities", run)
 
@@ -86,6 +106,13 @@ def _rectangles(effects):
     return Stage("motion_rectangles", run)
 
 
+def _fat_rectangles(world, dt):
+    _quarantine(world, dt)
+    add_missing_rasters(world, dt)
+    stacking.bear_characters(world)
+    stacking.update_rectangles(world, dt)
+
+
 def _quarantine(world, dt):
     bodies = world.bodies
     broken = world.scratch_rows(len(bodies))
@@ -100,29 +127,24 @@ def _quarantine(world, dt):
         refresh_centers(bodies)
 
 
-def add_missing_rasters(world, dt):
-    """Draw the masks at the angles that they have, or will have after dt, and did not have before."""
-    if not world.library.masks:
-        return
-    missing = np.zeros((2 * len(world.shapes), 2), np.int64)
-    found = missing_rasters(world.bodies, world.shapes, world.library.raster_of, dt, missing)
-    for mask, bucket in np.unique(missing[:found], axis=0).tolist():
-        world.library.add_raster(mask, bucket)
-
-
 def _broad_phase(world, dt):
     world.pairs.update(world.broadphase, world.shapes, world.changed_count, world.profile.work)
 
 
 def _impacts(effects):
-    find = IMPACTS[effects.one_way]
+    find, sweeper = find_impacts_by_mode[effects.one_way], sweeps.Sweeper(effects.one_way)
 
     def run(world, dt):
         bodies, shapes, rows = world.bodies, world.shapes, world.pairs.rows
         if len(world.impacts) < len(rows):
             world.impacts = np.zeros((2 * len(rows), 5))
-        world.impact_count = find(world.library.tables, bodies, shapes, rows, len(rows), dt, world.tolerances.slop,
-                                  world.impact_scratch, world.impacts, world.profile.work)
+        found = find(world.library.tables, bodies, shapes, rows, len(rows), dt, world.tolerances.slop, int(effects.rotation),
+                     world.impact_scratch, world.impacts, world.profile.work)
+        turning = sweeper.foresee(world, dt)
+        if len(turning):
+            world.impacts = np.concatenate([world.impacts[:found], turning])
+            found += len(turning)
+        world.impact_count = found
         bodies["fraction"] = 1.0
         if world.effects.response:
             stop_at_impacts(shapes, rows, world.impacts, world.impact_count, bodies)
@@ -222,17 +244,21 @@ def _blocking(world, dt):
 def _events(effects):
     def run(world, dt):
         contacts, events, tolerances = world.found_contacts, world.events, world.tolerances
-        begin, persist, events.end, hits, keep = world._touching.compare(contacts, False, tolerances.slop, tolerances.hit_speed)
+        begin, persist, events.end, hits, keep = world._touching.compare(contacts, world.parked, False, tolerances.slop, tolerances.hit_speed)
         events.begin, events.hits = begin, hits
         if effects.persist:
             events.persist = persist
         if effects.sensors:
-            events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(contacts, True, 0.0, np.inf)
+            sensed = contacts if world.sensed is None else world.sensed
+            events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(sensed, world.parked[:0], True, 0.0, np.inf)
             keep = keep & ~contacts["sensor"]
-        world.contacts = contacts if keep.all() else contacts[keep]
-        world.profile.work[CONTACTS] = len(world.contacts)
+        world.tell_contacts(contacts, keep)
+        world.profile.work[CONTACTS] = np.count_nonzero(keep)
         bodies = world.bodies
-        bodies["awake"] = ~bodies["quarantined"]
+        if effects.sleeping:
+            bodies["awake"] &= ~bodies["quarantined"]
+        else:
+            bodies["awake"] = ~bodies["quarantined"]
     return Stage("events", run)
 
 

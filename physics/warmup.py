@@ -8,46 +8,51 @@ from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.effects import Effects
 from physics.motion.character import Character
-from physics.shapes import Bounds, Circle, PixelMask, Polygon, TileGrid
+from physics.shapes import Bounds, Capsule, Chain, Circle, PixelMask, Polygon, TileGrid
 from physics.world import World
 
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
+BOX, MASK, TILES = Polygon.box(8, 8), PixelMask(np.ones((4, 4), bool)), TileGrid(np.ones((1, 2), bool), 16)
+PAIRS = {"circles": ((BOX, Circle(4)),), "boxes": ((BOX, Bounds(BOX)),), "masks": ((MASK, MASK), (MASK, BOX), (MASK, Circle(4))),
+         "tiles": ((TILES, BOX),), "chains": ((Chain([(-9, 0), (9, 0)]), BOX),), "capsules": ((BOX, Capsule((-2, 0), (2, 0), 2)),)}
 
-def warmup(effects=None, broadphase="hash", solver=None, progress=None):
+
+def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=None):
     """Compile, or load from the cache, what a world with these effects calls.
 
-    broadphase: brute, sweep, hash, tree or "all"; progress(done, total, name) is called before each piece and at the
-    end. Without compiled kernels it runs the same and costs milliseconds. Raises KeyError for an unknown broad phase.
+    broadphase: brute, sweep, hash, tree or "all"; pieces: those of PIECES that will be met, None: all; progress(done,
+    total, name) is called before each piece and at the end. What was left out is compiled when it is first met. Without
+    compiled kernels it runs the same and costs milliseconds. Raises KeyError for an unknown broad phase or piece.
     """
     effects = Effects() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
-    pieces = [(f"broad phase {name}", lambda name=name: _small_world(effects, solver, STRATEGIES[name](),
-                                                                    (Circle(4), Circle(4)))) for name in names]
-    box, mask = Polygon.box(8, 8), PixelMask(np.ones((4, 4), bool))
+    runs = [(f"broad phase {name}", lambda name=name: _small_world(effects, solver, STRATEGIES[name](),
+                                                                  (Circle(4), Circle(4)))) for name in names]
     strategy = STRATEGIES[names[0]]
-    if effects.narrowphase:
-        tiles = TileGrid(np.ones((1, 2), bool), 16)
-        for name, pair in (("circles and boxes", (box, Circle(4))), ("boxes", (box, Bounds(box))), ("masks", (mask, mask)),
-                           ("masks and boxes", (mask, box)), ("masks and circles", (mask, Circle(4))),
-                           ("tiles", (tiles, box))):
-            pieces.append((name, lambda pair=pair: _small_world(effects, solver, strategy(), pair)))
-    pieces.append(("queries", lambda: _queries(effects)))
-    if effects.response:
-        pieces.append(("characters", lambda: _character(effects)))
-    for number, (name, run) in enumerate(pieces):
+    for piece in PIECES if pieces is None else pieces:
+        if piece in PAIRS and effects.narrowphase:
+            runs += [(piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]]
+        elif piece in QUESTIONS:
+            runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
+        elif piece == "characters" and effects.response:
+            runs.append((piece, lambda: _character(effects, solver)))
+        elif piece not in PIECES:
+            raise KeyError(f"no piece {piece!r}; there are {', '.join(PIECES)}")
+    for number, (name, run) in enumerate(runs):
         if progress:
-            progress(number, len(pieces), name)
+            progress(number, len(runs), name)
         run()
     if progress:
-        progress(len(pieces), len(pieces), "ready")
+        progress(len(runs), len(runs), "ready")
 
 
 def _small_world(effects, solver, strategy, pair):
     world = World(effects, strategy, solver)
-    first = world.add_body(pair[0], kind="kinematic" if isinstance(pair[0], TileGrid) else "dynamic", position=(0, 0))
+    first = world.add_body(pair[0], kind="kinematic" if isinstance(pair[0], (TileGrid, Chain)) else "dynamic", position=(0, 0))
     world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
+    world.query_aabb((0, 0), (1, 1))           # what the strategy answers to a query
     world.remove_body(first)
     world.step()
 
@@ -59,9 +64,20 @@ def _queries(effects):
     world.overlap(Circle(2), (0, 0, 0))
 
 
-def _character(effects):
+def _casts(effects):
     world = World(effects)
+    world.add_body(Circle(4), kind="static")
+    world.shape_cast(Circle(2), (-20, 0, 0), (40, 0))
+    world.closest((9, 9))
+
+
+def _character(effects, solver):
+    world = World(effects, solver=solver)
     world.add_body(Polygon.box(40, 8), position=(0, 20), kind="kinematic", velocity=(60.0, 0.0))
     hero = Character(world, Polygon.box(8, 8), (0, 0))
     hero.move(1.0, 20.0)
     world.step()
+
+
+QUESTIONS = {"queries": _queries, "casts": _casts}
+PIECES = (*PAIRS, *QUESTIONS, "characters")

@@ -4,22 +4,21 @@ from bisect import bisect_left
 
 import numpy as np
 
-from physics import checks, queries, snapshot, stages
+from physics import adding, checks, queries, sleep, snapshot, stages
 from physics.body import Body
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.effects import Effects
-from physics.edits import shapes_for_tier
 from physics.events import Events, Pairs
 from physics.geometry import Library
 from physics.motion import carry
-from physics.motion.integrate import refresh_centers
 from physics.profile import Profile
+from physics.query_index import QueryIndex
 from physics.settings import POSITION_LIMIT, PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
-from physics.shape_rows import add_shapes, check_shapes, set_mass
-from physics.shapes import Filter, Material, mass_of
-from physics.tables import AUTO, BODY, CHARACTER, CONTACT, CONTINUOUS, KINDS, SHAPE, STATIC, Table
+from physics.shapes import Filter, Material
+from physics.tables import BODY, CHARACTER, CONTACT, SHAPE, STATIC, Table
 
-SOLVERS = ("blocking", "projection")
+SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
+NEEDS_STACKING = ("sequential_impulse", "soft_step")
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
@@ -27,12 +26,13 @@ class World:
     """Bodies, the effects they live under, and the stages that those call for.
 
     effects: what the scene calls for, None = Effects.rigid_bodies(); broadphase: an instance of one of the four, None =
-    SpatialHashGrid(); solver: "blocking" or "projection", None = projection; gravity [px/s2], None = 9.8 m/s2 down;
-    drag [1/s]; wind [px/s]; dt [s]. Raises TypeError or ValueError naming the argument.
+    SpatialHashGrid(); solver: one of SOLVERS, None = soft_step with the effect stacking, else projection; gravity
+    [px/s2], None = 9.8 m/s2 down; drag [1/s]; wind [px/s]; dt [s]; substeps: how often the stacking solvers look at the
+    contacts in a step. Raises TypeError or ValueError naming the argument.
     """
 
     def __init__(self, effects=None, broadphase=None, solver=None, gravity=None, drag=0.0, wind=(0, 0),
-                 pixels_per_meter=PIXELS_PER_METER, dt=1 / 60, seed=0):
+                 pixels_per_meter=PIXELS_PER_METER, dt=1 / 60, substeps=4, seed=0):
         effects = Effects.rigid_bodies() if effects is None else effects
         if not isinstance(effects, Effects):
             raise TypeError(f"effects must be an Effects (got {effects!r})")
@@ -44,7 +44,8 @@ class World:
         self._wind = checks.vector("wind", wind)
         self.random = np.random.default_rng(checks.whole("seed", seed, 0, 2**63 - 1))
         self._effects = effects
-        self._solver = checks.choice("solver", "projection" if solver is None else solver, SOLVERS)
+        self._substeps = checks.whole("substeps", substeps, 1, 1000)
+        self._solver = self._checked_solver(("soft_step" if effects.stacking else "projection") if solver is None else solver)
         self._bodies, self._shapes = Table(BODY), Table(SHAPE)
         self.library = Library()
         self.pairs = stages.PairList()
@@ -57,8 +58,14 @@ class World:
         self._touching, self._sensing = Pairs(), Pairs()
         self.impacts, self.impact_scratch = stages.impact_room()
         self.impact_count = self.changed_count = 0
-        self.contacts = self.found_contacts = np.zeros(0, CONTACT)
+        # All contacts of the last step, also those that are only near; those between what sleeps; those with sensors where
+        # these are looked for apart, None where they stand among the others.
+        self.found_contacts = self.parked = np.zeros(0, CONTACT)
+        self.tell_contacts(self.found_contacts, np.zeros(0, bool))
+        self.sensed = self.impact_ghosts = None
+        self.swept_sensors = self.found_contacts
         self._room = np.zeros(16, np.int64)
+        self.queries = QueryIndex()
         self.events = Events()
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
@@ -92,6 +99,10 @@ class World:
 
     def _plan(self):
         self._plan_list = stages.plan(self._effects, self._solver)
+        if (self.sensed is not None) != (self._solver in NEEDS_STACKING):
+            # The two kinds of worlds keep other facts in their contacts.
+            self.sensed = np.zeros(0, CONTACT) if self._solver in NEEDS_STACKING else None
+            self.found_contacts = np.zeros(0, CONTACT)
         self.profile = Profile(self.stages)
 
     @property
@@ -112,14 +123,30 @@ class World:
 
     @property
     def solver(self) -> str:
-        """blocking or projection; can be set between steps."""
+        """One of SOLVERS; can be set between steps."""
         return self._solver
 
     @solver.setter
     def solver(self, name):
         self._unlocked()
-        self._solver = checks.choice("solver", name, SOLVERS)
+        self._solver = self._checked_solver(name)
+        sleep.wake_all(self)
         self._plan()
+
+    def _checked_solver(self, name):
+        name = checks.choice("solver", name, SOLVERS)
+        self._needs("stacking", f"solver {name!r}", name in NEEDS_STACKING)
+        return name
+
+    @property
+    def substeps(self) -> int:
+        """How often the stacking solvers look at the contacts in a step; can be set between steps."""
+        return self._substeps
+
+    @substeps.setter
+    def substeps(self, value):
+        self._unlocked()
+        self._substeps = checks.whole("substeps", value, 1, 1000)
 
     @property
     def broadphase(self):
@@ -143,7 +170,10 @@ class World:
     @gravity.setter
     def gravity(self, value):
         self._unlocked()
-        self._gravity = checks.vector("gravity", value)
+        value = checks.vector("gravity", value)
+        if value != self._gravity:
+            sleep.wake_all(self)
+        self._gravity = value
 
     @property
     def dt(self) -> float:
@@ -188,6 +218,18 @@ class World:
         return self._shapes.rows
 
     @property
+    def contacts(self) -> np.ndarray:
+        """CONTACT rows of what touches, was pushed, or was met on the way in the last step, in the order of shape ids."""
+        if self._keep is not None:
+            self._contacts = self._contacts if self._keep.all() else self._contacts[self._keep]
+            self._keep = None
+        return self._contacts
+
+    def tell_contacts(self, contacts, keep=None):
+        """Take in the contacts of a step, of which the flagged ones count; picked out when somebody looks."""
+        self._contacts, self._keep = contacts, keep
+
+    @property
     def candidates(self) -> np.ndarray:
         """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
         return self.pairs.ids.astype(np.int32)
@@ -206,17 +248,17 @@ class World:
     # --- adding and removing ---------------------------------------------------------------------------------------
 
     def add_body(self, *shapes, position=(0, 0), angle=0.0, kind="dynamic", velocity=(0, 0), angular_velocity=0.0,
-                 material=Material(), filter=Filter.ALL, sensor=False, continuous="auto", fixed_rotation=False,
-                 gravity_scale=1.0, tier=None, user=None) -> Body:
+                 material=Material(), filter=Filter.ALL, sensor=False, bullet=False, continuous="auto",
+                 fixed_rotation=False, gravity_scale=1.0, tier=None, user=None) -> Body:
         """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
-        ids = self._add(shapes, [checks.position("position", position)], [checks.vector("velocity", velocity)],
-                        [checks.number("angle", angle)], kind, angular_velocity, material, filter, sensor, continuous,
+        ids = adding.add_rows(self, shapes, [checks.position("position", position)], [checks.vector("velocity", velocity)],
+                        [checks.number("angle", angle)], kind, angular_velocity, material, filter, sensor, bullet, continuous,
                         fixed_rotation, gravity_scale, tier, user)
         return Body(self, int(ids[0]))
 
     def add_bodies(self, shape, positions, velocities=None, angles=None, kind="dynamic", angular_velocity=0.0,
-                   material=Material(), filter=Filter.ALL, sensor=False, continuous="auto", fixed_rotation=False,
-                   gravity_scale=1.0, tier=None, user=None) -> np.ndarray:
+                   material=Material(), filter=Filter.ALL, sensor=False, bullet=False, continuous="auto",
+                   fixed_rotation=False, gravity_scale=1.0, tier=None, user=None) -> np.ndarray:
         """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
@@ -224,55 +266,8 @@ class World:
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return self._add((shape,), positions, velocities, angles, kind, angular_velocity, material, filter, sensor,
-                         continuous, fixed_rotation, gravity_scale, tier, user)
-
-    def _add(self, shapes, positions, velocities, angles, kind, angular_velocity, material, filter, sensor, continuous,
-             fixed_rotation, gravity_scale, tier, user):
-        self._unlocked()
-        kind = KINDS.index(checks.choice("kind", kind, KINDS))
-        for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
-            if not isinstance(value, wanted):
-                raise TypeError(f"{name} must be a {wanted.__name__} (got {value!r})")
-        sensor = checks.flag("sensor", sensor)
-        self._needs("sensors", "sensor=True", sensor)
-        continuous = CONTINUOUS.index(checks.choice("continuous", continuous, CONTINUOUS))
-        if continuous not in (0, AUTO):
-            self._needs("continuous", f"continuous={CONTINUOUS[continuous]!r}", True)
-        fixed_rotation = checks.flag("fixed_rotation", fixed_rotation)
-        gravity_scale = checks.number("gravity_scale", gravity_scale)
-        spin = checks.number("angular_velocity", angular_velocity)
-        self._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
-        if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
-            raise ValueError("velocity and angular_velocity must be 0 for a static body "
-                             f"(got {np.asarray(velocities).tolist()}, {spin})")
-        used = shapes_for_tier(shapes, tier)
-        check_shapes(used, kind, angles, continuous)
-        mass = mass_of(used, material.density) if used else mass_of((), material.density)
-        n = len(positions)
-        ids = np.arange(self._next_body, self._next_body + n, dtype=np.int64)
-        if n == 0:
-            return ids
-        self._next_body += n
-        rows = self._bodies.append(n)
-        rows["id"], rows["kind"] = ids, kind
-        rows["x"], rows["y"] = np.asarray(positions).T
-        rows["vx"], rows["vy"] = np.asarray(velocities).T
-        rows["angle"], rows["angular_velocity"] = angles, spin
-        for name in ("x", "y", "angle"):
-            rows["previous_" + name] = rows[name]
-        rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, continuous, fixed_rotation
-        rows["awake"], rows["fraction"] = True, 1.0
-        set_mass(rows, mass, used)
-        refresh_centers(rows)
-        add_shapes(self, rows, self._bodies.count - n, used, material, filter, sensor)
-        for identity in ids.tolist():
-            self._shapes_of[identity] = used
-            if user is not None:
-                self._users[identity] = user
-            if tier is not None:
-                self._tiers[identity], self._sources[identity] = tier, tuple(shapes)
-        return ids
+        return adding.add_rows(self, (shape,), positions, velocities, angles, kind, angular_velocity, material, filter, sensor,
+                         bullet, continuous, fixed_rotation, gravity_scale, tier, user)
 
     def remove_body(self, body):
         """Remove a body (or its id). Raises KeyError when it is not there."""
@@ -293,6 +288,7 @@ class World:
             return
         keep = np.ones(self._bodies.count, bool)
         keep[self.rows(ids)] = False
+        sleep.wake_ids(self, ids)
         self._drop_shapes(~np.isin(self.shapes["body"], ids))
         self._bodies.keep(keep)
         self.shapes["body_row"] = np.searchsorted(np.ascontiguousarray(self.bodies["id"]), self.shapes["body"])
@@ -301,6 +297,7 @@ class World:
             for identity in gone & table.keys():
                 del table[identity]
         self.characters.keep(~np.isin(self.characters.rows["body"], ids))
+        sleep.forget(self, ids)
 
     def _drop_shapes(self, keep):
         self.pairs.ids              # named while the rows still stand
@@ -339,19 +336,27 @@ class World:
             raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
 
     def _needs_velocities(self, what):
-        if "integrate_velocities" not in self.stages:
+        if "integrate_velocities" not in self.stages and self._solver not in NEEDS_STACKING:
             raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
 
     # --- queries, digest, snapshot -------------------------------------------------------------------------------------
 
     def ray_cast(self, origin, translation, filter=Filter.ALL, sensors=False):
         """The first shape that a ray [px] meets, or None. See queries.RayHit."""
-        hits = self.ray_cast_all(origin, translation, filter, sensors)
+        hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin, translation, filter=Filter.ALL, sensors=False) -> list:
         """All shapes that a ray [px] meets, nearest first, ties by shape id."""
         return queries.ray_cast_all(self, origin, translation, filter, sensors)
+
+    def shape_cast(self, shape, pose, translation, filter=Filter.ALL):
+        """The first shape that a shape at a pose (x, y, angle) touches on its way by a translation [px], or None."""
+        return queries.shape_cast(self, shape, pose, translation, filter)
+
+    def closest(self, point, filter=Filter.ALL):
+        """(body, point, distance) [px] of the nearest point of any shape, or None."""
+        return queries.closest(self, point, filter)
 
     def overlap(self, shape, pose, filter=Filter.ALL) -> list[Body]:
         """The bodies that a shape at a pose (x, y, angle) overlaps, in the order of ids."""

@@ -12,7 +12,7 @@ MAY_IMPORT = {"physics": {"physics"}, "assets": {"assets"}, "game": {"physics", 
               "scenes": {"physics", "game", "scenes", "assets"}}
 # Kernel folders, each with those it may look into: never one of a later stage of the step.
 MAY_LOOK_INTO = {"math2d": set(), "jit": set(), "broadphase": {"motion"}, "masks": {"narrowphase"},
-                 "narrowphase": {"masks"}, "solver": set(), "motion": {"masks", "narrowphase"}, "fitting": set()}
+                 "narrowphase": {"masks"}, "solver": {"narrowphase"}, "motion": {"masks", "narrowphase"}, "fitting": set()}
 LIMIT = 400
 BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "base", "misc"}
 

@@ -5,6 +5,7 @@ Exact, no state, O(changed · n). Best for a few dozen bodies; the truth the oth
 
 from physics.broadphase.proxies import find_pairs, overlaps, write_pair
 from physics.jit import kernel
+from physics.profile import PAIRS_TESTED
 
 
 @kernel
@@ -32,6 +33,26 @@ def find_all(
     return found
 
 
+@kernel
+def near_in_all(
+    # read
+    proxies, lower_x, lower_y, upper_x, upper_y,
+    # write
+    slots_out, work_inout,
+):
+    """List the slots whose box meets a closed box [px], one by one. Returns their number. O(n)."""
+    found = 0
+    for slot in range(len(proxies)):
+        p = proxies[slot]
+        if p.row < 0:
+            continue
+        work_inout[PAIRS_TESTED] += 1
+        if p.lower_x <= upper_x and p.upper_x >= lower_x and p.lower_y <= upper_y and p.upper_y >= lower_y:
+            slots_out[found] = slot
+            found += 1
+    return found
+
+
 class BruteForce:
     """Tests all pairs: O(n²) for the first step, O(moved · n) after it."""
 
@@ -51,3 +72,7 @@ class BruteForce:
     def query(self, arena):
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
+
+    def near(self, proxies, box, slots, work) -> int:
+        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        return near_in_all(proxies, *box, slots, work)

@@ -122,6 +122,36 @@ def find_in_trees(
     return found
 
 
+@kernel
+def near_in_trees(
+    # read
+    nodes, roots, lower_x, lower_y, upper_x, upper_y,
+    # write
+    stack_inout, slots_out, work_inout,
+):
+    """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number. O(log n + found)."""
+    found = 0
+    depth = 0
+    for k in range(len(roots)):
+        if roots[k] >= 0:
+            stack_inout[depth] = roots[k]
+            depth += 1
+    while depth > 0:
+        depth -= 1
+        n = nodes[stack_inout[depth]]
+        work_inout[NODES_VISITED] += 1
+        if n.lower_x > upper_x or n.upper_x < lower_x or n.lower_y > upper_y or n.upper_y < lower_y:
+            continue
+        if n.height > 0:
+            stack_inout[depth] = n.child_a
+            stack_inout[depth + 1] = n.child_b
+            depth += 2
+        else:
+            slots_out[found] = n.slot
+            found += 1
+    return found
+
+
 class DynamicTree:
     """margin [px]: how far a moving leaf outgrows its box, at most; None takes the setting for 32 px per metre."""
 
@@ -173,6 +203,10 @@ class DynamicTree:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_trees(arena.proxies, arena.changed, self.nodes, self.state, self.stack,
                                                  pairs, work)
+
+    def near(self, proxies, box, slots, work) -> int:
+        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        return near_in_trees(self.nodes, self.state[ROOT_MOVING:], *box, self.stack, slots, work)
 
     @property
     def height(self):

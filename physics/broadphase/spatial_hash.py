@@ -249,6 +249,62 @@ def find_in_cells(
     return found
 
 
+@kernel
+def near_in_cells(
+    # read
+    base, heads, entries, lists, level_heads, level_counts, proxies, lower_x, lower_y, upper_x, upper_y,
+    # write
+    slots_out, work_inout,
+):
+    """List the slots whose box meets a closed box [px], per level by its cells or by the level's list. Returns their number.
+
+    A slot that stands in several cells is taken from the one that holds the lower corner of the shared rectangle.
+    O(cells + boxes in them); cells are at most in proportion to the outline of the box.
+    """
+    mask = len(heads) - 1
+    reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
+    found = 0
+    for level in range(LEVELS + 1):
+        if level_counts[level] == 0:
+            continue
+        inverse = 1.0
+        by_list = level == LEVELS
+        if not by_list:
+            size = base * (1 << level)
+            inverse = 1.0 / (base * (1 << level))
+            by_list = (not reach < CELL_RANGE * size
+                       or (upper_x - lower_x) * inverse + (upper_y - lower_y) * inverse > level_counts[level] + 4)
+        if not by_list:
+            columns = cell_of(upper_x, inverse) - cell_of(lower_x, inverse) + 1
+            rows = cell_of(upper_y, inverse) - cell_of(lower_y, inverse) + 1
+            by_list = columns * rows > level_counts[level] + 4
+        if by_list:
+            slot = level_heads[level]
+            while slot >= 0:
+                p = proxies[slot]
+                work_inout[PAIRS_TESTED] += 1
+                if p.lower_x <= upper_x and p.upper_x >= lower_x and p.lower_y <= upper_y and p.upper_y >= lower_y:
+                    slots_out[found] = slot
+                    found += 1
+                slot = lists[slot, 1]
+            continue
+        for cell_y in range(cell_of(lower_y, inverse), cell_of(upper_y, inverse) + 1):
+            for cell_x in range(cell_of(lower_x, inverse), cell_of(upper_x, inverse) + 1):
+                work_inout[NODES_VISITED] += 1
+                k = heads[bucket_at(level, cell_x, cell_y, mask)]
+                while k >= 0:
+                    e = entries[k]
+                    work_inout[PAIRS_TESTED] += 1
+                    if (e.level == level and e.cell_x == cell_x and e.cell_y == cell_y and e.lower_x <= upper_x
+                            and e.upper_x >= lower_x and e.lower_y <= upper_y and e.upper_y >= lower_y
+                            and cell_of(max(lower_x, e.lower_x), inverse) == cell_x
+                            and cell_of(max(lower_y, e.lower_y), inverse) == cell_y):
+                        slots_out[found] = k // 4
+                        found += 1
+                    k = e.next
+    return found
+
+
 ENTRY = np.dtype([("lower_x", np.float64), ("lower_y", np.float64), ("upper_x", np.float64), ("upper_y", np.float64),
                   ("cell_x", np.int64), ("cell_y", np.int64), ("next", np.int64), ("level", np.int64),
                   ("bucket", np.int64), ("previous", np.int64)], align=True)
@@ -316,6 +372,11 @@ class SpatialHashGrid:
     def query(self, arena):
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_cells(arena.proxies, arena.changed, self.base, *self._state(), pairs, work)
+
+    def near(self, proxies, box, slots, work) -> int:
+        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        return near_in_cells(self.base, self.heads, self.entries, self.lists, self.level_heads, self.level_counts, proxies, *box,
+                             slots, work)
 
     def cells(self):
         """Occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from physics.broadphase.proxies import find_pairs, may_meet, write_pair
 from physics.jit import kernel
-from physics.profile import FILTERED, PAIRS_TESTED, SWAPS
+from physics.profile import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0          # the other axis must vary this much more before the order is sorted anew
 AXIS_INTERVAL = 32         # updates between two looks at how the bodies are spread
@@ -199,6 +199,40 @@ def intersect(
     return found
 
 
+@kernel
+def near_in_order(
+    # read
+    order, boxes, highest, lower, upper, other_lower, other_upper,
+    # write
+    slots_out, work_inout,
+):
+    """List the slots whose box meets a closed box, by binary search along the sorted axis. Returns their number.
+
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis, along the other;
+    highest (n,) [px]: the greatest high end so far. What lies wholly before is skipped by the second search; one giant
+    at the start spoils that. O(log n + boxes between).
+    """
+    count = len(order)
+    first = 0
+    last = count
+    while first < last:
+        middle = (first + last) // 2
+        work_inout[NODES_VISITED] += 1
+        if highest[middle] < lower:
+            first = middle + 1
+        else:
+            last = middle
+    found = 0
+    k = first
+    while k < count and boxes[k, 0] <= upper:
+        work_inout[PAIRS_TESTED] += 1
+        if boxes[k, 1] >= lower and boxes[k, 2] <= other_upper and boxes[k, 3] >= other_lower:
+            slots_out[found] = order[k]
+            found += 1
+        k += 1
+    return found
+
+
 class Axis:
     """The proxies in order of their lower ends along one axis, kept from step to step."""
 
@@ -209,6 +243,7 @@ class Axis:
         self.boxes = np.zeros((0, 4))
         self.next_changed = np.zeros(0, np.int64)
         self.keys = np.zeros(64, np.int64)
+        self.highest = None             # the greatest upper end so far, along the order; None until a query asks
 
     def update(self, arena):
         """Bring the order up to date with the changed proxies."""
@@ -231,6 +266,15 @@ class Axis:
             room = max(len(order), 2 * len(self.boxes))
             self.boxes, self.next_changed = np.zeros((room, 4)), np.zeros(room, np.int64)
         sort_boxes(proxies, order, len(order), self.axis, self.boxes, self.next_changed)
+        self.highest = None
+
+    def near(self, box, slots, work):
+        """List the slots whose box meets box (lower x, y, upper x, y) [px]; how many there are."""
+        if self.highest is None:
+            self.highest = np.maximum.accumulate(self.boxes[:len(self.order), 1])
+        other = 1 - self.axis
+        return near_in_order(self.order, self.boxes, self.highest, box[self.axis], box[self.axis + 2], box[other], box[other + 2],
+                             slots, work)
 
     def sweep(self, arena, pairs, work):
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
@@ -303,3 +347,7 @@ class SweepAndPrune:
             keys_y, count_y = self.sorted[1].intervals(arena, work)
             return intersect(arena.proxies, keys_x, count_x, keys_y, count_y, pairs, work)
         return both
+
+    def near(self, proxies, box, slots, work) -> int:
+        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        return self.sorted[0].near(box, slots, work)

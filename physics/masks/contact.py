@@ -40,27 +40,32 @@ def least_axis(a, b, dx, dy):
 
 
 @subkernel
-def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y, nx, ny, most):
+def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, most):
     """The shortest whole number of pixels along the normal after which nothing is shared; > most when none does.
 
-    rest_x, rest_y [px] in 0..1: what snapping took from B's position, so that the move is rounded as it will be.
+    rest_* [px] in 0..1: what snapping took from the positions, so that the move is rounded as it will be, whether B is
+    moved along the normal or A against it.
     """
     depth = 0.0
     while depth <= most:
         depth += 1.0
-        x = dx + math.floor(rest_x + nx * depth)
-        y = dy + math.floor(rest_y + ny * depth)
+        x = dx + math.floor(rest_bx + nx * depth)
+        y = dy + math.floor(rest_by + ny * depth)
         found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
+        other_x = dx - math.floor(rest_ax - nx * depth)
+        other_y = dy - math.floor(rest_ay - ny * depth)
+        if not found and (other_x != x or other_y != y):
+            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
         if not found:
             return depth
     return depth
 
 
 @subkernel
-def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y):
+def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by):
     """Contact of two masks that share pixels: (area, point x, point y in A's raster, normal from A to B, separation).
 
-    rest_x, rest_y: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends the overlap.
+    rest_*: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends the overlap.
     """
     a = rasters[mask_a]
     b = rasters[mask_b]
@@ -77,7 +82,7 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y):
                 b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom):
             nx = axis_x
             ny = axis_y
-    depth = way_out(rasters, words, mask_a, mask_b, dx, dy, rest_x, rest_y, nx, ny, least)
+    depth = way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, least)
     if depth > least:
         depth = least
         nx = axis_x

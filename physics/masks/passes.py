@@ -4,8 +4,10 @@ from physics.jit import kernel
 from physics.masks.bits import columns_up_to, first_shared_row, lowest_bit
 from physics.masks.contact import center_normal, mask_contact
 from physics.masks.overlap import first_pixel, shared_rectangle
-from physics.masks.shapes import collide_mask_circle, collide_mask_polygon
+from physics.masks.rounded import collide_mask_rounded
+from physics.masks.shapes import collide_mask_circle, collide_mask_line, collide_mask_polygon
 from physics.narrowphase.contacts import MASK_CIRCLE, MASK_POLYGON, MASKS, circle_at, corners_of, write_contact
+from physics.narrowphase.placement import rounding
 from physics.narrowphase.sat import ALL_EDGES
 from physics.profile import MASK_TESTS
 from physics.tables import MASK
@@ -55,9 +57,10 @@ def make_mask_pass(full: bool):
             feature = y * r.width + x
             if full:
                 q = bodies[b.body_row]
+                p = bodies[a.body_row]
                 area, px, py, nx, ny, separation = mask_contact(
-                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, q.x - s.origin_x + 0.5 - b.left,
-                    q.y - s.origin_y + 0.5 - b.top)
+                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, p.x - r.origin_x + 0.5 - a.left,
+                    p.y - r.origin_y + 0.5 - a.top, q.x - s.origin_x + 0.5 - b.left, q.y - s.origin_y + 0.5 - b.top)
                 found = write_contact(shapes, candidates, i, found, nx, ny, left + px, top + py, separation,
                                       float(area), feature, contacts_out)
             else:
@@ -79,7 +82,7 @@ def collide_mask_shape_pairs(
     # write
     scratch, contacts_out, found, work_inout,
 ):
-    """Contacts of all pairs of a mask and a circle, polygon or bounds, appended at `found`. Returns the new count."""
+    """Contacts of all pairs of a mask and a hull, appended at `found`. Returns the new count."""
     for i in range(count):
         if kinds[i] != MASK_CIRCLE and kinds[i] != MASK_POLYGON:
             continue
@@ -96,6 +99,14 @@ def collide_mask_shape_pairs(
                                                                           cx, cy, radius)
         else:
             n = corners_of(geometry, bodies, shapes, other, scratch.a)
+            radius = rounding(shapes, other)
+        if kinds[i] == MASK_POLYGON and radius > 0.0:
+            area, nx, ny, x, y, separation, feature = collide_mask_rounded(geometry.rasters, geometry.words, mask, left, top,
+                                                                           scratch.a, n, radius)
+        elif kinds[i] == MASK_POLYGON and n == 2:
+            area, nx, ny, x, y, separation, feature = collide_mask_line(geometry.rasters, geometry.words, mask, left, top,
+                                                                        scratch.a, scratch.depths)
+        elif kinds[i] == MASK_POLYGON:
             area, nx, ny, x, y, separation, feature = collide_mask_polygon(geometry.rasters, geometry.words, mask, left, top,
                                                                            scratch.a, n, ALL_EDGES, scratch.depths)
         if area > 0:

@@ -82,6 +82,17 @@ def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
 
 
 @subkernel
+def thick_line(points, front, back, corners_out):
+    """Write the rectangle that reaches `front` and `back` [px] to both sides of the line from points[0] to points[1]."""
+    nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
+    for k in range(4):
+        end = 0 if k == 0 or k == 3 else 1
+        away = front if k < 2 else -back
+        corners_out[k, 0] = points[end, 0] + away * nx
+        corners_out[k, 1] = points[end, 1] + away * ny
+
+
+@subkernel
 def square_in_polygon(corners, count, x, y):
     """Whether the pixel square at x, y and a convex polygon share area: no axis of either parts them."""
     min_x = math.inf
@@ -154,3 +165,59 @@ def collide_mask_polygon(rasters, words, mask, left, top, corners, count, edges,
                 best = k
     nx, ny = edge_normal(corners, count, best)
     return area, -nx, -ny, sum_x / area, sum_y / area, -depths_out[best], first
+
+
+@subkernel
+def border_pixels(rasters, words, mask, line, low, high, level):
+    """(how many pairs of solid pixels on both sides of a border of the pixel grid an open interval of it runs between,
+    sum of their middles along it, first pixel number).
+
+    line: the border's column or row in the raster; low, high [px]: the interval in the raster; level: it is a row.
+    """
+    r = rasters[mask]
+    size = r.height if level else r.width
+    across = r.width if level else r.height
+    found = 0
+    middle = 0.0
+    first = -1
+    if line <= 0 or line >= size:
+        return found, middle, first
+    for k in range(max(0, math.floor(low)), min(across, math.ceil(high))):
+        row = line if level else k
+        column = k if level else line
+        before_row = line - 1 if level else k
+        before_column = k if level else line - 1
+        if is_set(words, r.offset + row * r.stride, column) and is_set(words, r.offset + before_row * r.stride, before_column):
+            found += 1
+            middle += k + 0.5
+            if first < 0:
+                first = row * r.width + column
+    return found, middle, first
+
+
+@subkernel
+def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
+    """As collide_mask_circle, for the line from points[0] to points[1] [px], solid from both sides.
+
+    It is met where it runs through the inside of the solid: across a pixel, or along the border of two solid ones, out
+    of which it leads on the side that is further from the middle of the mask. depths_out (16,): scratch.
+    """
+    area, nx, ny, x, y, separation, first = collide_mask_polygon(rasters, words, mask, left, top, points, 2, 3, depths_out)
+    level = points[0, 1] == points[1, 1] and points[0, 1] == math.floor(points[0, 1])
+    upright = points[0, 0] == points[1, 0] and points[0, 0] == math.floor(points[0, 0])
+    if area > 0 or level == upright:
+        return area, nx, ny, x, y, separation, first
+    r = rasters[mask]
+    along = 0 if level else 1
+    start = left if level else top
+    border = points[0, 1] - top if level else points[0, 0] - left
+    low = min(points[0, along], points[1, along]) - start
+    high = max(points[0, along], points[1, along]) - start
+    found, middle, first = border_pixels(rasters, words, mask, math.floor(border), low, high, level)
+    if found == 0:
+        return 0, 0.0, -1.0, 0.0, 0.0, 0.0, 0
+    inside = 0.5 * (r.set_top + r.set_bottom) if level else 0.5 * (r.set_left + r.set_right)
+    side = 1.0 if border >= inside else -1.0
+    if level:
+        return 2 * found, 0.0, side, start + middle / found, points[0, 1], -1.0, first
+    return 2 * found, side, 0.0, points[0, 0], start + middle / found, -1.0, first

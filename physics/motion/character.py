@@ -8,15 +8,16 @@ from physics import checks
 from physics.motion.walk import walk
 from physics.shapes import Bounds, Filter, PixelMask, Polygon
 
-
 LONGEST = 1e6          # [px] of one move: it is walked pixel by pixel
+PUSH = 2000.0          # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
 
 
 class Moved(NamedTuple):
     """What a move did: pixels moved, and what the character touches after it.
 
-    wall: -1 solid at its left, 1 at its right; slope: rise per px to the right (1: 45 degrees up to the right); riding:
-    the kinematic body or pushable character under its feet; squeezed: by a moving solid since the last move.
+    wall: -1 solid at its left, 1 at its right; slope: rise per px to the right (1: 45 degrees up to the right) of tiles;
+    riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
+    move, and left no room.
     """
     x: int
     y: int
@@ -32,14 +33,21 @@ class Character:
 
     shape: Polygon.box without angle, or Bounds, of at least one pixel; position: centre of the box [px]; pushable:
     solid for other characters, and pushed by them. Its `body` is kinematic: contacts and sensors see it. Needs the
-    effect response. Raises TypeError, ValueError.
+    effect response.
+    With the effect stacking, dynamic bodies stop and carry it too, and it acts on them: mass [density px2], None = that
+    of its box at density 1, weighs on what it stands on and lands with momentum; push [px/s2], None = PUSH: what it
+    runs into is accelerated towards the speed of its moves by at most mass * push. Raises TypeError, ValueError.
     """
 
-    def __init__(self, world, shape, position, filter=Filter.ALL, pushable=False, user=None):
+    def __init__(self, world, shape, position, filter=Filter.ALL, pushable=False, user=None, mass=None, push=None):
         world._needs("response", "a Character", True)
+        world._needs("stacking", "mass", mass is not None)
+        world._needs("stacking", "push", push is not None)
         width, height = _size(shape)
         x, y = checks.position("position", position)
         pushable = checks.flag("pushable", pushable)
+        mass = float(width * height) if mass is None else checks.number("mass", mass, above=0.0)
+        push = PUSH if push is None else checks.number("push", push, low=0.0)
         self.world = world
         left, top = int(np.floor(x - width / 2.0 + 0.5)), int(np.floor(y - height / 2.0 + 0.5))
         self.body = world.add_body(Polygon.box(width, height), position=(left + width / 2.0, top + height / 2.0),
@@ -48,6 +56,7 @@ class Character:
         row["body"], row["riding"], row["pushable"] = self.body.id, -1, pushable
         row["left"], row["top"], row["width"], row["height"] = left, top, width, height
         row["previous_left"], row["previous_top"] = left, top
+        row["mass"], row["push"], row["pressed"] = mass, push, -1
 
     @property
     def _row(self):
@@ -82,8 +91,8 @@ class Character:
         rows["squeezed"][me] = False
         world.refresh_character_rows()
         room = world.scratch_rows(2 * len(world.shapes))
-        walk(world.library.tables, world.shapes, me, dx, dy, -1, world.tolerances.slop, world.walk_scratch,
-             room[:len(world.shapes)], room[len(world.shapes):2 * len(world.shapes)], rows, world.bodies, world.walk_moved)
+        walk(world.library.tables, world.shapes, me, dx, dy, int(world.effects.stacking), int(world.effects.rotation), world.dt,
+             world.tolerances.slop, world.walk_scratch, room[:len(world.shapes)], room[len(world.shapes):2 * len(world.shapes)], rows, world.bodies, world.walk_moved)
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
         return Moved(int(world.walk_moved[0]), int(world.walk_moved[1]), bool(row["grounded"]), int(row["wall"]),
@@ -96,7 +105,7 @@ class Character:
         row = self.world.characters.rows[self._row:self._row + 1]
         row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
         row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)
-        row["remainder_x"] = row["remainder_y"] = 0.0
+        row["remainder_x"] = row["remainder_y"] = row["carry_x"] = row["carry_y"] = row["push_vx"] = row["push_vy"] = 0.0
         row["riding"], row["grounded"], row["squeezed"] = -1, False, False
         self.body.move_to((float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0)))
 

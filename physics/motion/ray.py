@@ -1,18 +1,19 @@
-"""A ray against every shape: closed forms for circles and polygons, cell by cell for tiles and pixels.
+"""A ray against every shape: closed forms for circles, other hulls and lines, cell by cell for tiles and pixels.
 
 Source of the cell walk: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987.
 """
 
 import math
 
-from physics.jit import kernel, subkernel
+from physics.jit import subkernel
 from physics.masks.bits import is_set
 from physics.math2d import turned, unit
 from physics.motion.time_of_impact import MISS, sweep_circle_polygon, sweep_circles
-from physics.narrowphase.placement import corners_at, raster_at, snapped
+from physics.motion.ray_lines import cast_on_chain, cast_on_hull
+from physics.narrowphase.placement import corners_at, raster_at, rounding, snapped
 from physics.narrowphase.sat import ALL_EDGES
 from physics.narrowphase.tiles import tile_at
-from physics.tables import CIRCLE, EMPTY, MASK, ONE_WAY, SLOPE, SOLID, TILES
+from physics.tables import BLOCK_LINKS, CHAIN, CIRCLE, EMPTY, MASK, ONE_WAY, SLOPE, SOLID, TILES
 
 
 @subkernel
@@ -211,37 +212,15 @@ def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
                 return 0.0, back_x, back_y
             return MISS, 0.0, -1.0
         return cast_on_mask(geometry.rasters, geometry.words, mask, x - left, y - top, dx, dy)
+    if s.kind == CHAIN:
+        return cast_on_chain(geometry.chains, geometry.links, geometry.link_blocks, s.geometry, x - b.x, y - b.y,
+                             math.cos(b.angle), math.sin(b.angle), dx, dy, BLOCK_LINKS)
     count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_inout)
+    radius = rounding(shapes, row)
+    if count == 2 or radius > 0.0:
+        return cast_on_hull(corners_inout, count, radius, x, y, dx, dy)
     if inside_polygon(corners_inout, count, x, y):
         return 0.0, back_x, back_y
     if point:
         return MISS, 0.0, -1.0
     return sweep_circle_polygon(corners_inout, count, ALL_EDGES, x, y, dx, dy, 0.0)
-
-
-@kernel
-def cast_ray_at_all(
-    # read
-    geometry, bodies, shapes, x, y, dx, dy, membership, mask, sensors,
-    # write
-    corners_inout, hits_out,
-):
-    """Write (row, fraction, normal) of every shape the ray meets, in the order of rows. Returns their number.
-
-    x, y, dx, dy [px]; membership, mask: the ray's filter; sensors: 1 to meet them too; hits_out (shapes, 4). O(shapes).
-    """
-    found = 0
-    for row in range(len(shapes)):
-        s = shapes[row]
-        if (s.sensor and sensors == 0) or (s.membership & mask) == 0 or (s.mask & membership) == 0:
-            continue
-        if bodies[s.body_row].quarantined:
-            continue
-        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout)
-        if fraction <= 1.0:
-            hits_out[found, 0] = float(row)
-            hits_out[found, 1] = fraction
-            hits_out[found, 2] = nx
-            hits_out[found, 3] = ny
-            found += 1
-    return found

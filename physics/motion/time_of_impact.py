@@ -14,7 +14,7 @@ from physics.narrowphase.placement import corners_at
 from physics.narrowphase.sat import ALL_EDGES, edge_normal
 from physics.narrowphase.tiles import tile_at
 from physics.profile import TOI_CALLS
-from physics.tables import AUTO, CIRCLE, DYNAMIC, EMPTY, MASK, OFF, ONE_WAY, RAY, STATIC, TILES
+from physics.tables import AUTO, BOUNDS, CIRCLE, DYNAMIC, EMPTY, OFF, ONE_WAY, POLYGON, RAY, STATIC, TILES, TOI
 
 MISS = 2.0                 # a fraction beyond the step
 
@@ -233,9 +233,14 @@ def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, gr
 
 
 @subkernel
-def is_fast(body, dt):
-    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size."""
-    if body.continuous == OFF or body.kind == STATIC or body.quarantined:
+def is_fast(body, dt, only_straight):
+    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size.
+
+    only_straight: 1 where those that turn on their way are left to the sweep with turning.
+    """
+    if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
+        return False
+    if body.continuous == AUTO and only_straight == 1:
         return False
     if body.continuous == AUTO:
         return length_of(body.vx, body.vy) * dt > body.smallest_half
@@ -282,12 +287,19 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, sc
     return sweep_shape(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, ALL_EDGES, slack, scratch.b)
 
 
+@subkernel
+def is_straight(shape):
+    """Whether the closed forms here know a shape; what is rounded or a chain is left to the sweep with turning."""
+    return (shape.kind == CIRCLE or shape.kind == BOUNDS or shape.kind == TILES
+            or (shape.kind == POLYGON and shape.radius == 0.0))
+
+
 def make_impact_pass(one_way: bool):
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
     @kernel
     def find_impacts(
         # read
-        geometry, bodies, shapes, candidates, count, dt, slack,
+        geometry, bodies, shapes, candidates, count, dt, slack, only_straight,
         # write
         scratch, impacts_out, work_inout,
     ):
@@ -295,7 +307,7 @@ def make_impact_pass(one_way: bool):
 
         Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
         the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
-        impacts_out (n, 5) float64. Returns the number found. O(candidates).
+        only_straight: see is_fast; impacts_out (n, 5) float64. Returns the number found. O(candidates).
         """
         found = 0
         for i in range(count):
@@ -303,9 +315,9 @@ def make_impact_pass(one_way: bool):
             b = shapes[candidates[i, 1]]
             p = bodies[a.body_row]
             q = bodies[b.body_row]
-            a_fast = is_fast(p, dt)
-            b_fast = is_fast(q, dt)
-            if not (a_fast or b_fast) or a.kind == MASK or b.kind == MASK:
+            a_fast = is_fast(p, dt, only_straight)
+            b_fast = is_fast(q, dt, only_straight)
+            if not (a_fast or b_fast) or not (is_straight(a) and is_straight(b)):
                 continue
             from_a = a_fast and a.kind != TILES
             if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
@@ -336,6 +348,9 @@ def make_impact_pass(one_way: bool):
             found += 1
         return found
     return find_impacts
+
+
+find_impacts_by_mode = {o: make_impact_pass(one_way=o) for o in (False, True)}
 
 
 @kernel

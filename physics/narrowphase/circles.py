@@ -52,8 +52,9 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
         ey = corners[following, 1] - corners[best, 1]
         from_start = ex * (x - corners[best, 0]) + ey * (y - corners[best, 1])
         from_end = ex * (x - corners[following, 0]) + ey * (y - corners[following, 1])
-        if from_start <= 0.0 or from_end >= 0.0:
-            corner = best if from_start <= 0.0 else following
+        # Right over a corner the face decides: of two tiles that share a covered corner one has to tell.
+        if from_start < 0.0 or from_end > 0.0:
+            corner = best if from_start < 0.0 else following
             before = corner - 1 if corner > 0 else count - 1
             # Both edges of the corner must be free, or the neighbour that covers one of them has the nearer point.
             if not ((edges >> (16 + corner)) & 1 and (edges >> (16 + before)) & 1):

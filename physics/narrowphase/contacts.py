@@ -9,9 +9,10 @@ from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.narrowphase.placement import corners_at
 from physics.narrowphase.sat import MANIFOLD
+from physics.tables import CONTACT
 
 # Kinds of pairs, by which the candidates are dealt to the passes.
-CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, NOTHING = range(8)
+CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, CHAIN_ANY, NOTHING = range(9)
 
 
 class Scratch(NamedTuple):
@@ -20,10 +21,13 @@ class Scratch(NamedTuple):
     b: np.ndarray
     manifold: np.ndarray       # (11,), see sat.MANIFOLD
     depths: np.ndarray         # (16,)
+    previous: np.ndarray       # CONTACT rows of the step before, and where those of each candidate with a grid stand
+    memory: np.ndarray         # (candidates, 2) first row, number
 
 
 def new_scratch() -> Scratch:
-    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(MANIFOLD), np.zeros(16))
+    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(MANIFOLD), np.zeros(16),
+                   np.zeros(0, CONTACT), np.zeros((0, 2), np.int64))
 
 
 @subkernel
@@ -65,6 +69,11 @@ def write_contact(
         c.candidate = pair
         c.swept = False
         c.sensor = a.sensor or b.sensor
+        c.persisted = False
+        c.normal_force = 0.0
+        c.tangent_force = 0.0
+        c.rolling_force = 0.0
+        c.color = -1
     return found + 1
 
 
@@ -79,7 +88,7 @@ def circle_at(bodies, shapes, row):
 
 @subkernel
 def corners_of(geometry, bodies, shapes, row, corners_out):
-    """World corners of a POLYGON or BOUNDS at its body's pose. Returns their number."""
+    """World corners of a hull of two or more at its body's pose. Returns their number."""
     b = bodies[shapes[row].body_row]
     return corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_out)
 
@@ -114,6 +123,24 @@ def copy_contact(contacts, source, target, contacts_out):
     d.speed = s.speed
     d.swept = s.swept
     d.sensor = s.sensor
+    d.rolling_resistance = s.rolling_resistance
+    d.surface_speed = s.surface_speed
+    d.local_ax = s.local_ax
+    d.local_ay = s.local_ay
+    d.local_bx = s.local_bx
+    d.local_by = s.local_by
+    d.radius_a = s.radius_a
+    d.radius_b = s.radius_b
+    d.frame = s.frame
+    d.local_nx = s.local_nx
+    d.local_ny = s.local_ny
+    d.turn = s.turn
+    d.base = s.base
+    d.normal_force = s.normal_force
+    d.tangent_force = s.tangent_force
+    d.rolling_force = s.rolling_force
+    d.color = s.color
+    d.persisted = s.persisted
 
 
 @kernel

@@ -5,7 +5,7 @@ import importlib
 import os
 import sys
 
-NAMES = ("masks", "broadphase")
+NAMES = ("masks", "broadphase", "solvers")
 
 
 def main(arguments=None):

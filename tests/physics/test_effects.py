@@ -158,7 +158,7 @@ def test_kernels_of_absent_stages_are_not_compiled():
     assert "find_all" in lean and "collide_circle_pairs" in lean
     for name in ("integrate_velocities", "project", "find_impacts", "stop_at_impacts", "stay_behind", "carry_and_push", "walk",
                  "collide_mask_pairs", "collide_polygon_pairs", "collide_grid_pairs", "find_in_trees", "find_in_cells",
-                 "sweep_one", "cast_ray_at_all"):
+                 "sweep_one", "cast_ray_at_rows"):
         assert name not in lean, name
     full = compiled({"response": True, "gravity": True, "continuous": True}, "masks")
     assert {"integrate_velocities", "project", "find_impacts", "collide_mask_pairs"} <= full

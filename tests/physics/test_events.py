@@ -100,7 +100,7 @@ def test_a_hit_tells_the_speed_before_the_solver_and_the_impulse():
 
 
 def test_resting_bodies_report_no_hits():
-    world = World(Effects.rigid_bodies())
+    world = World(Effects.rigid_bodies().with_(sleeping=False))
     world.add_body(Polygon.box(300, 20), position=(0, 10), kind="static")
     for k in range(5):
         world.add_body(Polygon.box(10, 10), position=(20.0 * k, -5.0))

@@ -1,0 +1,109 @@
+"""Restitution, once, after the last substep: what every stacking solver ends with.
+
+Seeded with the approach speed from before the step, so a speculative row that has already braked the body does not eat
+the bounce (Rapier #919, #974). Two points of one manifold are solved together, or a box that lands flat would spin.
+"""
+
+from physics.jit import kernel, subkernel
+from physics.profile import RESTITUTION_ROWS
+from physics.solver.two_points import solve_two
+
+
+@subkernel
+def relative_speed(a, b, nx, ny, ax, ay, bx, by):
+    """Speed [px/s] of B against A along a normal at these arms; negative when they near each other."""
+    vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
+    vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
+    return vx * nx + vy * ny
+
+
+@subkernel
+def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
+    """Apply an impulse along the normal: to B forwards, to A backwards."""
+    x = impulse * nx
+    y = impulse * ny
+    a_inout.vx -= a_inout.inverse_mass * x
+    a_inout.vy -= a_inout.inverse_mass * y
+    a_inout.angular_velocity -= a_inout.inverse_inertia * (ax * y - ay * x)
+    b_inout.vx += b_inout.inverse_mass * x
+    b_inout.vy += b_inout.inverse_mass * y
+    b_inout.angular_velocity += b_inout.inverse_inertia * (bx * y - by * x)
+
+
+@subkernel
+def bounces(contact, threshold, total):
+    """Whether a point bounces: fast enough before the step, and an impulse acted in it."""
+    return contact.speed > threshold and total > 0.0 and contact.restitution > 0.0
+
+
+@subkernel
+def bounce_once(contact, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout):
+    """Bounce one point. Returns the change of its impulse."""
+    missing = contact.restitution * contact.speed - relative_speed(a_inout, b_inout, nx, ny, ax, ay, bx, by)
+    change = max(impulse + mass * missing, 0.0) - impulse
+    push_pair(nx, ny, ax, ay, bx, by, change, a_inout, b_inout)
+    return change
+
+
+@subkernel
+def bounce_together(c, d, r, a_inout, b_inout):
+    """Bounce two points at once by the 2 x 2 system. Returns (solved, change of the first, of the second impulse)."""
+    nx = r.normal_x
+    ny = r.normal_y
+    a_1 = r.ax_1 * ny - r.ay_1 * nx
+    b_1 = r.bx_1 * ny - r.by_1 * nx
+    a_2 = r.ax_2 * ny - r.ay_2 * nx
+    b_2 = r.bx_2 * ny - r.by_2 * nx
+    masses = a_inout.inverse_mass + b_inout.inverse_mass
+    k_11 = masses + a_inout.inverse_inertia * a_1 * a_1 + b_inout.inverse_inertia * b_1 * b_1
+    k_22 = masses + a_inout.inverse_inertia * a_2 * a_2 + b_inout.inverse_inertia * b_2 * b_2
+    k_12 = masses + a_inout.inverse_inertia * a_1 * a_2 + b_inout.inverse_inertia * b_1 * b_2
+    missing_1 = c.restitution * c.speed - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
+    missing_2 = d.restitution * d.speed - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
+    solved, x_1, x_2 = solve_two(k_11, k_12, k_22, missing_1, missing_2, r.normal_impulse_1, r.normal_impulse_2)
+    if not solved:
+        return False, 0.0, 0.0
+    change_1 = x_1 - r.normal_impulse_1
+    change_2 = x_2 - r.normal_impulse_2
+    push_pair(nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, change_1, a_inout, b_inout)
+    push_pair(nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, change_2, a_inout, b_inout)
+    return True, change_1, change_2
+
+
+@kernel
+def restore_bounces(
+    # read
+    contacts, threshold, count,
+    # write
+    motions_inout, constraints_inout, work_inout,
+):
+    """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
+
+    contacts CONTACT, constraints_inout CONSTRAINT (count), motions_inout MOTION rows. O(count).
+    """
+    for i in range(count):
+        r = constraints_inout[i]
+        c = contacts[r.first]
+        a = motions_inout[r.body_row_a]
+        b = motions_inout[r.body_row_b]
+        first = bounces(c, threshold, r.normal_total_1)
+        second = r.count == 2 and bounces(contacts[r.first + r.count - 1], threshold, r.normal_total_2)
+        if not (first or second):
+            continue
+        d = contacts[r.first + r.count - 1]
+        work_inout[RESTITUTION_ROWS] += int(first) + int(second)
+        solved = False
+        change_1 = 0.0
+        change_2 = 0.0
+        if first and second:
+            solved, change_1, change_2 = bounce_together(c, d, r, a, b)
+        if first and not solved:
+            change_1 = bounce_once(c, r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1,
+                                   r.normal_impulse_1, a, b)
+        if second and not solved:
+            change_2 = bounce_once(d, r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2,
+                                   r.normal_impulse_2, a, b)
+        r.normal_impulse_1 += change_1
+        r.normal_total_1 += change_1
+        r.normal_impulse_2 += change_2
+        r.normal_total_2 += change_2

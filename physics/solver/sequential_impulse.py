@@ -1,0 +1,155 @@
+"""Sequential impulses: one step, several passes, contacts that remember, overlaps pushed out by Baumgarte's bias.
+
+Differs from `soft_step` in that positions move once, after all passes, and in that the speed which lets an overlap out
+stays in the bodies: piles are livelier and sink by the slop. Cost: ITERATIONS_PER_SUBSTEP passes over the constraints
+for each substep that soft_step would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and
+Box2D-Lite, 2006.
+"""
+
+import math
+
+from physics.jit import kernel, subkernel
+from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP
+from physics.solver.two_points import solve_two
+
+
+@subkernel
+def bias_of(separation, inverse_h, slop, baumgarte, push_speed):
+    """Speed [px/s] that a point may still close a gap with, or, negative, has to let an overlap out with."""
+    if separation > 0.0:
+        return separation * inverse_h
+    return max(baumgarte * inverse_h * min(separation + slop, 0.0), -push_speed)
+
+
+def make_sequential_pass(rotation: bool, friction: bool):
+    """One pass over the constraints of a world with these effects; the two points of a manifold are solved together."""
+    @kernel
+    def solve_sequential(
+        # read, scalars
+        count, inverse_h, push_speed, slop, baumgarte,
+        # write
+        motions_inout, constraints_inout,
+    ):
+        """Solve every constraint once, friction first, in the order of the rows. O(count).
+
+        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed [px/s]
+        at most.
+        """
+        for i in range(count):
+            r = constraints_inout[i]
+            a = motions_inout[r.body_row_a]
+            b = motions_inout[r.body_row_b]
+            nx = r.normal_x
+            ny = r.normal_y
+            masses = a.inverse_mass + b.inverse_mass
+            vx = b.vx - a.vx
+            vy = b.vy - a.vy
+            wa = a.angular_velocity
+            wb = b.angular_velocity
+            x = 0.0
+            y = 0.0
+            if friction and rotation and r.rolling_limit > 0.0:
+                limit = r.rolling_limit * (r.normal_impulse_1 + r.normal_impulse_2)
+                impulse = max(-limit, min(limit, r.rolling_impulse - r.rolling_mass * (wb - wa)))
+                change = impulse - r.rolling_impulse
+                r.rolling_impulse = impulse
+                wa -= a.inverse_inertia * change
+                wb += b.inverse_inertia * change
+            for k in range(r.count if friction and r.friction > 0.0 else 0):
+                ax = r.ax_1 if k == 0 else r.ax_2
+                ay = r.ay_1 if k == 0 else r.ay_2
+                bx = r.bx_1 if k == 0 else r.bx_2
+                by = r.by_1 if k == 0 else r.by_2
+                old = r.tangent_impulse_1 if k == 0 else r.tangent_impulse_2
+                mass = r.tangent_mass_1 if k == 0 else r.tangent_mass_2
+                limit = r.friction * (r.normal_impulse_1 if k == 0 else r.normal_impulse_2)
+                speed = vy * nx - vx * ny - r.surface_speed
+                if rotation:
+                    speed += (wb * bx - wa * ax) * nx - (wa * ay - wb * by) * ny
+                impulse = max(-limit, min(limit, old - mass * speed))
+                px = (old - impulse) * ny
+                py = (impulse - old) * nx
+                x += px
+                y += py
+                vx += masses * px
+                vy += masses * py
+                if rotation:
+                    wa -= a.inverse_inertia * (ax * py - ay * px)
+                    wb += b.inverse_inertia * (bx * py - by * px)
+                if k == 0:
+                    r.tangent_impulse_1 = impulse
+                else:
+                    r.tangent_impulse_2 = impulse
+            speed_1 = vx * nx + vy * ny
+            speed_2 = speed_1
+            if rotation:
+                speed_1 += (wa * r.ay_1 - wb * r.by_1) * nx + (wb * r.bx_1 - wa * r.ax_1) * ny
+                speed_2 += (wa * r.ay_2 - wb * r.by_2) * nx + (wb * r.bx_2 - wa * r.ax_2) * ny
+            core = r.radius_a + r.radius_b
+            gap = core + r.base_1 + (r.bx_1 - r.ax_1) * nx + (r.by_1 - r.ay_1) * ny
+            wanted_1 = -speed_1 - bias_of(gap, inverse_h, slop, baumgarte, push_speed * r.push_share)
+            old_1 = r.normal_impulse_1
+            old_2 = r.normal_impulse_2
+            impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
+            impulse_2 = old_2
+            if r.count == 2:
+                gap = core + r.base_2 + (r.bx_2 - r.ax_2) * nx + (r.by_2 - r.ay_2) * ny
+                wanted_2 = -speed_2 - bias_of(gap, inverse_h, slop, baumgarte, push_speed * r.push_share)
+                k_12 = masses
+                if rotation:
+                    k_12 += (a.inverse_inertia * (r.ax_1 * ny - r.ay_1 * nx) * (r.ax_2 * ny - r.ay_2 * nx)
+                             + b.inverse_inertia * (r.bx_1 * ny - r.by_1 * nx) * (r.bx_2 * ny - r.by_2 * nx))
+                solved = False
+                if r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
+                    solved, both_1, both_2 = solve_two(1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2, wanted_1,
+                                                       wanted_2, old_1, old_2)
+                if solved:
+                    impulse_1 = both_1
+                    impulse_2 = both_2
+                else:
+                    wanted_2 -= k_12 * (impulse_1 - old_1)
+                    impulse_2 = max(old_2 + r.normal_mass_2 * wanted_2, 0.0)
+            r.normal_impulse_1 = impulse_1
+            r.normal_impulse_2 = impulse_2
+            change = impulse_1 - old_1 + impulse_2 - old_2
+            x += change * nx
+            y += change * ny
+            if rotation:
+                wa -= a.inverse_inertia * ((impulse_1 - old_1) * (r.ax_1 * ny - r.ay_1 * nx)
+                                           + (impulse_2 - old_2) * (r.ax_2 * ny - r.ay_2 * nx))
+                wb += b.inverse_inertia * ((impulse_1 - old_1) * (r.bx_1 * ny - r.by_1 * nx)
+                                           + (impulse_2 - old_2) * (r.bx_2 * ny - r.by_2 * nx))
+            a.vx -= a.inverse_mass * x
+            a.vy -= a.inverse_mass * y
+            b.vx += b.inverse_mass * x
+            b.vy += b.inverse_mass * y
+            if rotation:
+                a.angular_velocity = wa
+                b.angular_velocity = wb
+    return solve_sequential
+
+
+@kernel
+def sum_up(count, constraints_inout):
+    """The impulses of the one substep are those of the step. O(count)."""
+    for i in range(count):
+        r = constraints_inout[i]
+        r.normal_total_1 = r.normal_impulse_1
+        r.tangent_total_1 = r.tangent_impulse_1
+        r.normal_total_2 = r.normal_impulse_2
+        r.tangent_total_2 = r.tangent_impulse_2
+
+
+PASSES = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in (False, True) for f in (False, True)}
+
+
+def solve(effects, passes, tolerances, substeps, dt, drag, count, motions, constraints) -> float:
+    """Advance motions (MOTION rows) by dt [s] under `count` constraints. Returns the substep [s] that impulses belong to."""
+    iterate = PASSES[effects.rotation, effects.friction]
+    passes.velocities(dt, drag, motions)
+    passes.warm_start(constraints, count, motions)
+    for _ in range(math.ceil(ITERATIONS_PER_SUBSTEP * substeps)):
+        iterate(count, 1.0 / dt, tolerances.push_speed, tolerances.slop, BAUMGARTE, motions, constraints)
+    sum_up(count, constraints)
+    passes.positions(dt, motions)
+    return dt

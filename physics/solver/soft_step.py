@@ -1,0 +1,199 @@
+"""Small substeps with soft contacts: each substep is solved once with a spring that pushes overlaps out, then relaxed.
+
+Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that the speed which
+lets an overlap out is taken away again before it can do harm (relaxation). Cost per substep: three passes over the
+constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
+Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
+"""
+
+import math
+from typing import NamedTuple
+
+from physics.jit import kernel, subkernel
+from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.solver.two_points import solve_two
+
+
+class Softness(NamedTuple):
+    """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass, leak of the impulse."""
+    bias_rate: float
+    mass_scale: float
+    impulse_scale: float
+
+
+def softness(hertz: float, damping: float, h: float) -> Softness:
+    """The implicit spring of a frequency [1/s] and damping ratio over a substep h [s] (Catto, Soft Constraints, 2011)."""
+    omega = math.tau * hertz
+    a1 = 2.0 * damping + h * omega
+    a2 = h * omega * a1
+    a3 = 1.0 / (1.0 + a2)
+    return Softness(omega / a1, a2 * a3, a3)
+
+
+@subkernel
+def normal_change(speed, separation, mass, impulse, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed):
+    """The new accumulated impulse of one point.
+
+    Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, a spring that pushes out at no
+    more than push_speed [px/s], without a dead zone; without bias, no approach.
+    """
+    if separation > 0.0:
+        return max(impulse - mass * (speed + separation * inverse_h), 0.0)
+    if not biased:
+        return max(impulse - mass * speed, 0.0)
+    bias = max(mass_scale * bias_rate * separation, -push_speed)
+    return max(impulse - mass * (mass_scale * speed + bias) - impulse_scale * impulse, 0.0)
+
+
+@subkernel
+def turned_along(a, b, ax, ay, bx, by, nx, ny):
+    """How far apart along the normal the two arms reach, turned by what their bodies turned since the step began [px]."""
+    x = (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay)
+    y = (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay)
+    return x * nx + y * ny
+
+
+def make_soft_pass(biased: bool, rotation: bool, friction: bool):
+    """One pass over the constraints: with bias (and no friction), or relaxing (with friction where declared)."""
+    @kernel
+    def solve_soft(
+        # read, scalars
+        count, inverse_h, push_speed, soft, soft_still,
+        # write
+        motions_inout, constraints_inout,
+    ):
+        """Solve every constraint once, in the order of the rows. O(count).
+
+        soft, soft_still: Softness of a contact between bodies and of one with what cannot be pushed.
+        """
+        for i in range(count):
+            r = constraints_inout[i]
+            a = motions_inout[r.body_row_a]
+            b = motions_inout[r.body_row_b]
+            nx = r.normal_x
+            ny = r.normal_y
+            bias_rate = soft_still.bias_rate if r.still else soft.bias_rate
+            mass_scale = soft_still.mass_scale if r.still else soft.mass_scale
+            impulse_scale = soft_still.impulse_scale if r.still else soft.impulse_scale
+            vx = b.vx - a.vx
+            vy = b.vy - a.vy
+            wa = a.angular_velocity
+            wb = b.angular_velocity
+            # A round surface stays where it is when its body turns: cores are what moves.
+            core = r.radius_a * a.cosine + r.radius_b * b.cosine
+            masses = a.inverse_mass + b.inverse_mass
+            a_1 = r.ax_1 * ny - r.ay_1 * nx
+            b_1 = r.bx_1 * ny - r.by_1 * nx
+            a_2 = r.ax_2 * ny - r.ay_2 * nx
+            b_2 = r.bx_2 * ny - r.by_2 * nx
+            # Arms turn with their bodies where separations are measured, and stay where speeds are.
+            gap = core + (b.dx - a.dx) * nx + (b.dy - a.dy) * ny
+            gap_1 = gap + r.base_1 + turned_along(a, b, r.ax_1, r.ay_1, r.bx_1, r.by_1, nx, ny)
+            speed_1 = vx * nx + vy * ny
+            speed_2 = speed_1
+            if rotation:
+                speed_1 += wb * b_1 - wa * a_1
+                speed_2 += wb * b_2 - wa * a_2
+            old_1 = r.normal_impulse_1
+            old_2 = r.normal_impulse_2
+            # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
+            soft_now = biased and (old_1 + old_2 > 0.0 or (speed_1 >= 0.0 and (r.count == 1 or speed_2 >= 0.0)))
+            impulse_1 = normal_change(speed_1, gap_1, r.normal_mass_1, old_1, inverse_h, soft_now, bias_rate, mass_scale,
+                                      impulse_scale, push_speed * r.push_share)
+            impulse_2 = old_2
+            if r.count == 2:
+                gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
+                k_12 = masses
+                if rotation:
+                    k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
+                solved = False
+                # Hard points are solved together, or the first would spin the body; springs one by one resist tilting more.
+                if not soft_now and r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
+                    solved, both_1, both_2 = solve_two(1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2,
+                                                       -speed_1 - max(gap_1, 0.0) * inverse_h,
+                                                       -speed_2 - max(gap_2, 0.0) * inverse_h, old_1, old_2)
+                if solved:
+                    impulse_1 = both_1
+                    impulse_2 = both_2
+                else:
+                    speed_2 += k_12 * (impulse_1 - old_1)
+                    impulse_2 = normal_change(speed_2, gap_2, r.normal_mass_2, old_2, inverse_h, soft_now, bias_rate,
+                                              mass_scale, impulse_scale, push_speed * r.push_share)
+            r.normal_impulse_1 = impulse_1
+            r.normal_impulse_2 = impulse_2
+            if not biased:
+                r.normal_total_1 += impulse_1
+                r.normal_total_2 += impulse_2
+            change = impulse_1 - old_1 + impulse_2 - old_2
+            x = change * nx              # sums of the impulses on B
+            y = change * ny
+            vx += masses * x
+            vy += masses * y
+            if rotation:
+                wa -= a.inverse_inertia * ((impulse_1 - old_1) * a_1 + (impulse_2 - old_2) * a_2)
+                wb += b.inverse_inertia * ((impulse_1 - old_1) * b_1 + (impulse_2 - old_2) * b_2)
+            # After the normals: what the bias has pushed in too much is out again, and does not count as pressure.
+            if not biased and friction and r.friction > 0.0:
+                tx = -ny
+                ty = nx
+                if rotation and r.rolling_limit > 0.0:
+                    limit = r.rolling_limit * (r.normal_impulse_1 + r.normal_impulse_2)
+                    impulse = max(-limit, min(limit, r.rolling_impulse - r.rolling_mass * (wb - wa)))
+                    change = impulse - r.rolling_impulse
+                    r.rolling_impulse = impulse
+                    wa -= a.inverse_inertia * change
+                    wb += b.inverse_inertia * change
+                for k in range(r.count):
+                    ax = r.ax_1 if k == 0 else r.ax_2
+                    ay = r.ay_1 if k == 0 else r.ay_2
+                    bx = r.bx_1 if k == 0 else r.bx_2
+                    by = r.by_1 if k == 0 else r.by_2
+                    old = r.tangent_impulse_1 if k == 0 else r.tangent_impulse_2
+                    mass = r.tangent_mass_1 if k == 0 else r.tangent_mass_2
+                    limit = r.friction * (r.normal_impulse_1 if k == 0 else r.normal_impulse_2)
+                    speed = (vx + (wa * ay - wb * by)) * tx + (vy + (wb * bx - wa * ax)) * ty - r.surface_speed
+                    impulse = max(-limit, min(limit, old - mass * speed))
+                    change = impulse - old
+                    px = change * tx
+                    py = change * ty
+                    x += px
+                    y += py
+                    vx += masses * px
+                    vy += masses * py
+                    if rotation:
+                        wa -= a.inverse_inertia * (ax * py - ay * px)
+                        wb += b.inverse_inertia * (bx * py - by * px)
+                    if k == 0:
+                        r.tangent_impulse_1 = impulse
+                        r.tangent_total_1 += impulse
+                    else:
+                        r.tangent_impulse_2 = impulse
+                        r.tangent_total_2 += impulse
+            a.vx -= a.inverse_mass * x
+            a.vy -= a.inverse_mass * y
+            b.vx += b.inverse_mass * x
+            b.vy += b.inverse_mass * y
+            if rotation:
+                a.angular_velocity = wa
+                b.angular_velocity = wb
+    return solve_soft
+
+
+BIASED = {r: make_soft_pass(biased=True, rotation=r, friction=False) for r in (False, True)}
+RELAXING = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in (False, True) for f in (False, True)}
+
+
+def solve(effects, passes, tolerances, substeps, dt, drag, count, motions, constraints) -> float:
+    """Advance motions (MOTION rows) by dt [s] under `count` constraints. Returns the substep [s] that impulses belong to."""
+    h = dt / substeps
+    hertz = min(CONTACT_HERTZ, 0.125 / h)
+    soft = softness(hertz, CONTACT_DAMPING, h)
+    soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
+    biased, relaxing = BIASED[effects.rotation], RELAXING[effects.rotation, effects.friction]
+    for _ in range(substeps):
+        passes.velocities(h, drag, motions)
+        passes.warm_start(constraints, count, motions)
+        biased(count, 1.0 / h, tolerances.push_speed, soft, soft_still, motions, constraints)
+        passes.positions(h, motions)
+        relaxing(count, 1.0 / h, tolerances.push_speed, soft, soft_still, motions, constraints)
+    return h

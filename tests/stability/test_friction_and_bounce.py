@@ -1,0 +1,257 @@
+"""Friction that holds and lets go where it should, bounces that neither gain nor die (hard_cases F13 to F15, F20 to F28)."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import JIT, Capsule, Chain, Circle, Material, Polygon
+from tests.stability.invariants import Watch, kinetic, movers, rms_speed
+from tests.stability.piles import SOLVERS, floor, metres, needs_speed, on_slope, pile_effects
+
+G = 10.0
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_locked_capsule_on_a_slope_gets_finite_impulses(solver):
+    world = metres(solver)
+    floor(world, friction=0.9, angle=math.pi / 4)
+    world.add_body(Capsule((0, -0.5), (0, 0.5), 0.3), position=on_slope(math.pi / 4, 0.0, 0.9), fixed_rotation=True,
+                   material=Material(friction=0.9))
+    watch, rubbed = Watch(world, passive=True), 0.0
+    for _ in range(500 if JIT else 60):
+        watch.step()
+        if len(world.contacts):
+            rubbed = max(rubbed, np.abs(world.contacts["tangent_impulse"]).max())
+    assert rubbed > 1e-4
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("speed", [4.0, -4.0, 9.0])
+def test_sliding_box_follows_its_recurrence(solver, speed):
+    """mu = sqrt(0.9 x 0.8): v less mu g dt per step, both ways alike."""
+    world = metres(solver)
+    floor(world, friction=0.9)
+    box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5), velocity=(speed, 0.0), material=Material(friction=0.8),
+                         fixed_rotation=True)
+    parts = 4 if solver == "soft_step" else 1
+    watch, x, v, h = Watch(world, passive=True), 0.0, abs(speed), world.dt / parts
+    for _ in range(60):
+        watch.step()
+        for _ in range(parts):
+            v = max(0.0, v - math.sqrt(0.72) * G * h)
+            x += v * h
+        assert abs(abs(box.position[0]) - x) <= 1e-2 + abs(speed) * h and abs(abs(box.velocity[0]) - v) <= 2e-2 + G * h
+    assert math.copysign(1.0, box.position[0]) == math.copysign(1.0, speed)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("friction", [0.1, 0.3, 0.6, 1.0])
+def test_box_holds_just_below_its_friction_angle_and_slides_just_above(solver, friction):
+    for degrees in (-1.0, 1.0):
+        angle = math.atan(friction) + math.radians(degrees)
+        world = metres(solver)
+        floor(world, friction=friction, angle=angle)
+        box = world.add_body(Polygon.box(1.0, 0.5), position=on_slope(angle, 0.0, 0.25), angle=angle, material=Material(friction=friction))
+        watch = Watch(world, passive=True).step(30)
+        start, before = box.position, math.hypot(*box.velocity)
+        watch.step(600 if degrees < 0 and JIT else 120)
+        if degrees < 0:
+            assert math.dist(box.position, start) <= 1e-3, "it creeps"
+        else:
+            gain = (math.hypot(*box.velocity) - before) / 2.0
+            right = G * (math.sin(angle) - friction * math.cos(angle))
+            assert gain == pytest.approx(right, rel=0.02)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_impulses_on_a_slope_carry_both_parts_of_the_weight(solver):
+    """Normal ones m g cos dt, tangential ones m g sin dt, over the points of the contact."""
+    angle = 0.3
+    world = metres(solver)
+    floor(world, friction=0.8, angle=angle)
+    world.add_body(Polygon.box(1.0, 0.5), position=on_slope(angle, 0.0, 0.25), angle=angle, material=Material(friction=0.8))
+    Watch(world, passive=True).step(120)
+    contacts, weight = world.contacts, 0.5 * G * world.dt
+    assert contacts["normal_impulse"].sum() == pytest.approx(weight * math.cos(angle), rel=0.01)
+    assert abs(contacts["tangent_impulse"].sum()) == pytest.approx(weight * math.sin(angle), rel=0.01)
+
+
+def dominoes(scale, density=1.0, seconds=9.0):
+    """Fifteen dominoes, the first one struck at its top; the times at which each has turned by half a radian."""
+    world = metres(dt=1 / 240)
+    floor(world, width=400.0)
+    first = None
+    for k in range(15):
+        body = world.add_body(Polygon.box(0.25 * scale, scale), position=(scale * k, -0.5 * scale), material=Material(density=density))
+        first = first or body
+    world.step()
+    # Scaled as the square root of length times mass: the same motion, slower (Froude).
+    push = 0.2 * density * scale ** 2 * math.sqrt(scale)
+    first.apply_impulse((push, 0.0), (first.position[0], -scale))
+    times, watch, count = {}, Watch(world), round(seconds * math.sqrt(scale) * 240)
+    for n in range(1, count + 1):
+        before = movers(world)["angle"].copy()
+        watch.step()
+        now = movers(world)["angle"]
+        for k in np.flatnonzero((before < 0.5) & (now >= 0.5)).tolist():
+            times.setdefault(k, (n - (now[k] - 0.5) / (now[k] - before[k])) * world.dt)
+    return times, movers(world)["angle"].copy()
+
+
+@needs_speed
+def test_all_dominoes_fall():
+    times, angles = dominoes(1.0)
+    assert sorted(times) == list(range(15)) and [times[k] for k in range(15)] == sorted(times.values())
+    assert (angles > math.radians(60)).all()
+
+
+@pytest.mark.deep
+@needs_speed
+def test_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass():
+    """Four times the size, twice the speed, within 2 %; the mass cancels."""
+    small, large, dense = dominoes(1.0)[0], dominoes(4.0)[0], dominoes(1.0, density=8.0)[0]
+    speed = 7.0 / (small[12] - small[5])
+    assert 4.0 * 7.0 / (large[12] - large[5]) == pytest.approx(2.0 * speed, rel=0.02)
+    assert 7.0 / (dense[12] - dense[5]) == pytest.approx(speed, rel=1e-6)
+
+
+# --- bounces -----------------------------------------------------------------------------------------------------------
+
+def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.6, substeps=4):
+    """How high a ball let go 2 m above the floor comes back."""
+    world = metres(solver, pixels_per_meter=pixels_per_meter, dt=dt, substeps=substeps)
+    floor(world)
+    ball = world.add_body(Circle(0.2), position=(0.0, -2.2), material=Material(restitution=restitution, friction=friction))
+    watch, best, met = Watch(world, passive=True), 0.0, False
+    for _ in range(round(1.6 / dt)):
+        watch.step()
+        met |= len(world.events.hits) > 0
+        if met:
+            best = max(best, -ball.position[1] - 0.2)
+    return best
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.5, 0.8, 0.95])
+def test_apex_is_the_square_of_restitution_whatever_the_margin(solver, restitution):
+    """Within 0.05; none for e = 0; five times the margin of speculative contact changes it by no more than 0.05."""
+    found = [first_apex(solver, restitution, scale) / 2.0 for scale in (1.0, 5.0)]
+    if restitution == 0.0:
+        assert max(found) < 0.02
+    assert found[0] == pytest.approx(restitution ** 2, abs=0.05)
+    if restitution * math.sqrt(2 * G * 2.0) > 6.0 or restitution == 0.0:
+        assert abs(found[1] - found[0]) <= 0.05
+
+
+@needs_speed
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
+    """e = 1: what is lost is at most the way of two steps at the speed of the impact, so it shrinks with dt; nothing is won."""
+    lost = [2.0 - first_apex(solver, 1.0, dt=dt) for dt in (1 / 60, 1 / 240, 1 / 960)]
+    assert min(lost) >= -0.01 * 2.0
+    for missing, dt in zip(lost, (1 / 60, 1 / 240, 1 / 960)):
+        assert abs(missing) <= 2 * math.sqrt(40.0) * dt
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("restitution", [1.0, 0.9])
+def test_bounces_between_walls_are_a_recurrence(solver, restitution):
+    """Without gravity every impact leaves e times the speed, to the last digits."""
+    world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False))
+    for x in (-5.0, 5.0):
+        world.add_body(Polygon.box(2, 8), position=(x, 0.0), kind="static")
+    ball = world.add_body(Circle(0.5), velocity=(31.0, 0.0), material=Material(restitution=restitution))
+    watch, hits, speed = Watch(world, passive=True), 0, 31.0
+    for _ in range(120):
+        watch.step()
+        for hit in world.events.hits:
+            assert hit["speed"] == pytest.approx(speed, rel=1e-9)
+            speed *= restitution
+            hits += 1
+        assert abs(ball.velocity[0]) in (pytest.approx(speed, rel=1e-9), pytest.approx(speed / restitution, rel=1e-9))
+    assert hits > 5 and ball.velocity[1] == 0.0
+
+
+def room(world, size, kind):
+    """A closed room of a loop of chain, or of four walls."""
+    if kind == "chain":
+        h = size / 2
+        return world.add_body(Chain([(-h, -h), (-h, h), (h, h), (h, -h)], loop=True), kind="static", material=Material(friction=0.0))
+    for x, y, w, h in ((0, size / 2 + 1, size + 4, 2), (0, -size / 2 - 1, size + 4, 2), (-size / 2 - 1, 0, 2, size), (size / 2 + 1, 0, 2, size)):
+        world.add_body(Polygon.box(w, h), position=(x, y), kind="static", material=Material(friction=0.0))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("walls", ["boxes", "chain"])
+def test_elastic_disc_keeps_speed_and_angles_in_a_room(solver, walls):
+    world = metres(solver, gravity=(0, 0))
+    room(world, 20.0, walls)
+    disc = world.add_body(Circle(0.5), velocity=(10.0, 20.0), material=Material(restitution=1.0, friction=0.0))
+    watch = Watch(world, passive=True)
+    for _ in range(1000 if JIT else 100):
+        watch.step()
+        settled = [abs(v) for v in disc.velocity]
+        assert max(map(abs, disc.position)) < 10.0
+    assert settled == pytest.approx([10.0, 20.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", [Polygon.box(4.0, 0.2), Capsule((-1, 0), (1, 0), 0.3), Polygon.box(1, 1)], ids=["bar", "capsule", "box"])
+def test_elastic_bar_keeps_its_energy_in_a_room(shape):
+    """Within 1 % over 1,000 steps of flight and tumbling."""
+    world = metres(gravity=(0, 0))
+    room(world, 20.0, "boxes")
+    world.add_body(shape, velocity=(10.0, 20.0), angle=0.3, material=Material(restitution=1.0, friction=0.0))
+    start = kinetic(world)
+    Watch(world, passive=True).step(1000 if JIT else 100)
+    assert kinetic(world) == pytest.approx(start, rel=0.01)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_ball_bounces_above_the_threshold_of_normal_speed_alone(solver):
+    """v 2.9 at a plane of 70 degrees: 0.99 m/s across. Dead for a threshold of 1 m/s, alive for 0.1, and 2 % faster."""
+    left = {}
+    for scale, speed in ((1.0, 2.9), (0.1, 2.9), (0.999, 2.9 * 1.02)):
+        world = metres(solver, gravity=(0, 0), pixels_per_meter=scale)
+        angle = math.radians(70)
+        floor(world, angle=angle)
+        start = on_slope(angle, 0.0, 0.25 + 0.1)
+        ball = world.add_body(Circle(0.25), position=start, velocity=(0.0, speed), material=Material(restitution=1.0, friction=0.0))
+        assert 2.9 * math.cos(angle) == pytest.approx(0.99186, abs=1e-5)
+        Watch(world, passive=True).step(30)
+        left[scale] = ball.velocity[0] * math.sin(angle) - ball.velocity[1] * math.cos(angle)
+    assert left[1.0] == pytest.approx(0.0, abs=1e-6) and left[0.1] == pytest.approx(0.99186, abs=1e-5)
+    assert left[0.999] == pytest.approx(1.02 * 0.99186, abs=1e-5)
+
+
+@needs_speed
+def test_discs_drawn_to_the_middle_by_forces_settle():
+    world = metres(gravity=(0, 0), drag=0.5, effects=pile_effects(gravity=False, drag=True))
+    world.add_body(Circle(0.5), kind="static", material=Material(friction=1.0))
+    rng = np.random.default_rng(4)
+    angles, radii = rng.uniform(0, math.tau, 60), 2.0 + np.arange(60) * 0.25
+    world.add_bodies(Circle(0.5), np.column_stack([radii * np.cos(angles), radii * np.sin(angles)]), material=Material(friction=1.0))
+    bodies, watch, speeds = [world.body(int(k)) for k in movers(world)["id"]], Watch(world), []
+    for _ in range(600):
+        for body in bodies:
+            x, y = body.center
+            far = math.hypot(x, y) or 1.0
+            body.apply_force((-8.0 * body.mass * x / far, -8.0 * body.mass * y / far))
+        watch.step()
+        speeds.append(rms_speed(world))
+    assert np.mean(speeds[-60:]) < 0.05 * max(speeds)
+    assert np.hypot(movers(world)["x"], movers(world)["y"]).max() < 7.0
+
+
+@pytest.mark.parametrize("restitution", [1.5, 2.0])
+def test_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(restitution):
+    """For 60 s: inside, or quarantined and reported once its speed means nothing any more."""
+    world = metres(gravity=(0, 0), effects=pile_effects(continuous=True))
+    room(world, 20.0, "boxes")
+    ball = world.add_body(Circle(0.5), velocity=(4.0, 7.0), material=Material(restitution=restitution, friction=0.0), bullet=True)
+    for _ in range(3600 if JIT else 200):
+        world.step()
+        assert np.isfinite(movers(world)["x"]).all()
+        assert max(map(abs, ball.position)) < 10.0, f"out at {ball.position}, speed {ball.velocity}"
+        if len(world.events.quarantined):
+            break
