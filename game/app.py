@@ -193,14 +193,20 @@ class App:
         options = self.options
         scene_class = self.registry.scene_class(name)
         loading = Loading(scene_class.title)
-        loading.show(self.picture, 0.0, "")
-        warm_up_scene(scene_class, options.broadphase, options.solver,
-                      lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
+
+        def compile_for(solver):
+            loading.show(self.picture, 0.0, "")
+            warm_up_scene(scene_class, options.broadphase, solver,
+                          lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
+        compile_for(options.solver)
         if first:
             scene = make_scene(options, self.registry)
-            return Play(scene, self.devices, self.sounds, options.bot, options.recording, bool(options.record),
+            play = Play(scene, self.devices, self.sounds, options.bot, options.recording, bool(options.record),
                         options.overlay)
-        return Play(scene_class(options.seed or 0), self.devices, self.sounds)
+        else:
+            play = Play(scene_class(options.seed or 0), self.devices, self.sounds)
+        play.prepare = compile_for
+        return play
 
     def _apply_settings(self):
         """Put changed settings to work and save them; a failed save is said and does not stop the game."""

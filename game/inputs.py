@@ -8,7 +8,7 @@ the frame too, since they change the simulation and a recording must hold them.
 from dataclasses import dataclass
 
 ACTIONS = ("left", "right", "up", "down", "fire", "focus", "jump", "confirm", "cancel", "pause")
-CHANGES = ("broadphase", "tier", "narrowphase", "restart")     # and "slider:<name>"
+CHANGES = ("broadphase", "solver", "tier", "narrowphase", "restart")     # and "slider:<name>"
 
 
 @dataclass(frozen=True)

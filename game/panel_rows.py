@@ -3,6 +3,7 @@ devices.change, so that a recording holds it."""
 
 from game.loop import SPEEDS
 from game.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
+from game.run_report import solver_name
 from physics import BROADPHASES
 
 
@@ -30,6 +31,11 @@ def _switches(play, scene):
             turn=lambda way: change("broadphase", following(tuple(BROADPHASES), scene.broadphase, way)),
             hint="how pairs that may touch are found",
         ))
+    if scene.solver_choices():
+        rows.append(Row(
+            CHOICE, "Solver", solver_name(scene).replace("_", " "), "V",
+            turn=lambda way: play.switch_solver(way), hint="how overlaps are resolved",
+        ))
     if scene.tiers:
         rows.append(Row(
             CHOICE, "Tested as", scene.tier, "T",
@@ -46,7 +52,7 @@ def _switches(play, scene):
 
 def _layers(play):
     return [
-        Row(CHECK, layer.title, key=layer.key, color=layer.color, on=layer.name in play.overlays.on,
+        Row(CHECK, layer.title, key=layer.key.upper(), color=layer.color, on=layer.name in play.overlays.on,
             press=lambda name=layer.name: play.overlays.toggle(name))
         for layer in play.overlays.layers
     ]

@@ -4,8 +4,10 @@ import pygame
 
 from game.colors import INK
 from game.draw import Canvas
-from game.overlays.stack import draw_legend, legend_size
+from game.overlays.stack import draw_legend, legend_columns, legend_size
 from game.presenter import SCREENSHOT_SCALE, Presenter
+
+GRAPH_LEAST = 120          # [text px] of the strip's width are kept for the stage times when they are on
 
 
 class Picture:
@@ -27,6 +29,7 @@ class Picture:
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
         scene.draw_on_frame(frame)
+        scene.drag.draw(frame, scene.pointer)
         overlays.draw_on_frame(frame, scene)
         if panel is None:
             overlays.draw_floating(frame, scene.legend_at)
@@ -51,14 +54,13 @@ def draw_strip(frame, rect, overlays):
     scale = frame.text_scale
     if rect.height < 40 * scale:
         return
-    lines = overlays.legend()
     left = rect.x + 4 * scale
-    if lines:
-        width, _ = legend_size(frame, lines, scale)
-        draw_legend(frame, lines, left, rect.y + 2 * scale, scale)
-        left += width + 4 * scale
+    wanted = (GRAPH_LEAST + 8) * scale if "times" in overlays.on else 0
+    for column in legend_columns(frame, overlays.legend(), rect.width - wanted, rect.height - 2 * scale, scale):
+        draw_legend(frame, column, left, rect.y + 2 * scale, scale)
+        left += legend_size(frame, column, scale)[0] + 2 * scale
     graph = pygame.Rect(left, rect.y + 4 * scale, rect.right - left - 4 * scale, rect.height - 8 * scale)
-    if "times" in overlays.on and graph.width > 120 * scale:
+    if "times" in overlays.on and graph.width > GRAPH_LEAST * scale:
         overlays.times.draw(frame, graph)
     frame.reserve(rect)
 

@@ -10,6 +10,7 @@ from game.overlays.stack import Overlays
 from game.panel import Panel
 from game.panel_rows import following, play_rows
 from game.replay import Recorder
+from game.run_report import solver_name
 from game.session import Session
 from physics import BROADPHASES
 
@@ -36,6 +37,7 @@ class Play:
         self.outcome = None
         self.message = ""
         self.wants_screenshot = False
+        self.prepare = lambda solver: None     # called before a solver is switched to; the app compiles it then
 
     @property
     def open_panel(self):
@@ -45,7 +47,8 @@ class Play:
     @property
     def shows_pointer(self):
         """True while the mouse has something to do."""
-        return self.panel_open or not self.scene.hides_pointer or self.clock.paused
+        scene = self.scene
+        return self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused
 
     def advance(self, now, limit=None):
         """Make the steps that are due at `now` [s]; at most `limit` in all of this run."""
@@ -67,6 +70,12 @@ class Play:
         self.session.step()
         self.overlays.times.note(self.scene)
         self.sounds.play_cues(self.scene.cues)
+
+    def switch_solver(self, way):
+        """The next solver, or the one before; its kernels are compiled first, behind a bar."""
+        name = following(self.scene.solver_choices(), solver_name(self.scene), way)
+        self.prepare(name)
+        self.devices.change("solver", name)
 
     def toggle_pause(self):
         """Stop or go on."""
@@ -90,7 +99,7 @@ class Play:
     def _key(self, key):
         change, scene = self.devices.change, self.scene
         layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
-        if key in layers:
+        if key in layers and key not in self.devices.keys:       # a letter the player gave to a move stays a move
             self.overlays.toggle(layers[key])
         elif key == pygame.K_0:
             self.overlays.toggle_all()
@@ -102,6 +111,8 @@ class Play:
             self.outcome = ("menu",)
         elif key == pygame.K_b and scene.switches_broadphase:
             change("broadphase", following(tuple(BROADPHASES), scene.broadphase, 1))
+        elif key == pygame.K_v and scene.solver_choices():
+            self.switch_solver(1)
         elif key == pygame.K_t and scene.tiers:
             change("tier", following(scene.tiers, scene.tier, 1))
         elif key == pygame.K_n:
@@ -136,8 +147,8 @@ class Play:
         elif self.clock.speed < 1.0:
             lines.append((f"SPEED {self.clock.speed:.0%}   - slower   + faster", GOLD))
         elif self.session.report.steps < HELP_SECONDS * 60 and not self.panel_open:
-            parts = [f"{key} {what}" for key, what in self.scene.actions]
-            lines.append(("   ".join([*parts, "1-8 see", "Tab panel", "Esc menu"]), PAPER))
+            parts = [f"{key} {what}" for key, what in self.scene.actions] + ["mouse drag"] * self.scene.draggable
+            lines.append(("   ".join([*parts, "1-9 see", "Tab panel", "Esc menu"]), PAPER))
         return lines
 
     def _draw_line(self, frame, text, color):

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from random import Random
 
 from game.camera import Camera
+from game.drag import Drag
 from game.inputs import CHANGES
 from game.loop import STEP_SECONDS
 from game.particles import Particles
-from physics import BROADPHASES, Effects, World
+from physics import BROADPHASES, SOLVERS, Effects, World
 
 
 @dataclass(frozen=True)
@@ -69,13 +70,16 @@ class Scene:
     effects = Effects()
     broadphase = "hash"
     solver = None              # None: the World's own choice
+    solvers = ()               # all that its worlds may use, where there is more than one: compiled before the start
     features = ()              # short phrases for the menu and --list
+    pieces = None              # of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all
     sliders = ()
     actions = ()               # (what to press, what it does) pairs for the help line
     tiers = ()                 # names of the tiers the scene's sprites can be tested at; the first is the start
     overlays = ()              # overlay layers on from the start
     legend_at = None           # canvas (x, y) where the overlays' legend goes if it is free
     hides_pointer = True
+    draggable = False          # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True # False: the scene's worlds have their own
 
     def __init_subclass__(cls):
@@ -91,6 +95,8 @@ class Scene:
         self.narrowphase = self.effects.narrowphase
         self.values = {slider.name: slider.start for slider in self.sliders}
         self.particles = Particles(seed)
+        self.drag = Drag()
+        self.pointer = (0, 0)  # of the last step, where a drag is drawn to
         self.restart()
 
     def restart(self):
@@ -101,14 +107,18 @@ class Scene:
         self.worlds = []
         self.camera = Camera()
         self.particles.clear()
+        self.drag.release()
         self.build()
 
-    def add_world(self, effects=None, broadphase=None, **settings):
-        """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds."""
+    def add_world(self, effects=None, broadphase=None, solver=None, **settings):
+        """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.
+
+        settings: what else World takes: gravity, drag, substeps, pixels_per_meter ...
+        """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         strategy = BROADPHASES[broadphase or self.broadphase]()
         settings.setdefault("seed", self.seed + len(self.worlds))
-        world = World(effects, strategy, self.solver, **settings)
+        world = World(effects, strategy, solver or self.solver, **settings)
         self.worlds.append(world)
         return world
 
@@ -118,11 +128,14 @@ class Scene:
         return self.worlds[0]
 
     def step(self, inputs):
-        """One fixed step: changes from the panel first, then the scene's own update."""
+        """One fixed step: changes from the panel first, then the mouse's pull, then the scene's own update."""
         self.cues.clear()
         for name, value in inputs.now.changes:
             self.change(name, value)
         self.camera.begin_step(STEP_SECONDS)
+        if self.draggable:
+            self.pointer = inputs.pointer
+            self.drag.step(inputs, self.views())
         self.update(inputs)
         self.particles.step(STEP_SECONDS)
         self.frame += 1
@@ -133,6 +146,8 @@ class Scene:
             self.change_slider(name[7:], value)
         elif name == "broadphase" and value in BROADPHASES:
             self.set_broadphase(value)
+        elif name == "solver" and value in self.solver_choices():
+            self.set_solver(value)
         elif name == "narrowphase" and isinstance(value, bool):
             self.set_narrowphase(value)
         elif name == "tier" and value in self.tiers:
@@ -154,6 +169,18 @@ class Scene:
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
+
+    def solver_choices(self):
+        """The solvers that the player may switch between: none where nothing is pushed, or each world has its own."""
+        if self.solvers or not self.effects.response:
+            return ()
+        return tuple(SOLVERS) if self.effects.stacking else ("blocking", "projection")
+
+    def set_solver(self, name):
+        """Switch the solver of every world, mid-game."""
+        self.solver = name
+        for world in self.worlds:
+            world.solver = name
 
     def set_narrowphase(self, on):
         """Stop at boxes, or do not, mid-game."""

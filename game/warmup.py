@@ -11,7 +11,28 @@ BAR = 32       # characters
 def warm_up_scene(scene_class, broadphase=None, solver=None, progress=None):
     """Compile what one scene needs at its start. progress(done, total, name) is called before each piece."""
     strategy = (broadphase or scene_class.broadphase) if scene_class.switches_broadphase else "all"
-    physics.warmup(scene_class.effects, strategy, solver or scene_class.solver, progress=progress)
+    names = solvers_of(scene_class, solver)
+    for index, name in enumerate(names):
+        physics.warmup(scene_class.effects, strategy, name, part_of(progress, index, len(names)), pieces_of(scene_class))
+
+
+def solvers_of(scene_class, chosen=None):
+    """Names of all solvers that a scene's worlds may use; None is the World's own choice."""
+    return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
+
+
+def pieces_of(scene_class):
+    """What of the physics a scene says it meets, and what dragging asks."""
+    if scene_class.pieces is None:
+        return None
+    return (*scene_class.pieces, *("queries",) * (scene_class.draggable and "queries" not in scene_class.pieces))
+
+
+def part_of(progress, index, parts):
+    """`progress` for one of several equal parts: it counts on where the part before ended. None stays None."""
+    if progress is None:
+        return None
+    return lambda done, total, name: progress(index * total + done, parts * total, name)
 
 
 def warm_up_all(registry, out=None):
@@ -23,7 +44,9 @@ def warm_up_all(registry, out=None):
         def show(done, total, name, index=index):
             draw_bar(out, (index + done / max(total, 1)) / len(classes), name)
 
-        physics.warmup(scene_class.effects, "all", scene_class.solver, progress=show)
+        names = solvers_of(scene_class)
+        for part, name in enumerate(names):
+            physics.warmup(scene_class.effects, "all", name, progress=part_of(show, part, len(names)))
     draw_bar(out, 1.0, "ready")
     if out.isatty():
         out.write("\n")

@@ -1,53 +1,59 @@
-"""Contacts: where two shapes touch, which way they are pushed apart, and how deep they are."""
+"""Contacts: where two shapes touch or are about to, which way they are pushed apart, and how deep they are."""
 
 import numpy as np
 import pygame
 
-from game.colors import GOLD, GREEN, ORANGE, SKY
+from game.colors import FOG, GOLD, GREEN, ORANGE, PINK, SKY, SLATE
 from game.draw import SMALL
+from physics import debug
 
 NORMAL_LENGTH = 9.0        # [canvas px] drawn length of a normal, before the depth is added
 CONTACT_BUDGET = 800       # contacts per picture; the note says how many there are
 LABEL_BUDGET = 40          # depths written out per picture
+LEAST_DEPTH = 0.05         # [px] shallower ones round to nothing
+SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
+STATES = ("speculative", "new", "persisted", "sensor", "asleep")
+COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts:
-    """A dot per contact point (green: new in this step), its normal from A to B, and the depth in pixels."""
+    """A dot per contact point in the colour of its state, its normal from A to B, and the depth in pixels."""
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views=1):
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
+        self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
         self.labels = []           # (text, x, y, align), drawn when all fixed text has its place
 
     def draw(self, frame, lens, world):
         """Draw one world through one lens."""
-        rows = world.contacts
+        rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
             return
+        self.states += np.bincount(rows["state"], minlength=len(STATES))[: len(STATES)]
         x, y = lens.points(rows["point_x"], rows["point_y"])
-        clip = lens.clip
-        seen = (x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom)
-        seen = np.flatnonzero(seen)[: self.room]
+        seen = seen_points(lens, x, y)[: self.room]
         self.drawn += len(seen)
-        begun = world.events.begin
-        new = set(zip(begun["shape_a"].tolist(), begun["shape_b"].tolist(), strict=True))
-        for i in seen.tolist():
-            row = rows[i]
-            is_new = (int(row["shape_a"]), int(row["shape_b"])) in new
-            self._draw_one(frame, lens, float(x[i]), float(y[i]), row, GREEN if is_new else SKY)
+        columns = (x[seen], y[seen], *(rows[name][seen] for name in ("normal_x", "normal_y", "separation", "state")))
+        for x, y, nx, ny, separation, state in zip(*(column.tolist() for column in columns), strict=True):
+            self._draw_one(frame, lens, x, y, nx, ny, separation, state)
 
-    def _draw_one(self, frame, lens, x, y, row, color):
-        depth = max(0.0, -float(row["separation"]))
+    def _draw_one(self, frame, lens, x, y, nx, ny, separation, state):
+        depth = max(0.0, -separation)
         reach = NORMAL_LENGTH * frame.scale + min(depth, 24.0) * lens.scale
-        end_x, end_y = x + float(row["normal_x"]) * reach, y + float(row["normal_y"]) * reach
-        pygame.draw.line(frame.surface, ORANGE, (x, y), (end_x, end_y), max(1, frame.scale - 1))
-        pygame.draw.circle(frame.surface, color, (x, y), frame.scale + 1)
-        if len(self.labels) < LABEL_BUDGET:
-            self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if row["normal_x"] >= 0 else "right"))
+        end_x, end_y = x + nx * reach, y + ny * reach
+        if state in (SPECULATIVE, ASLEEP):       # nothing is pushed here: a short stub, a hollow dot
+            end_x, end_y = x + nx * reach / 2, y + ny * reach / 2
+        pygame.draw.line(frame.surface, ORANGE if state in (NEW, PERSISTED) else COLORS[state], (x, y), (end_x, end_y),
+                         max(1, frame.scale - 1))
+        hollow = 1 if state in (SPECULATIVE, SENSOR) else 0
+        pygame.draw.circle(frame.surface, COLORS[state], (x, y), frame.scale + 1 + hollow, hollow)
+        if depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:
+            self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right"))
 
     def draw_labels(self, frame):
         """Write the depths where there is room."""
@@ -56,4 +62,11 @@ class Contacts:
 
     def notes(self):
         """(color, text) lines for the legend."""
-        return [(self.color, f"contacts {self.drawn} of {self.total}, px deep where room")]
+        states = [(COLORS[i], f"{count} {STATES[i]}") for i, count in enumerate(self.states.tolist()) if count]
+        return [(self.color, f"contacts {self.drawn} of {self.total}, px deep where room"), *states]
+
+
+def seen_points(lens, x, y):
+    """Which frame points lie in the view, as row numbers."""
+    clip = lens.clip
+    return np.flatnonzero((x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom))

@@ -9,7 +9,7 @@ HISTORY = 240              # steps kept: four seconds
 SMOOTHING = 0.06           # share of the newest step in the figures written out; raw ones cannot be read
 SHOWN = (                  # counters written out, in the order of the step
     "bodies_integrated", "nodes_visited", "pairs_tested", "filtered", "candidates", "narrow_tests",
-    "mask_tests", "contacts", "toi_calls", "solver_rows", "cap_hits",
+    "mask_tests", "gjk_iterations", "contacts", "toi_calls", "solver_rows", "islands", "cap_hits",
 )
 SCALED_TO = 0.95           # share of the steps that the graph shows at full height
 LEAST_GRAPH = 70           # [text px] the graph keeps at least this width

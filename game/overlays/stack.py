@@ -2,16 +2,24 @@
 
 import pygame
 
-from game.colors import NIGHT, PAPER, faded
+from game.colors import FOG, NIGHT, PAPER, faded
 from game.draw import SMALL
 from game.overlays.layer_bounds import Bounds, Motion
+from game.overlays.layer_centers import Centers
+from game.overlays.layer_colors import Colors
 from game.overlays.layer_contacts import Contacts
+from game.overlays.layer_features import Features
 from game.overlays.layer_filters import Filters
+from game.overlays.layer_ghosts import Ghosts
+from game.overlays.layer_impulses import Impulses
+from game.overlays.layer_islands import Islands
 from game.overlays.layer_masks import Masks
+from game.overlays.layer_outlines import Outlines
 from game.overlays.layer_pairs import Pairs
 from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
 
+SHORTER = (24, 16, 10, 5)  # lines of a legend that does not fit in full
 TIMES_SIZE = (250, 62)     # of the floating graph, in text pixels (frame pixels / text scale)
 
 
@@ -19,13 +27,14 @@ class Overlays:
     """`on` is the set of layer names switched on."""
 
     def __init__(self, on=()):
-        self.layers = (Bounds(), Motion(), Structure(), Pairs(), Masks(), Contacts(), Filters(), Times())
+        self.layers = (Bounds(), Motion(), Structure(), Pairs(), Masks(), Contacts(), Filters(), Times(), Impulses(),
+                       Features(), Islands(), Colors(), Centers(), Ghosts(), Outlines())
         self.on = set(on)
 
     @property
     def times(self):
         """The layer that keeps a history, to be told of every step."""
-        return self.layers[-1]
+        return next(layer for layer in self.layers if layer.name == "times")
 
     def toggle(self, name):
         """Switch a layer."""
@@ -79,30 +88,50 @@ class Overlays:
                 rect = pygame.Rect(place, size)
                 self.times.draw(frame, rect)
                 frame.reserve(rect)
+        self._draw_legend(frame, area, legend_at, scale)
+
+    def _draw_legend(self, frame, area, legend_at, scale):
+        """The legend where it fits; with many layers on a small picture its end is counted instead of written."""
         lines = self.legend()
-        if not lines:
-            return
-        size = legend_size(frame, lines, scale)
-        places = _corners(area, size, 4 * scale)
-        if legend_at is not None:
-            places.insert(0, frame.from_canvas((*legend_at, 0, 0)).topleft)
-        place = frame.free_place(size, places)
-        if place is not None:
-            shade = pygame.Surface(size, pygame.SRCALPHA)
-            shade.fill((*faded(NIGHT, 0.5), 190))
-            frame.surface.blit(shade, place)
-            draw_legend(frame, lines, *place, scale)
+        for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
+            if not lines:
+                return
+            shown = lines if room == len(lines) else [*lines[: room - 1], (FOG, f"and {len(lines) - room + 1} more lines")]
+            size = legend_size(frame, shown, scale)
+            places = _corners(area, size, 4 * scale)
+            if legend_at is not None:
+                places.insert(0, frame.from_canvas((*legend_at, 0, 0)).topleft)
+            place = frame.free_place(size, places)
+            if place is not None:
+                shade = pygame.Surface(size, pygame.SRCALPHA)
+                shade.fill((*faded(NIGHT, 0.5), 190))
+                frame.surface.blit(shade, place)
+                draw_legend(frame, shown, *place, scale)
+                return
 
     def _active(self, on_canvas):
-        return [layer for layer in self.layers
-                if layer.name in self.on and layer.name != "times"
-                and getattr(layer, "on_canvas", False) == on_canvas]
+        """Layers to draw, those that fill areas first."""
+        active = [layer for layer in self.layers
+                  if layer.name in self.on and layer.name != "times"
+                  and getattr(layer, "on_canvas", False) == on_canvas]
+        return sorted(active, key=lambda layer: not getattr(layer, "under", False))
 
 
 def legend_size(frame, lines, scale):
     """Width and height of the legend with its margin."""
     widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
     return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
+
+
+def legend_columns(frame, lines, width, height, scale):
+    """The lines in columns that fit into width x height; what does not fit is counted in the last line."""
+    rows = max(1, (height - 5 * scale) // (7 * scale))
+    for shown in range(len(lines), 0, -1):
+        kept = lines if shown == len(lines) else [*lines[:shown], (FOG, f"and {len(lines) - shown} more lines")]
+        columns = [kept[first : first + rows] for first in range(0, len(kept), rows)]
+        if sum(legend_size(frame, column, scale)[0] + 2 * scale for column in columns) <= width:
+            return columns
+    return []
 
 
 def draw_legend(frame, lines, x, y, scale):

@@ -55,7 +55,9 @@ def test_every_entry_of_the_menu():
     menu = Menu(Registry(SCENES))
     for mark in range(len(menu.entries)):
         menu.mark = mark
+        menu._show_marked()
         frame = Picture().draw_screen(menu)
+        assert menu.places[mark] is not None and menu.entries[mark][1] in [text for _, text in frame.boxes]
         assert_text_is_apart(frame.boxes, frame.rect)
 
 

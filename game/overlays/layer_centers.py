@@ -1,0 +1,60 @@
+"""Centres of mass: what a body turns about, how it moves, and where its origin is if that is elsewhere."""
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, GOLD, INK, PAPER
+from game.overlays.layer_contacts import seen_points
+from game.overlays.layer_impulses import arrow
+from physics.tables import DYNAMIC
+
+CENTER_BUDGET = 600        # bodies per picture; the note says how many there are
+SECONDS = 0.1              # the arrow shows the way of this time
+APART = 1.0                # [px] an origin nearer than this is not drawn beside the centre
+
+
+class Centers:
+    """The tester's mark at each dynamic body's centre of mass, its way in a tenth of a second, a line to its origin."""
+
+    name, title, key, color = "centers", "Centres of mass", "c", GOLD
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = CENTER_BUDGET // views
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        bodies = world.bodies
+        bodies = bodies[(bodies["kind"] == DYNAMIC) & ~bodies["quarantined"]]
+        self.total += len(bodies)
+        if len(bodies) == 0:
+            return
+        x, y = lens.points(bodies["center_x"], bodies["center_y"])
+        seen = seen_points(lens, x, y)[: self.room]
+        self.drawn += len(seen)
+        origin_x, origin_y = lens.points(bodies["x"][seen], bodies["y"][seen])
+        way_x, way_y = bodies["vx"][seen] * SECONDS * lens.scale, bodies["vy"][seen] * SECONDS * lens.scale
+        columns = np.column_stack((x[seen], y[seen], origin_x, origin_y, way_x, way_y, bodies["angle"][seen]))
+        apart = np.hypot(bodies["x"][seen] - bodies["center_x"][seen], bodies["y"][seen] - bodies["center_y"][seen])
+        for (x, y, ox, oy, wx, wy, angle), far in zip(columns.tolist(), (apart > APART).tolist(), strict=True):
+            if far:
+                pygame.draw.line(frame.surface, FOG, (ox, oy), (x, y))
+                pygame.draw.circle(frame.surface, FOG, (ox, oy), frame.scale, 1)
+            arrow(frame, x, y, wx, wy, GOLD)
+            mark(frame.surface, x, y, angle, 2.0 * frame.scale)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        return [(self.color, f"centres {self.drawn} of {self.total}, arrow: 0.1 s"), (FOG, "origin, where elsewhere")]
+
+
+def mark(surface, x, y, angle, radius):
+    """The crash tester's disc: two dark and two light quarters, turned with the body."""
+    pygame.draw.circle(surface, PAPER, (x, y), radius)
+    cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius
+    for way in (1.0, -1.0):
+        a, b = (x + way * cosine, y + way * sine), (x - way * sine, y + way * cosine)
+        bulge = (x + way * (cosine - sine) * 0.707, y + way * (sine + cosine) * 0.707)
+        pygame.draw.polygon(surface, INK, ((x, y), a, bulge, b))
+    pygame.draw.circle(surface, INK, (x, y), radius + 1.0, 1)

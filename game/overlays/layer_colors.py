@@ -1,0 +1,82 @@
+"""Graph colours: contacts of one colour share no body that moves, so they are solved at once, in any order."""
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, PINK, SERIES, WHITE
+from game.draw import SMALL
+from game.overlays.layer_contacts import seen_points
+from game.overlays.layer_impulses import can_move
+from physics import debug
+
+COLOR_BUDGET = 800         # contacts per picture; the note says how many there are
+LABEL_BUDGET = 150         # numbers written out per picture
+LISTED = 8                 # colours counted one by one in the legend
+
+
+class Colors:
+    """Each contact joined to the centres of the bodies it moves, in its graph colour; white: in none, solved first."""
+
+    name, title, key, color = "colors", "Graph colours", "g", PINK
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.counts = np.zeros(0, int)
+        self.overflow = 0
+        self.room = COLOR_BUDGET // views
+        self.labels = []
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        rows = debug.contact_points(world)
+        rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        self._count(rows["color"])
+        bodies = world.bodies
+        ids = np.ascontiguousarray(bodies["id"])
+        x, y = lens.points(rows["point_x"], rows["point_y"])
+        seen = seen_points(lens, x, y)[: self.room]
+        self.drawn += len(seen)
+        for side in ("body_a", "body_b"):
+            owner = np.minimum(np.searchsorted(ids, rows[side][seen]), len(ids) - 1)
+            moves = can_move(bodies, rows[side][seen])
+            cx, cy = lens.points(bodies["center_x"][owner], bodies["center_y"][owner])
+            for i in np.flatnonzero(moves).tolist():
+                color = color_of(int(rows["color"][seen[i]]))
+                pygame.draw.line(frame.surface, color, (x[seen[i]], y[seen[i]]), (cx[i], cy[i]))
+        for i in seen.tolist():
+            color = int(rows["color"][i])
+            pygame.draw.circle(frame.surface, color_of(color), (x[i], y[i]), 2 * frame.scale)
+            if len(self.labels) < LABEL_BUDGET:
+                self.labels.append((f"{color}" if color >= 0 else "-", float(x[i]), float(y[i]), color_of(color)))
+
+    def _count(self, colors):
+        self.overflow += int(np.count_nonzero(colors < 0))
+        found = np.bincount(colors[colors >= 0].astype(int), minlength=len(self.counts))
+        found[: len(self.counts)] += self.counts
+        self.counts = found
+
+    def draw_labels(self, frame):
+        """Write the colours' numbers where there is room."""
+        scale = frame.text_scale
+        for text, x, y, color in self.labels:
+            frame.text_if_free(text, x + 3 * scale, y - 6 * scale, color, SMALL, scale, "left", True)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        used = np.flatnonzero(self.counts).tolist()
+        lines = [(self.color, f"coloured {self.drawn} of {self.total} contacts, {len(used)} colours")]
+        lines += [(color_of(i), f"{i}: {self.counts[i]}") for i in used[:LISTED]]
+        if len(used) > LISTED:
+            lines.append((FOG, f"and {len(used) - LISTED} more"))
+        if self.overflow:
+            lines.append((WHITE, f"{self.overflow} in no colour"))
+        return lines
+
+
+def color_of(number):
+    """The picture's colour of a graph colour; white for none."""
+    return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

@@ -1,0 +1,55 @@
+"""Feature ids: by which corner or face a contact point is known from step to step."""
+
+import pygame
+
+from game.colors import PAPER, SERIES
+from game.draw import SMALL
+from game.overlays.layer_contacts import seen_points
+from physics import debug
+
+FEATURE_BUDGET = 150       # contacts per picture
+PER_LINK = 4096            # a chain's or grid's feature: number of the link or run, then the corner on it
+
+
+class Features:
+    """Each contact point's number, in its colour: while a body slides, number and colour stay."""
+
+    name, title, key, color = "features", "Feature ids", "f", PAPER
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = FEATURE_BUDGET // views
+        self.labels = []
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        rows = debug.contact_points(world)
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        x, y = lens.points(rows["point_x"], rows["point_y"])
+        seen = seen_points(lens, x, y)[: self.room]
+        for x, y, feature in zip(x[seen].tolist(), y[seen].tolist(), rows["feature"][seen].tolist(), strict=True):
+            color = SERIES[feature % len(SERIES)]
+            pygame.draw.circle(frame.surface, color, (x, y), frame.scale)
+            self.labels.append((text_of(feature), x, y, color))
+
+    def draw_labels(self, frame):
+        """Write the numbers above, below or beside their points, where there is room."""
+        scale = frame.text_scale
+        for text, x, y, color in self.labels:
+            for dx, dy, align in ((3, -7, "left"), (-3, -7, "right"), (3, 3, "left"), (-3, 3, "right")):
+                if frame.text_if_free(text, x + dx * scale, y + dy * scale, color, SMALL, scale, align, True):
+                    self.drawn += 1
+                    break
+
+    def notes(self):
+        """(color, text) lines for the legend. The labels come after the legend: it counts points, not texts."""
+        return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
+
+
+def text_of(feature):
+    """A feature as text: link:corner on chains and tiles."""
+    link, corner = divmod(int(feature), PER_LINK)
+    return f"{link}:{corner}" if link else f"{corner}"

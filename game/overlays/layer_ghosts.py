@@ -1,0 +1,86 @@
+"""Impacts: where fast bodies met something in a step, and where they would have been without."""
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, SKY, WHITE, faded
+from game.draw import SMALL
+from game.overlays.outlines import draw_outline, moved
+from physics import debug
+
+GHOST_BUDGET = 200         # bodies per picture; the note says how many there are
+KEPT = 45                  # pictures a ghost stays, fading
+
+
+class Ghosts:
+    """White: a body at its time of impact, with the share of the step at which that was. Blue: where it was going."""
+
+    name, title, key, color = "ghosts", "Times of impact", "h", WHITE
+
+    def __init__(self):
+        self.kept = {}             # id of a world -> ([[age, outlines, fraction, place, where it was going], ...], events, world)
+        self.begin()
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = GHOST_BUDGET // views
+        self.labels = []
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        kept = self._note(world)
+        self.total += sum(1 for ghost in kept if ghost[0] == 0)
+        width = max(1, frame.scale - 1)
+        for age, outlines, fraction, there, aim in kept[-self.room:]:
+            place, end = lens.points(*there), lens.points(*aim)
+            if not lens.clip.collidepoint(place):
+                continue
+            self.drawn += age == 0
+            fading = 0.75 * age / KEPT
+            pygame.draw.line(frame.surface, faded(SKY, 0.3 + fading), place, end)
+            for now, then in outlines:
+                draw_outline(frame.surface, lens, then, faded(SKY, 0.3 + fading), 1, frame.scale)
+                draw_outline(frame.surface, lens, now, faded(WHITE, fading), width if age == 0 else 1, frame.scale)
+            if age < KEPT // 3:
+                self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
+
+    def _note(self, world):
+        """Age what is kept and add the impacts of a step that was not seen yet."""
+        kept, step, last = self.kept.get(id(world), ([], None, None))
+        now = world.events         # a new object in every step
+        if last is not world:
+            kept, step = [], None
+        if step is not now:
+            kept = [[ghost[0] + 1, *ghost[1:]] for ghost in kept if ghost[0] < KEPT]
+            kept += self._fresh(world)
+            self.kept = {id(world): (kept, now, world), **{k: v for k, v in self.kept.items() if k != id(world)}}
+            while len(self.kept) > 16:
+                self.kept.pop(next(reversed(self.kept)))
+        return kept
+
+    def _fresh(self, world):
+        """Outlines of the bodies that met something in the last step: there, and where they were going."""
+        ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
+        bodies, shapes = world.bodies, world.shapes
+        ids = np.ascontiguousarray(bodies["id"])
+        found = []
+        for ghost in ghosts:
+            row = int(np.searchsorted(ids, ghost["body"]))
+            if row == len(ids) or ids[row] != ghost["body"]:
+                continue
+            now = (float(bodies["x"][row]), float(bodies["y"][row]), float(bodies["angle"][row]))
+            then = (float(ghost["x"]), float(ghost["y"]), float(ghost["angle"]))
+            outlines = debug.outlines(world, np.flatnonzero(shapes["body"] == ghost["body"]).tolist())
+            pairs = [(each, moved(each, now, then)) for each in outlines if each[0] not in ("mask", "tiles")]
+            found.append([0, pairs, float(ghost["fraction"]), now[:2], then[:2]])
+        return found
+
+    def draw_labels(self, frame):
+        """Write the shares of the step where there is room."""
+        for text, x, y, color in self.labels:
+            frame.text_if_free(text, x, y - 4 * frame.text_scale, color, SMALL, frame.text_scale, "left", True)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        return [(self.color, f"impacts {self.drawn} of {self.total} in this step"), (SKY, "where they were going"), (FOG, "number: share of the step")]

@@ -1,0 +1,98 @@
+"""Impulses: how hard each contact pushes, along its normal and along the surface, as arrows."""
+
+from math import hypot, log10
+
+import numpy as np
+import pygame
+
+from game.colors import RED, YELLOW
+from game.overlays.layer_contacts import seen_points
+from physics import debug
+
+IMPULSE_BUDGET = 800       # contacts per picture; the note says how many there are
+LONGEST = 26.0             # [canvas px] an arrow is drawn at most this long …
+REFERENCE = 10.0           # … and this long for the impulse that the legend names
+TYPICAL = 0.9              # the share of contacts that push less than the one the scale is set by
+FADE = 0.95                # a step: how slowly the scale comes down after a blow
+
+
+class Impulses:
+    """Red: the push along the normal, on B or on the one that can move. Yellow: friction. One scale, named in the legend."""
+
+    name, title, key, color = "impulses", "Impulses", "9", RED
+
+    def __init__(self):
+        self.level = 0.0           # the impulse that is typical now
+        self.begin()
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = IMPULSE_BUDGET // views
+        self.unit = step_of(self.level)
+        self.level *= FADE
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        rows = debug.contact_points(world)
+        rows = rows[(rows["normal_impulse"] != 0.0) | (rows["tangent_impulse"] != 0.0)]
+        self.total += len(rows)
+        if len(rows) == 0:
+            return
+        self.level = max(self.level, float(np.quantile(np.abs(rows["normal_impulse"]), TYPICAL)))
+        self.unit = max(self.unit, step_of(self.level))
+        x, y = lens.points(rows["point_x"], rows["point_y"])
+        seen = seen_points(lens, x, y)[: self.room]
+        self.drawn += len(seen)
+        scale = REFERENCE * frame.scale / self.unit if self.unit else 0.0
+        scale = scale * np.where(can_move(world.bodies, rows["body_b"][seen]), 1.0, -1.0)
+        nx, ny, push, rub = (rows[name][seen] for name in ("normal_x", "normal_y", "normal_impulse", "tangent_impulse"))
+        for x, y, nx, ny, push, rub in zip(x[seen].tolist(), y[seen].tolist(), nx.tolist(), ny.tolist(),
+                                           (push * scale).tolist(), (rub * scale).tolist(), strict=True):
+            arrow(frame, x, y, nx * push, ny * push, RED)
+            arrow(frame, x, y, -ny * rub, nx * rub, YELLOW)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        scale = f", {REFERENCE:.0f} px is {short(self.unit)}" if self.unit else ""
+        return [(self.color, f"impulses {self.drawn} of {self.total}{scale}"), (YELLOW, "friction")]
+
+
+def can_move(bodies, ids):
+    """Which of the bodies with these ids an impulse moves, as a bool array."""
+    known = np.ascontiguousarray(bodies["id"])
+    rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
+    return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
+
+
+def arrow(frame, x, y, dx, dy, color):
+    """An arrow from (x, y) by (dx, dy) [frame px], cut at LONGEST; under a canvas pixel nothing is drawn."""
+    length = hypot(dx, dy)
+    if length < frame.scale:
+        return
+    longest = LONGEST * frame.scale
+    if length > longest:
+        dx, dy, length = dx * longest / length, dy * longest / length, longest
+    width = max(1, frame.scale - 1)
+    end = (x + dx, y + dy)
+    pygame.draw.line(frame.surface, color, (x, y), end, width)
+    head = min(2.5 * frame.scale, length) / length
+    for side in (-0.6, 0.6):
+        back = (end[0] - head * (dx - side * dy), end[1] - head * (dy + side * dx))
+        pygame.draw.line(frame.surface, color, end, back, width)
+
+
+def step_of(value):
+    """The next of 1, 2, 5, 10, ... at or above a positive value: a scale that changes seldom. 0 for 0."""
+    if not 0.0 < value < float("inf"):
+        return 0.0
+    power = 10.0 ** int(np.floor(log10(value)))
+    return next(digit * power for digit in (1, 2, 5, 10) if digit * power >= value * 0.999999)
+
+
+def short(value):
+    """A number of the form 1, 2 or 5 times a power of ten as short text."""
+    for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
+        if value < limit:
+            return f"{value / divisor:g}{letter}"
+    return f"{value:.0e}"

@@ -1,0 +1,97 @@
+"""Islands: bodies that push on each other, solved together, and put to sleep together when all have come to rest."""
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, PAPER, SERIES, SLATE, faded
+from game.draw import SMALL
+from game.overlays.outlines import draw_outline
+from physics import debug
+
+BODY_BUDGET = 700          # shapes outlined per picture; the note says how many bodies there are
+ISLAND_BUDGET = 120        # hulls drawn per picture
+DIRECTIONS = 32            # a hull is drawn by its farthest points this many ways
+FILL, ASLEEP_FILL = 46, 120      # opacity of 255
+
+
+class Islands:
+    """Each island's hull and shapes in a colour of its own; asleep: grey, with a z."""
+
+    name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
+    under = True               # drawn before the other layers, since it fills areas
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = self.asleep = self.islands = 0
+        self.found = False         # some world looks for islands
+        self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
+        self.labels = []
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        self.found |= world.effects.sleeping
+        islands, bodies = debug.islands(world), world.bodies
+        moving = bodies["kind"] == 2
+        asleep = moving & ~bodies["awake"]
+        self.total += int(np.count_nonzero(moving))
+        self.asleep += int(np.count_nonzero(asleep))
+        self.islands += len(np.unique(islands[islands >= 0]))
+        boxes = debug.bounds(world)
+        if len(boxes) == 0:
+            return
+        owner = world.shapes["body_row"]
+        shown = lens.seen(boxes) & moving[owner]
+        self._draw_hulls(frame, lens, boxes, np.where(shown, islands[owner], -1), asleep[owner])
+        seen = np.flatnonzero(shown)[: self.room]
+        self.drawn += len(np.unique(owner[seen]))
+        lonely = faded(PAPER, 0.5)
+        numbers, sleeps = islands[owner[seen]].tolist(), asleep[owner[seen]].tolist()
+        for outline, island, sleeping in zip(debug.outlines(world, seen.tolist()), numbers, sleeps, strict=True):
+            color = FOG if sleeping else color_of(island) if island >= 0 else lonely
+            draw_outline(frame.surface, lens, outline, color, 1, frame.scale)
+        for row in np.unique(owner[seen][asleep[owner[seen]]]).tolist():
+            x, y = lens.points(float(bodies["center_x"][row]), float(bodies["center_y"][row]))
+            self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
+
+    def _draw_hulls(self, frame, lens, boxes, islands, asleep):
+        """Tinted hulls, all on one sheet: islands may reach into each other."""
+        members = np.flatnonzero(islands >= 0)
+        if len(members) == 0:
+            return
+        order = members[np.argsort(islands[members], kind="stable")]
+        starts = np.flatnonzero(np.r_[True, np.diff(islands[order]) != 0])
+        sheet = pygame.Surface(lens.clip.size, pygame.SRCALPHA)
+        for group in np.split(order, starts[1:])[: self.hulls]:
+            island = int(islands[group[0]])
+            sleeping = bool(asleep[group].all())
+            corners = boxes[group][:, [0, 1, 2, 1, 2, 3, 0, 3]].reshape(-1, 2)
+            x, y = lens.points(corners[:, 0], corners[:, 1])
+            hull = hull_of(np.column_stack((x - lens.clip.x, y - lens.clip.y)))
+            color = SLATE if sleeping else color_of(island)
+            pygame.draw.polygon(sheet, (*color, ASLEEP_FILL if sleeping else FILL), hull)
+            pygame.draw.polygon(sheet, (*color, 200), hull, max(1, frame.scale - 1))
+        frame.surface.blit(sheet, lens.clip)
+
+    def draw_labels(self, frame):
+        """A z on what sleeps, where there is room."""
+        for text, x, y, color in self.labels:
+            frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, "center", True)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        if not self.found:
+            return [(FOG, "no islands: sleeping is not declared")]
+        return [(self.color, f"{self.islands} islands, outlined {self.drawn} of {self.total} bodies"),
+                (FOG, f"{self.asleep} asleep")]
+
+
+def hull_of(points):
+    """Corners around (n, 2) points: the farthest one each way, so that thousands cost what few do."""
+    angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
+    ways = np.column_stack((np.cos(angles), np.sin(angles)))
+    return points[np.argmax(points @ ways.T, axis=0)].tolist()
+
+
+def color_of(island):
+    """A colour that neighbouring numbers do not share."""
+    return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -1,0 +1,86 @@
+"""Outlines: the exact shapes that collide, whatever is drawn over them."""
+
+import numpy as np
+import pygame
+
+from game.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
+from game.overlays.outlines import draw_outline
+from physics import TileGrid, debug
+
+OUTLINE_BUDGET = 900       # shapes per picture; the note says how many there are
+STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
+
+
+class Outlines:
+    """Every shape's own outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
+
+    name, title, key, color = "outlines", "Shapes", "l", GREEN
+
+    def begin(self, views=1):
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = OUTLINE_BUDGET // views
+
+    def draw(self, frame, lens, world):
+        """Draw one world through one lens."""
+        boxes = debug.bounds(world)
+        self.total += len(boxes)
+        if len(boxes) == 0:
+            return
+        seen = np.flatnonzero(lens.seen(boxes))[: self.room]
+        self.drawn += len(seen)
+        rows = debug.shape_rows(world)[seen]
+        width = max(1, frame.scale - 1)
+        for outline, kind, sensor in zip(debug.outlines(world, seen.tolist()), rows["kind"].tolist(),
+                                         rows["sensor"].tolist(), strict=True):
+            color = PINK if sensor else (STATIC, KINEMATIC, DYNAMIC)[kind]
+            if outline[0] == "tiles":
+                self._draw_tiles(frame.surface, lens, world, outline[1], color, width)
+            else:
+                draw_outline(frame.surface, lens, outline, color, width, frame.scale)
+
+    def _draw_tiles(self, surface, lens, world, shape_id, color, width):
+        """The edge of a grid's solid cells; in orange the tops of cells that are open from below."""
+        row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
+        body = world.body(int(row["body"]))
+        number = int(np.count_nonzero(world.shapes["id"][world.shapes["body"] == row["body"]] < shape_id))
+        grid = body.shapes[number]
+        if not isinstance(grid, TileGrid):
+            return
+        x, y = body.position
+        for start, end, one_way in edges_of(grid, lens, x, y):
+            pygame.draw.line(surface, ORANGE if one_way else color, start, end, width)
+
+    def notes(self):
+        """(color, text) lines for the legend."""
+        return [(self.color, f"shapes {self.drawn} of {self.total}"), (SKY, "kinematic"), (STATIC, "static"),
+                (PINK, "sensor")]
+
+
+def edges_of(grid, lens, x, y):
+    """Frame lines around the cells in view of a TileGrid at (x, y): (start, end, one way) each."""
+    size, (rows, columns) = grid.tile_size, grid.solid.shape
+    clip = lens.clip
+    left, top = (clip.left - lens.dx) / lens.scale - x, (clip.top - lens.dy) / lens.scale - y
+    right, bottom = left + clip.width / lens.scale, top + clip.height / lens.scale
+    across = slice(max(int(left // size), 0), max(min(int(right // size) + 1, columns), 0))
+    down = slice(max(int(top // size), 0), max(min(int(bottom // size) + 1, rows), 0))
+    slope, one_way = grid.slopes[down, across], grid.one_way[down, across]
+    slopes = slope.any(axis=2)
+    solid = np.pad(grid.solid | grid.slopes.any(axis=2), 1)
+    here = grid.solid[down, across] & ~slopes
+    # Sides of a cell as (x, y) of start and end in cells, and what lies behind each: above, below, left, right.
+    for ax, ay, bx, by, dx, dy in ((0, 0, 1, 0, 0, -1), (0, 1, 1, 1, 0, 1), (0, 0, 0, 1, -1, 0), (1, 0, 1, 1, 1, 0)):
+        behind = solid[down.start + 1 + dy : down.stop + 1 + dy, across.start + 1 + dx : across.stop + 1 + dx]
+        for row, column in np.argwhere(here & ~behind).tolist():
+            yield _line(lens, size, x, y, column + across.start, row + down.start, ax, ay, bx, by, False)
+    for row, column in np.argwhere(one_way & ~here).tolist():
+        yield _line(lens, size, x, y, column + across.start, row + down.start, 0, 0, 1, 0, True)
+    for row, column in np.argwhere(slopes).tolist():
+        low, high = (1.0 - slope[row, column]).tolist()
+        yield _line(lens, size, x, y, column + across.start, row + down.start, 0, low, 1, high, False)
+
+
+def _line(lens, size, x, y, column, row, ax, ay, bx, by, one_way):
+    return (lens.points(x + (column + ax) * size, y + (row + ay) * size),
+            lens.points(x + (column + bx) * size, y + (row + by) * size), one_way)

@@ -1,0 +1,128 @@
+"""Thin lines around shapes of every kind, as physics.debug hands them out: what overlays and labs draw with."""
+
+from math import atan2, ceil, cos, hypot, pi, sin
+
+import numpy as np
+import pygame
+
+ARC_STEP = 2.5             # [frame px] of an arc that one line stands for
+TICK_GAP, TICK_LENGTH = 7.0, 4.0       # [canvas px] hatching on the solid side of a chain
+TICK_BUDGET = 400          # ticks of one chain
+
+
+def ring(points, radius, scale):
+    """Corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
+
+    scale [frame px per px] says how fine the arcs have to be.
+    """
+    count = len(points)
+    if count == 1:
+        x, y = points[0]
+        steps = _steps(2 * pi, radius, scale)
+        return [(x + radius * cos(2 * pi * i / steps), y + radius * sin(2 * pi * i / steps)) for i in range(steps)]
+    if radius <= 0.0:
+        return [tuple(point) for point in points]
+    facing = []
+    for i in range(count):
+        (ax, ay), (bx, by) = points[i], points[(i + 1) % count]
+        facing.append(atan2(-(bx - ax), by - ay))
+    out = []
+    for i, (x, y) in enumerate(points):
+        start = facing[i - 1]
+        turn = (facing[i] - start) % (2 * pi)
+        steps = _steps(turn, radius, scale)
+        out += [(x + radius * cos(start + turn * j / steps), y + radius * sin(start + turn * j / steps))
+                for j in range(steps + 1)]
+    return out
+
+
+def _steps(turn, radius, scale):
+    return max(1 if turn < pi else 6, min(96, ceil(turn * radius * scale / ARC_STEP)))
+
+
+def corners_of(outline, scale=1.0):
+    """World corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
+    kind = outline[0]
+    if kind == "circle":
+        return ring([outline[1:3]], outline[3], scale), True
+    if kind == "capsule":
+        _, ax, ay, bx, by, radius = outline
+        return ring([(ax, ay), (bx, by)], radius, scale), True
+    if kind == "rounded":
+        return ring(clockwise(outline[1]), outline[2], scale), True
+    if kind == "polygon":
+        return [tuple(point) for point in np.asarray(outline[1]).tolist()], True
+    if kind in ("segment", "chain"):
+        return [tuple(point) for point in np.asarray(outline[1]).tolist()], False
+    return None
+
+
+def clockwise(points):
+    """The corners as a list, clockwise on the screen."""
+    points = np.asarray(points, float)
+    x, y = points[:, 0], points[:, 1]
+    area = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    return (points if area >= 0.0 else points[::-1]).tolist()
+
+
+def moved(outline, start, end):
+    """The outline as it is when its body goes from pose to pose (x, y, angle)."""
+    turn = end[2] - start[2]
+    cosine, sine = cos(turn), sin(turn)
+
+    def place(x, y):
+        dx, dy = x - start[0], y - start[1]
+        return end[0] + cosine * dx - sine * dy, end[1] + sine * dx + cosine * dy
+
+    kind = outline[0]
+    if kind == "circle":
+        return ("circle", *place(*outline[1:3]), outline[3])
+    if kind == "capsule":
+        return ("capsule", *place(*outline[1:3]), *place(*outline[3:5]), outline[5])
+    if kind in ("polygon", "segment", "chain", "rounded"):
+        points = np.array([place(x, y) for x, y in np.asarray(outline[1]).tolist()])
+        return (kind, points, *outline[2:])
+    return outline
+
+
+def draw_outline(surface, lens, outline, color, width=1, scale=1):
+    """Draw one outline through a lens; a chain with ticks on its solid side. scale: frame px per canvas px."""
+    kind = outline[0]
+    if kind == "circle":
+        center = lens.points(outline[1], outline[2])
+        pygame.draw.circle(surface, color, center, max(outline[3] * lens.scale, 1.0), width)
+        return
+    found = corners_of(outline, lens.scale)
+    if found is None:
+        return
+    corners, closed = found
+    points = [lens.points(x, y) for x, y in corners]
+    if len(points) > 1:
+        pygame.draw.lines(surface, color, closed, points, width)
+    if kind == "chain":
+        _draw_ticks(surface, lens.clip, points, color, scale)
+
+
+def fill_outline(surface, lens, outline, color):
+    """Fill one outline through a lens."""
+    found = corners_of(outline, lens.scale)
+    if found is not None and found[1] and len(found[0]) > 2:
+        pygame.draw.polygon(surface, color, [lens.points(x, y) for x, y in found[0]])
+
+
+def _draw_ticks(surface, clip, points, color, scale):
+    """Hatching below a chain: it is solid on the side its normal does not show to."""
+    room = clip.inflate(8 * scale, 8 * scale)
+    left = TICK_BUDGET
+    for (ax, ay), (bx, by) in zip(points, points[1:]):
+        length = hypot(bx - ax, by - ay)
+        if length == 0.0 or not room.clipline((ax, ay), (bx, by)):
+            continue
+        dx, dy = (bx - ax) / length, (by - ay) / length
+        # Normal (dy, -dx); the ticks lean back a little, as engineers draw ground.
+        lean_x, lean_y = (-dy - 0.6 * dx) * TICK_LENGTH * scale, (dx - 0.6 * dy) * TICK_LENGTH * scale
+        count = max(1, int(length / (TICK_GAP * scale)))
+        for i in range(min(count, left)):
+            x, y = ax + (bx - ax) * (i + 0.5) / count, ay + (by - ay) * (i + 0.5) / count
+            pygame.draw.line(surface, color, (x, y), (x + lean_x, y + lean_y))
+        left -= min(count, left)
