@@ -26,6 +26,7 @@ PRODUCTS = {
     "images/effects": ("assets.effects", "effects_files", ()),
     "images/hero": ("assets.hero", "hero_files", ()),
     "images/things": ("assets.things", "things_files", ()),
+    "images/lab": ("assets.lab_pieces", "lab_files", ()),
     "images/tiles": ("assets.tiles", "tiles_files", ()),
     "images/ui": ("assets.ui", "ui_files", ()),
     "images/backdrops_shooter": ("assets.backdrops", "backdrop_files", ("shooter",)),

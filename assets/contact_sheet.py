@@ -12,9 +12,9 @@ from assets import FOLDER, png
 from assets.palette import OUTLINE, RAMPS, oklch
 
 SCALE = 3
-WIDTH = 480   # [px] before scaling
+WIDTH = 496   # [px] before scaling: the widest frame and its gaps
 GAP = 4   # [px] around a frame
-SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles")
+SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lab")
 BACKGROUND = np.array(oklch(0.36, 0.045, 285), np.uint8)
 PAPER = np.array(oklch(0.27, 0.045, 285), np.uint8)
 

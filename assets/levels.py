@@ -22,7 +22,7 @@ DECOR_LETTERS = {"f": "fence", "m": "mushroom", "k": "rock", "*": "flower_1", "v
 # letter: (type, width, height) of objects that stand on the tile's bottom, centred on the tile
 STANDING = {
     "H": ("hero_start", 10, 20), "s": ("spring", 16, 16), "w": ("walker", 20, 16), "K": ("checkpoint", 16, 32),
-    "?": ("sign", 20, 17), "o": ("coin", 14, 14),
+    "?": ("sign", 20, 17), "o": ("coin", 14, 14), "c": ("crate", 16, 16),
 }
 AROUND = ((N, 0, -1), (NE, 1, -1), (E, 1, 0), (SE, 1, 1), (S, 0, 1), (SW, -1, 1), (W, -1, 0), (NW, -1, -1))
 GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))   # running percent of free grass tiles

@@ -7,8 +7,24 @@ folder, so a forgotten line fails.
 SCENES = {
     "shooter": "scenes.shooter.scene:Shooter",
     "platformer": "scenes.platformer.scene:Platformer",
+    # finding what touches
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",
+    "lab/shapes": "scenes.lab.shapes:Shapes",
     "lab/filters": "scenes.lab.filters:Filters",
+    "lab/sensors": "scenes.lab.sensors:Sensors",
+    # what leans and piles up
+    "lab/stacks": "scenes.lab.stacks:Stacks",
+    "lab/pyramid": "scenes.lab.pyramid:Pyramid",
+    "lab/card_house": "scenes.lab.card_house:CardHouse",
+    "lab/dominoes": "scenes.lab.dominoes:Dominoes",
+    "lab/tumbler": "scenes.lab.tumbler:Tumbler",
+    # what collides and bounces
+    "lab/cradle": "scenes.lab.cradle:Cradle",
+    "lab/billiards": "scenes.lab.billiards:Billiards",
     "lab/tunnelling": "scenes.lab.tunnelling:Tunnelling",
+    # what things stand on
+    "lab/conveyor": "scenes.lab.conveyor:Conveyor",
+    "lab/one_way": "scenes.lab.one_way:OneWay",
+    "lab/ghost_bumps": "scenes.lab.ghost_bumps:GhostBumps",
 }

@@ -42,6 +42,7 @@ class Broadphases(Scene):
     title = "Broad phases"
     about = "The same bodies in four worlds: what does each strategy pay to find the same pairs?"
     effects = Effects(narrowphase=False)
+    pieces = ("circles", "boxes")
     features = ("brute force, sweep and prune, spatial hash, dynamic tree", "live curves of pairs, tests and time",
                 "four layouts, 10 to 5,000 bodies")
     sliders = (Slider("bodies", 10, 5000, 600, step=10), Slider("layout", 0, 3, 0, choices=LAYOUTS))

@@ -40,7 +40,8 @@ class Curves:
         for decade in range(1, int(decades) + 1):
             y = plot.bottom - plot.height * decade / decades
             pygame.draw.line(surface, (52, 46, 76), (plot.left, y), (plot.right, y))
-            frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
+            if y + 7 * scale <= rect.bottom:
+                frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
         for name, color in self.names.items():
             values = self.history[name]
             if len(values) < 2:

@@ -41,6 +41,7 @@ class Masks(Scene):
     title = "Masks"
     about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
     effects = Effects(response=True)       # for area, normal and depth; kinematic planes are pushed by nobody
+    pieces = ("masks", "boxes", "circles")
     features = ("pixel masks by bitwise AND, as drawn, at any angle", "bounds, circle and turned box beside them",
                 "what each verdict costs")
     actions = (("mouse", "drag"), ("wheel", "turn"), ("arrows", "move"), ("Shift+arrows", "turn"),

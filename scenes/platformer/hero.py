@@ -17,7 +17,9 @@ RUN_SPEED = 180.0            # [px/s] 11 tiles a second: the screen's width take
 RUN_ACCELERATION = 2000.0    # [px/s2] full speed after 5 frames: felt as at once, seen as a start
 OVERSPEED_DRAG = 800.0       # [px/s2] a wall jump's or a platform's extra speed is lost slowly, it was earned
 AIR_CONTROL = 0.65           # of both in the air: a jump can be steered but not undone
-PUSH_SPEED = 72.0            # [px/s] a crate is heavy
+PUSH_SPEED = 88.0            # [px/s] a crate is heavy, and rubs off a fifth of it
+PUSH_REACH = 4               # [px] a crate this near is still being pushed
+PUSH = 3000.0                # [px/s2] one large crate, not two on each other
 # Falling
 GRAVITY = 1800.0             # [px/s2]
 APEX_SPEED = 80.0            # [px/s] slower than this with jump held, gravity is half: time to aim the landing
@@ -63,9 +65,9 @@ class Hero:
 
     def __init__(self, world, level, position):
         self.world, self.level = world, level
-        self.character = Character(world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero")
-        self.crates = ()           # boxes (left, top, right, bottom), refreshed by the scene before each step
-        self.solids = ()           # those and the platforms'
+        self.character = Character(world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH)
+        self.crates = ()           # what he can push
+        self.solids = ()           # boxes (left, top, right, bottom) of these and of platforms, refreshed before each step
         self.facing = 1
         self.news = []
         self.place(position)
@@ -80,6 +82,7 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
         self.locked_way = self.wall = self.sliding = 0
         self.grounded = self.pushing = self.crushed = False
+        self.pushed = None                   # the crate beside him that he runs against
         self.peak = self.before[1]           # highest since he left the ground [px]
         self.riding = None
         self.news.clear()
@@ -122,8 +125,9 @@ class Hero:
             self.vx, self.kept = self.kept_vx, 0
         if way and self.locked == 0:
             self.facing = way
-        speed = PUSH_SPEED if self.grounded and way and self._crate_beside(way) else RUN_SPEED
-        self.pushing = speed == PUSH_SPEED
+        self.pushed = self._crate_beside(way) if self.grounded and way else None
+        self.pushing = self.pushed is not None
+        speed = PUSH_SPEED if self.pushing else RUN_SPEED
         over = abs(self.vx) > speed and self.vx * way > 0.0
         rate = OVERSPEED_DRAG if over and not self.pushing else RUN_ACCELERATION
         self.vx = approach(self.vx, way * speed, rate * control * STEP_SECONDS)
@@ -206,7 +210,8 @@ class Hero:
         if moved.x == 0 and moved.wall and moved.wall * self.vx > 0.0:
             if not self.kept and not self.grounded:
                 self.kept_vx, self.kept = self.vx, steps(WALL_RETENTION)
-            self.vx = 0.0
+            if not (self.pushing and self.pushed.slides(moved.wall)):
+                self.vx = 0.0
         self.wall, self.slope, self.riding = moved.wall, moved.slope, moved.riding
         self._stand(moved.grounded and self.vy >= 0.0)
 
@@ -254,8 +259,12 @@ class Hero:
 
     def _crate_beside(self, way):
         left, top, right, bottom = self.box
-        edge = right if way > 0 else left - 1
-        return any(box[0] <= edge < box[2] and top < box[3] and box[1] < bottom for box in self.crates)
+        first, last = (right, right + PUSH_REACH) if way > 0 else (left - PUSH_REACH, left)
+        for crate in self.crates:
+            box = crate.box
+            if box[0] < last and first < box[2] and top < box[3] and box[1] < bottom:
+                return crate
+        return None
 
     def state(self):
         """All that the next step depends on and that is not in the world."""

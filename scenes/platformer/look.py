@@ -28,6 +28,8 @@ FALLEN_GRAVITY = 1100.0      # [px/s2]
 RUN_DUST = 11                # steps between puffs of a run
 MOTE_EVERY = 9               # steps between motes of light in the air
 EMBER_EVERY = 5              # steps between sparks of a flame
+LOUDEST = 400000.0           # [density px3/s] impulse of a hit beyond which nothing gets louder: the large crate from 10 tiles
+FAINTEST, SHAKING = 0.02, 0.25   # of that: quieter is not heard, harder shakes the picture
 SQUASHED = 0.5               # [s] a squashed walker is seen
 
 
@@ -45,7 +47,7 @@ class Look:
         self.fall = self.fall_speed = 0.0    # a hurt hero's way down
         self.ahead = 0.0
         self.level_y = scene.hero.character.position[1]
-        self.bodies = {}                     # body id -> place before this step
+        self.bodies, self.angles = {}, {}    # body id -> place, and angle of a crate, before this step
         camera = scene.camera
         camera.keep_within(0, 0, *scene.level.size)
         self.arrive()
@@ -53,9 +55,10 @@ class Look:
     def begin_step(self):
         """Before anything moves."""
         things = self.scene.things
-        self.bodies = {platform.body.id: platform.body.position for platform in things.platforms}
-        for one in (*things.crates, *things.walkers.values()):
-            self.bodies[one.character.body.id] = one.character.position
+        self.bodies = {one.body.id: one.body.position for one in (*things.platforms, *things.crates)}
+        self.angles = {crate.body.id: crate.body.angle for crate in things.crates}
+        for walker in things.walkers.values():
+            self.bodies[walker.character.body.id] = walker.character.position
 
     def before(self, body):
         """Where a body was before the last step [px]."""
@@ -163,12 +166,19 @@ class Look:
                                    gravity=200.0)
         self.scene.camera.shake(0.2)
 
-    def crate_landed(self, crate):
-        """A crate hits the ground."""
-        left, _, right, bottom = crate.box
-        for x in (left, right):
-            self.scene.particles.burst(x, bottom, 6, DUST, speed=(15, 60), life=(0.2, 0.5), angle=-pi / 2, spread=2.0)
-        self._sound("land", 0.7)
+    def struck(self, x, y, impulse):
+        """A crate hit something at a point: everything about it grows with the impulse."""
+        force = min(impulse / LOUDEST, 1.0)
+        if force < FAINTEST:
+            return
+        self.scene.particles.burst(x, y, 2 + round(16 * force), DUST, speed=(10, 30 + 80 * force), life=(0.2, 0.3 + 0.4 * force),
+                                   angle=-pi / 2, spread=2.6, gravity=60.0)
+        left, top = self.scene.camera.view()
+        width, height = self.scene.camera.size
+        if left - 32 < x < left + width + 32 and top - 32 < y < top + height + 32:
+            self.scene.play("land", self.scene.camera.to_canvas(x, 0.0)[0], 0.15 + 0.75 * force)
+            if force > SHAKING:
+                self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
         """The hero is thrown out of the picture."""

@@ -3,7 +3,7 @@
 from game.loop import STEP_SECONDS
 from game.scene import Goal, Scene
 from physics import Effects
-from scenes.platformer.hero import HEIGHT, WIDTH, Hero, steps
+from scenes.platformer.hero import GRAVITY, HEIGHT, WIDTH, Hero, steps
 from scenes.platformer.level import load_level
 from scenes.platformer.look import Look
 from scenes.platformer.runner import Runner
@@ -13,6 +13,8 @@ from scenes.platformer.view import level_view
 MOURNING = 0.6               # [s] from the hurt to the next life: long enough to see why, short enough to try again
 MERCY = 1.2                  # [s] in which walkers do not hurt a new life
 APPLAUSE = 1.2               # [s] from the goal to its result
+STRIKE = 60.0                # [px/s] slower is a crate that is pushed or rocks: two steps of gravity
+CRUSHING = 120000.0          # [density px3/s] the large crate after a fall of a tile
 STOMP_DEPTH = 9              # [px] feet this far below a walker's top still stomp it
 PLAYING, HURT, WON = "playing", "hurt", "won"
 CHECKPOINTS_DUE = (900, 1200, 1500, 2100, 2700, 3300)     # steps
@@ -25,8 +27,11 @@ class Platformer(Scene):
     name = "platformer"
     title = "Platformer"
     about = "One level at dusk: run, jump, slide and kick off walls, ride, push and stomp your way to the flag."
-    effects = Effects(response=True, one_way=True, sensors=True)
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, continuous=True,
+                      sleeping=True, sensors=True, one_way=True)
+    pieces = ("boxes", "circles", "tiles", "masks", "characters")
     features = ("whole-pixel motion with slopes, planks and moving platforms", "coyote time, buffering, corner correction",
+                "crates stack, topple, are pushed and ridden", "hits sound, shake and hurt by their impulse",
                 "pick-ups are sensor events")
     actions = (("Arrows", "run"), ("Space", "jump"), ("Down + Space", "through planks"))
     broadphase = "hash"
@@ -35,7 +40,7 @@ class Platformer(Scene):
     def build(self):
         """The level and all in it."""
         self.level = load_level()
-        self.add_world()
+        self.add_world(gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
         start = self.level.map.one("hero_start")
         self.spawn = (start.x + start.width / 2, start.y + start.height - HEIGHT / 2)
@@ -70,16 +75,13 @@ class Platformer(Scene):
         things = self.things
         for platform in things.platforms:
             platform.aim(self.frame)
-        for crate in things.crates:
-            if crate.step(self.hero.box):
-                self.look.crate_landed(crate)
         for walker in things.walkers.values():
             walker.step()
 
     def _move_hero(self, inputs):
         hero, things = self.hero, self.things
-        hero.crates = things.crate_boxes
-        hero.solids = hero.crates + things.platform_boxes
+        hero.crates = things.crates
+        hero.solids = things.crate_boxes + things.platform_boxes
         if self.phase == PLAYING:
             hero.step(inputs)
             self.clock += 1
@@ -100,7 +102,26 @@ class Platformer(Scene):
         self.walkers_touched -= _others(events.end, me)
         for identity in sorted(self.walkers_touched):
             self._meet(identity)
+        for hit in events.hits[events.hits["speed"] > STRIKE]:
+            self._strike(hit, me)
         self.mercy = max(self.mercy - 1, 0)
+
+    def _strike(self, hit, me):
+        """A crate hit something: how hard, its impulse says. A walker under it is flat, a hero under it is hurt."""
+        impulse, pair = float(hit["normal_impulse"]), (int(hit["body_a"]), int(hit["body_b"]))
+        self.look.struck(float(hit["point_x"]), float(hit["point_y"]), impulse)
+        for identity, other, down in ((*pair, -hit["normal_y"]), (*reversed(pair), hit["normal_y"])):
+            if impulse < CRUSHING or down < 0.7 or other in self.things.walkers:
+                continue
+            if identity in self.things.walkers:
+                self._flatten(identity)
+            elif identity == me and not self.mercy:
+                self._hurt()
+
+    def _flatten(self, identity):
+        self.walkers_touched.discard(identity)
+        self.look.squashed(self.things.walkers[identity])
+        self.things.squash(identity)
 
     def _touch(self, trigger):
         trigger.touched = self.frame
@@ -131,9 +152,7 @@ class Platformer(Scene):
         if self.phase != PLAYING:
             return
         if hero.vy > 0.0 and hero.box[3] - walker.top <= STOMP_DEPTH:
-            self.walkers_touched.discard(identity)
-            self.look.squashed(walker)
-            self.things.squash(identity)
+            self._flatten(identity)
             hero.bounce()
             self.feats["stomps"] += 1
             self.look.hear(("stomp",))
@@ -162,7 +181,7 @@ class Platformer(Scene):
         self.furthest = max(self.furthest, hero.character.position[0])
         for word, feat in (("jump", "jumps"), ("wall_jump", "wall_jumps"), ("drop", "drops")):
             feats[feat] += word in hero.news
-        feats["pushed"] += any(abs(c.character.position[0] - c.home[0]) > 16 for c in self.things.crates)
+        feats["pushed"] += any(abs(c.body.position[0] - c.home[0]) > 16 for c in self.things.crates)
         feats["ridden"] += any(hero.riding == platform.body for platform in self.things.platforms)
         feats["sloped"] += hero.grounded and hero.slope != 0.0
         feats["slid"] += hero.sliding != 0

@@ -1,15 +1,16 @@
 """What the hero meets: triggers that are picked up or touched, walkers, platforms, crates."""
 
-from math import cos, pi
+from math import ceil, cos, floor, pi, sin
 
 from game.loop import STEP_SECONDS
-from physics import Character, Polygon
+from physics import Character, Material, Polygon
 from scenes.platformer.level import CRATE_FILTER, PLATFORM_FILTER, TRIGGER_FILTER, WALKER_FILTER
 
 WALK_SPEED = 36.0            # [px/s] a fifth of the hero's: it can be read and waited for
 WALKER_BOX = (16, 13)        # [px] inside the sprite of 20 x 16: its cap's rim does not hurt
-CRATE_GRAVITY = 1800.0       # [px/s2] as the hero's
-CRATE_FALL = 320.0           # [px/s]
+CRATE_DENSITY = 0.5          # the large one weighs two and a half heroes: he tips what he stands on
+CRATE_FRICTION = 0.3         # the ground's is twice that
+SLIDES = 0.1                 # [px] a step that a crate gives way by
 COIN_REACH = 2               # [px] around a coin: whoever comes that close meant it
 LANTERN_SHINES = 64          # [px] above a checkpoint it is still reached: nobody loses it to a jump
 SPRING_INSET = (2, 7)        # [px] the plate lies low in its tile
@@ -48,7 +49,8 @@ class Walker:
         width, height = WALKER_BOX
         self.home = (thing.x + thing.width / 2, thing.y + thing.height - height / 2)
         self.range = float(thing.properties.get("range", 0))
-        self.character = Character(world, Polygon.box(width, height), self.home, filter=WALKER_FILTER, user="walker")
+        self.character = Character(world, Polygon.box(width, height), self.home, filter=WALKER_FILTER, user="walker",
+                                   push=0.0)        # it turns at crates
         self.way = way
 
     @property
@@ -115,37 +117,33 @@ class Platform:
 
 
 class Crate:
-    """Pushed by walking into it, and falls by the scene's own gravity."""
+    """A body of the physics: it falls, stacks, tips over, is pushed and ridden."""
 
     def __init__(self, world, thing):
         self.size = (int(thing.width), int(thing.height))
         self.home = (thing.x + thing.width / 2, thing.y + thing.height / 2)
-        self.character = Character(world, Polygon.box(*self.size), self.home, filter=CRATE_FILTER, pushable=True,
-                                   user="crate")
-        self.vy = 0.0
-        self.landed = True
+        self.body = world.add_body(Polygon.box(*self.size), position=self.home, filter=CRATE_FILTER, user="crate",
+                                   material=Material(CRATE_DENSITY, CRATE_FRICTION),
+                                   continuous="toi")         # or a fall of two tiles ends 5 px deep in the ground
 
-    def step(self, hero_box):
-        """One step of falling. It waits above a hero's head: he is under it only by his own mistake. True if it lands."""
-        before = self.landed
-        self.vy = 0.0 if self.landed else min(self.vy + CRATE_GRAVITY * STEP_SECONDS, CRATE_FALL)
-        left, top, right, bottom = self.box
-        if (left < hero_box[2] and hero_box[0] < right and bottom <= hero_box[1] < bottom + self.vy * STEP_SECONDS):
-            self.vy = 0.0
-        self.landed = self.character.move(0.0, self.vy * STEP_SECONDS).grounded
-        return self.landed and not before
+    def slides(self, way):
+        """Whether it moved that way (-1, 1) in the last step."""
+        row = self.body.world.bodies[self.body.world.rows(self.body.id)]
+        return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def go_home(self):
         """Stand where the level put it."""
-        self.character.move_to(self.home)
-        self.vy, self.landed = 0.0, True
+        self.body.move_to(self.home, 0.0)
+        self.body.velocity = (0.0, 0.0)
+        self.body.angular_velocity = 0.0
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels."""
-        x, y = self.character.position
-        left, top = int(x - self.size[0] / 2), int(y - self.size[1] / 2)
-        return left, top, left + self.size[0], top + self.size[1]
+        """Left, top, right, bottom in whole pixels around it, however it lies."""
+        x, y = self.body.position
+        c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
+        half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2
+        return floor(x - half_width), round(y - half_height), ceil(x + half_width), round(y + half_height)
 
 
 class Things:
@@ -193,5 +191,4 @@ class Things:
     def state(self):
         """What the world does not hold of them."""
         return (*(walker.way for walker in self.walkers.values()),
-                *(value for crate in self.crates for value in (crate.vy, crate.landed)),
                 *(trigger.lit for trigger in self.of("checkpoint")))

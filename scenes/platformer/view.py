@@ -11,6 +11,7 @@ from game.camera import Camera
 from game.draw import CANVAS_SIZE, Canvas, whole
 from game.sprites import load_atlas, load_backdrop
 from game.tile_picture import TilePicture
+from game.turned import TurnedPicture
 from scenes.platformer import board
 from scenes.platformer.hero import APEX_SPEED, HEIGHT
 from scenes.platformer.things import WALKER_BOX
@@ -36,6 +37,7 @@ class View:
         self.layers = [(load_backdrop(name), *rest) for name, *rest in LAYERS]
         self.decor, self.ground = TilePicture(level.map, "decor"), TilePicture(level.map, "solid")
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
+        self.crates = [TurnedPicture(self.things[name]) for name in ("crate", "crate_large")]
         self.shaped = lru_cache(maxsize=512)(self._shaped)
         self.lowest = level.size[1] - CANVAS_SIZE[1]
         self._paint_ahead()
@@ -120,8 +122,11 @@ class View:
             canvas.surface.blit(things["platform"], (whole(x - platform.size[0] / 2) - self.left,
                                                      whole(y - platform.size[1] / 2) - self.top))
         for crate in scene.things.crates:
-            x, y = between(look.before(crate.character.body), crate.character.position, alpha)
-            self._stand(canvas, things["crate_large" if crate.size[0] > 16 else "crate"], x, y + crate.size[1] / 2)
+            x, y = between(look.before(crate.body), crate.body.position, alpha)
+            if self._sees(x):
+                angle = look.angles.get(crate.body.id, crate.body.angle)
+                angle += (crate.body.angle - angle) * alpha
+                self.crates[crate.size[0] > 16].draw(canvas.surface, x - self.left, y - self.top, angle)
         for walker in scene.things.walkers.values():
             x, y = between(look.before(walker.character.body), walker.character.position, alpha)
             if self._sees(x):

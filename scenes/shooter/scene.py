@@ -5,6 +5,7 @@ import numpy as np
 from game.loop import STEP_SECONDS
 from game.scene import Goal, Scene
 from physics import Effects
+from scenes.shooter.blows import Blows
 from scenes.shooter.bullets import Bullets, outside
 from scenes.shooter.cast import FIRED, INCOMING, steps
 from scenes.shooter.close_call import close_calls
@@ -30,6 +31,7 @@ class Shooter(Scene):
     title = "Shooter"
     about = "Endless waves of planes over the sea. What your eye calls a miss is a miss: pixels decide every hit."
     effects = Effects(sensors=True)
+    pieces = ("masks", "circles", "boxes", "queries")
     features = ("pixel masks decide every hit", "filters: bullets never pair with bullets or with their own side",
                 "a near miss, boxes without pixels, is worth points", "bullets are rows, added and removed in batches")
     actions = (("arrows", "fly"), ("Space", "fire"), ("Shift", "focus"))
@@ -43,6 +45,7 @@ class Shooter(Scene):
         self.incoming, self.shots = Bullets(world, INCOMING), Bullets(world, FIRED)
         self.fleet, self.loot = Fleet(world, self.tier), Loot(world)
         self.plane = Plane(world, self.tier)
+        self.blows = Blows(world)
         self.director, self.score = Director(), Score(KINDS)
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
         self.near = set()            # bodies whose box overlaps the player's now, without a hit
@@ -109,6 +112,7 @@ class Shooter(Scene):
     def _read_events(self):
         """Who hit whom in this step. What goes stays until the next step begins: hits can be looked at."""
         begun = self.world.events.begin
+        self.blows = Blows(self.world)
         a, b = begun["body_a"], begun["body_b"]
         self._shots_that_hit(begun, a, b)
         me = self.plane.body
@@ -138,14 +142,15 @@ class Shooter(Scene):
                 continue
             self.gone.append(int(shots[each]))
             enemy.health -= 1
+            blow = self.blows.on(enemy.id, int(shots[each]))
             if enemy.health > 0:
-                self.spectacle.struck(enemy, begun["point_x"][rows[each]].item(), begun["point_y"][rows[each]].item())
+                self.spectacle.struck(enemy, begun["point_x"][rows[each]].item(), begun["point_y"][rows[each]].item(), blow)
             else:
-                self._destroy(enemy)
+                self._destroy(enemy, blow)
 
-    def _destroy(self, enemy):
+    def _destroy(self, enemy, blow):
         self.gone.append(enemy.id)
-        self.spectacle.destroyed(enemy, self.score.kill(enemy))
+        self.spectacle.destroyed(enemy, self.score.kill(enemy), blow)
         self.since_drop += 1
         if enemy.carries or self.since_drop >= DROP_EVERY:
             self.since_drop = 0
@@ -164,12 +169,13 @@ class Shooter(Scene):
     def _lose_life(self):
         """The plane is lost, with what rammed it and all bullets in the air."""
         self.score.hit()
-        self.spectacle.player_lost(self.plane)
+        me = self.plane.body.id
+        self.spectacle.player_lost(self.plane, self.blows.on(me, *self.hit_by))
         self.gone.append(self.plane.lose_life())
         for identity in self.hit_by:
             enemy = self.fleet.planes.get(identity)
             if enemy is not None and enemy.kind != "gunship":
-                self._destroy(enemy)
+                self._destroy(enemy, self.blows.on(identity, me))
         bodies, rows = self.world.bodies, self.incoming.places()
         self.spectacle.bullets_burnt(zip(bodies["x"][rows].tolist(), bodies["y"][rows].tolist(), strict=True))
         self.gone += self.incoming.ids.tolist()

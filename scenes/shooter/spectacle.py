@@ -99,15 +99,16 @@ class Spectacle:
         self.scene.particles.burst(dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4)
         self.scene.play("enemy_shot", dart.x, 0.3)
 
-    def struck(self, enemy, x, y):
-        """A shot hits a plane and does not bring it down."""
+    def struck(self, enemy, x, y, blow):
+        """A shot hits a plane and does not bring it down: the harder, the more sparks."""
         self.flashes[enemy.id] = FLASH
         self._burst("spark", x, y, 0.0, 20.0)
-        self.scene.particles.burst(x, y, 5, SPARK, speed=(40, 160), life=(0.1, 0.3), angle=pi / 2, spread=2.6, size=(1, 1))
-        self.scene.play("hit", x, 0.3)
+        self.scene.particles.burst(x, y, round(5 * blow.strength), SPARK, speed=(40, 160 * blow.strength), life=(0.1, 0.3),
+                                   angle=pi / 2, spread=2.6, size=(1, 1))
+        self.scene.play("hit", x, 0.3 * blow.strength)
 
-    def destroyed(self, enemy, worth):
-        """A plane is shot down."""
+    def destroyed(self, enemy, worth, blow):
+        """A plane is brought down. Its pieces go on as it flew, with what the last blow gave them."""
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
         x, y = enemy.x, enemy.y
         self._burst(animation, x, y, enemy.vx * 0.2, enemy.vy * 0.2 + 10)
@@ -118,11 +119,11 @@ class Spectacle:
             self.shock = 1.0
         self._sparks(x, y, sparks, FIRE)
         self._sparks(x, y, sparks // 3, SPARK, 260)
-        self._pieces(enemy.kind, x, y, enemy.vx, enemy.vy, pieces)
+        self._pieces(enemy.kind, x, y, enemy.vx * 0.3, enemy.vy * 0.3, pieces, blow)
         self._puffs(x, y, 2 if enemy.kind != "gunship" else 6)
         self.word(f"{worth}", x, y - 24, (255, 236, 170))
         self.pulse = 1.0
-        self.scene.camera.shake(shake)
+        self.scene.camera.shake(shake * blow.strength)
         self.scene.play(sound, x, volume)
 
     def player_hit(self, plane, hit_by, still):
@@ -132,7 +133,7 @@ class Spectacle:
         self.scene.camera.shake(0.35)
         self.scene.play("hurt", plane.x, 0.8)
 
-    def player_lost(self, plane):
+    def player_lost(self, plane, blow):
         """The plane bursts."""
         x, y = plane.x, plane.y
         self._burst("explosion_large", x, y, 0.0, 12.0)
@@ -141,7 +142,7 @@ class Spectacle:
             self._burst("explosion_small", x + dx, y + dy, dx, dy, -0.12 * (number + 1))
         self._sparks(x, y, 60, FIRE, 200)
         self._sparks(x, y, 30, BLUE, 240)
-        self._pieces("player", x, y, 0.0, 0.0, 10)
+        self._pieces("player", x, y, 0.0, 0.0, 10, blow)
         self._puffs(x, y, 6)
         self.shock = 1.0
         self.scene.camera.shake(0.5)
@@ -192,8 +193,10 @@ class Spectacle:
             vx, vy = self.random.uniform(-20, 20), self.random.uniform(-14, 26)
             self._burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
 
-    def _pieces(self, kind, x, y, vx, vy, count):
-        frames = PAINT[kind]
-        for number in range(count):
-            self.debris.append([f"debris_{frames[number % 2]}", x, y, vx * 0.3 + self.random.uniform(-90, 90),
-                                vy * 0.3 + self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])
+    def _pieces(self, kind, x, y, vx, vy, count, blow):
+        """Debris: the harder the blow, the more pieces, and the faster, along its way."""
+        frames, wild = PAINT[kind], 0.7 + 0.3 * blow.strength
+        vx, vy = vx + blow.kick[0], vy + blow.kick[1]
+        for number in range(max(2, round(count * blow.strength))):
+            self.debris.append([f"debris_{frames[number % 2]}", x, y, vx + wild * self.random.uniform(-90, 90),
+                                vy + wild * self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])

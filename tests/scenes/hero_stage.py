@@ -4,9 +4,10 @@ import numpy as np
 
 from game.inputs import InputFrame, InputState
 from game.tilemap import Thing, TileMap
-from physics import Effects, World
-from scenes.platformer.hero import HEIGHT, Hero
+from physics import World
+from scenes.platformer.hero import GRAVITY, HEIGHT, Hero
 from scenes.platformer.level import Level
+from scenes.platformer.scene import Platformer
 from scenes.platformer.things import Crate, Platform
 
 TILES = {"#": 0, "-": 1, "/": 2, "\\": 3, "1": 4, "2": 5}
@@ -24,7 +25,7 @@ class Stage:
         empty = np.full_like(numbers, -1)
         self.level = Level(TileMap("stage", numbers.shape[1], numbers.shape[0], 16, {"solid": numbers, "decor": empty},
                                    {}, PROPERTIES, "", 1, tuple(things), {}))
-        self.world = World(Effects(response=True, one_way=True, sensors=True))
+        self.world = World(Platformer.effects, gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
         floor = next(row for row in range(len(rows)) if rows[row][x] in "#-") * 16
         self.hero = Hero(self.world, self.level, (x * 16 + 8, floor - HEIGHT / 2))
@@ -42,10 +43,8 @@ class Stage:
             self.inputs.set(InputFrame(frozenset(keys.split())))
             for platform in self.platforms:
                 platform.aim(self.frame)
-            for crate in self.crates:
-                crate.step(self.hero.box)
-            self.hero.crates = tuple(crate.box for crate in self.crates)
-            self.hero.solids = self.hero.crates + tuple(platform.box for platform in self.platforms)
+            self.hero.crates = self.crates
+            self.hero.solids = tuple(each.box for each in (*self.crates, *self.platforms))
             self.hero.step(self.inputs)
             self.news += self.hero.news
             self.world.step()

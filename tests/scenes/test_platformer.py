@@ -90,6 +90,48 @@ def test_a_new_life_is_spared_by_walkers_for_a_moment():
     assert scene.deaths == 2, "the mercy must end"
 
 
+def drop_crate(scene, x, bottom, speed):
+    """Let the large crate come down at a place; its lower edge starts 20 px above it."""
+    crate = max(scene.things.crates, key=lambda one: one.size).body
+    crate.move_to((x, bottom - 20 - 16), 0.0)
+    crate.velocity = (0.0, speed)
+    return crate
+
+
+def test_a_crate_flattens_a_walker_by_its_impulse_and_not_when_it_is_set_down():
+    for speed, alive in ((0.0, True), (400.0, False)):
+        scene, session = start()
+        identity, walker = next(iter(scene.things.walkers.items()))
+        x, y = walker.character.position
+        drop_crate(scene, x, walker.top - (0 if speed else -15), speed)
+        play(session, 20)
+        assert (identity in scene.things.walkers) == alive
+
+
+def test_a_crate_that_comes_down_on_the_hero_hurts_him():
+    scene, session = start()
+    x = scene.hero.character.position[0]
+    drop_crate(scene, x, scene.hero.box[1], 400.0)
+    play(session, 20)
+    assert scene.deaths == 1
+
+
+def test_sound_and_dust_of_a_crate_grow_with_the_impulse_of_its_hit():
+    loud, dusty = [], []
+    for speed in (100.0, 250.0, 500.0):
+        scene, session = start()
+        put(scene, 60, 288)
+        drop_crate(scene, 120, 288, speed)
+        before, heard = scene.particles.count, []
+        for _ in range(12):
+            session.step()
+            heard += [volume for name, _, volume in scene.cues if name == "land"]
+        loud.append(max(heard))
+        dusty.append(scene.particles.count - before)
+    assert loud == sorted(loud) and loud[0] < 0.7 * loud[2]
+    assert dusty[0] < dusty[2]
+
+
 def test_the_goal_stops_the_clock_and_a_key_starts_again():
     scene, session = start([""] * 150 + ["jump"] + [""] * 5)
     goal = scene.things.of("goal")[0]
@@ -130,7 +172,8 @@ def test_every_thing_of_the_level_is_met():
 
 def test_what_the_scene_declares_is_what_it_uses():
     scene, _ = start()
-    assert scene.effects.names() == ["narrowphase", "response", "sensors", "one_way"]
+    assert scene.effects.names() == ["narrowphase", "response", "gravity", "rotation", "friction", "stacking",
+                                     "continuous", "sleeping", "sensors", "one_way"]
 
 
 @pytest.mark.skipif(not physics.JIT, reason="a minute of play takes long without compiled kernels")

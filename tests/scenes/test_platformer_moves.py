@@ -205,20 +205,54 @@ def test_a_crate_is_pushed_slowly_and_falls():
     stage.run("right", 4)
     x = stage.crates[0].box[0]
     stage.run("right", 30)
-    assert stage.crates[0].box[0] - x == pytest.approx(feel.PUSH_SPEED / 2, abs=3)
-    stage.until("right", lambda hero: stage.crates[0].box[3] == 9 * 16)
-    assert stage.crates[0].landed
+    assert stage.crates[0].box[0] - x == pytest.approx(0.8 * feel.PUSH_SPEED / 2, abs=4)
+    stage.until("right", lambda hero: stage.crates[0].body.position[1] > 8 * 16 - 17)
+    stage.run("", 90)
+    assert stage.crates[0].box[3] == 9 * 16 and not stage.crates[0].body.awake
 
 
-def test_a_crate_waits_over_a_head():
-    box = thing("crate", 32, 16, 32, 32)
-    stage = Stage("......\n" * 7 + "######\n", 2, [box])
-    stage.crates[0].landed = False
+def test_two_crates_on_each_other_are_too_heavy_and_one_alone_is_not():
+    moved = []
+    for count in (1, 2):
+        stage = Stage(FLAT, 2, [thing("crate", 96, 96 - 32 * k, 32, 32) for k in range(count)])
+        stage.run("right", 120)
+        moved.append(stage.crates[0].body.position[0] - 112)
+    assert moved[0] > 60 and abs(moved[1]) < 0.5 and stage.hero.vx == 0.0
+
+
+FLAT_LOW = "............\n" * 7 + "############\n"
+
+
+def test_a_crate_that_falls_on_his_head_is_held_up_by_it():
+    stage = Stage(FLAT_LOW, 2, [thing("crate", 24, 50, 32, 32)])
     stage.run("", 60)
-    assert stage.crates[0].box[3] == stage.hero.box[1]
-    stage.until("right", lambda hero: hero.box[0] >= 64)
-    stage.run("right", 40)
+    assert stage.crates[0].box[3] == pytest.approx(stage.hero.box[1], abs=1) and not stage.hero.crushed
+    stage.until("right", lambda hero: hero.box[0] > 66)
+    stage.run("", 60)
     assert stage.crates[0].box[3] == 7 * 16
+
+
+def test_he_rides_a_crate_on_a_platform_and_jumps_off_with_its_speed():
+    ferry = thing("platform", 32, 112, 48, 16, to_x=160, to_y=112, period=4.0)
+    stage = Stage("................\n" * 8 + "################\n", 2, [ferry, thing("crate", 40, 80, 32, 32)])
+    stage.hero.place((56, 80 - HEIGHT / 2))
+    stage.run("", 60)
+    crate = stage.crates[0].body
+    assert stage.hero.riding == crate and abs(crate.angle) < 0.01
+    assert crate.position[0] == pytest.approx(stage.platforms[0].body.position[0], abs=2)
+    assert stage.hero.character.position[0] == pytest.approx(crate.position[0], abs=2.5)
+    speed = crate.velocity[0]
+    stage.run("jump")
+    assert stage.hero.vx == pytest.approx(speed, rel=0.2) and speed > 60
+
+
+def test_a_walker_turns_at_a_crate_and_does_not_push_it():
+    stage = Stage(FLAT, 2, [thing("crate", 160, 112, 16, 16)])
+    walker = Walker(stage.world, thing("walker", 120, 112, 20, 16, range=64), 1)
+    for _ in range(120):
+        walker.step()
+        stage.run("")
+    assert walker.way == -1 and stage.crates[0].body.position[0] == pytest.approx(168, abs=0.01)
 
 
 def test_a_walker_turns_at_its_range_and_at_walls():

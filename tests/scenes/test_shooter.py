@@ -71,6 +71,27 @@ def share_pixels(a, b, dx, dy):
     return int((grids[0] & grids[1]).sum())
 
 
+def test_debris_grows_with_the_impulse_of_the_hit_and_flies_along_it():
+    found = []
+    for side in (0.0, 500.0):
+        sky = Sky()
+        dart = sky.enemy("dart", 240, 60)
+        dart.health = 1
+        dart.vx, dart.vy = 0.0, side
+        shots = sky.scene.shots
+        shots.fire("shot", 240, 60 + 60 + 0.2 * side, [-np.pi / 2], 540.0)
+        debris = sky.scene.spectacle.debris
+        while not debris:
+            sky.step()
+            debris = sky.scene.spectacle.debris
+        found.append((sky.scene.blows.found, len(debris), sum(piece[4] for piece in debris) / len(debris)))
+    blow, pieces = found[0][0], [each[1] for each in found]
+    assert pieces[0] < pieces[1] and len(blow) == 2
+    (ax, ay), (bx, by) = blow.values()
+    assert (ax, ay) == (-bx, -by)
+    assert found[0][2] < 25.0, "upwards, as the shot flew; thrown about alone they would fall"
+
+
 def test_boxes_that_overlap_without_pixels_are_no_hit_but_a_near_miss():
     sky = Sky()
     dx, dy = offsets(shares=False)

@@ -1,0 +1,362 @@
+"""Fifteen balls, a cue ball and six pockets: does a break keep the momentum it was given?
+
+What to see: seen from above there is no gravity, only the cloth's drag. Until the first ball meets a cushion the
+momentum of all balls together is the cue ball's, in size and direction, however they scatter; and no collision of
+two ever adds energy. Pockets are sensors: they push nothing and report who fell in.
+"""
+
+from math import atan2, cos, hypot, pi, sin
+from random import Random
+
+import numpy as np
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Circle, Effects, Material, Polygon
+from scenes.lab.piles import kinetic_energy
+from scenes.lab.yard import draw_head, plate
+
+CLOTH = pygame.Rect(24, 44, 344, 168)          # [px] between the cushions; the canvas and the world are the same
+TABLE = (4, 24)                                # [canvas px] where the picture of the table goes
+BALL, MOUTH = 5.0, 5.0                         # [px] radius of a ball and of the sensor in a pocket
+HOLES = tuple((x, y) for x in (CLOTH.left, CLOTH.centerx, CLOTH.right) for y in (CLOTH.top, CLOTH.bottom))
+CORNER_GAP, SIDE_GAP, JAW, DEEP = 14, 12, 6, 12        # [px] of the cushions: cut at corner and side, slant, depth
+HEAD_SPOT = (CLOTH.left + CLOTH.width / 4, CLOTH.centery)
+FOOT_SPOT = (CLOTH.left + CLOTH.width * 0.72, CLOTH.centery)
+RACK_GAP = 0.4                                 # [px] between racked balls
+RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
+FASTEST = 1300.0                               # [px/s] of a cue ball hit with full power
+RESTS = 4.0                                    # [px/s] when none is faster, all stop
+DRAG = 0.5                                     # [1/s]
+PIXELS_PER_METER = 4.0                         # so that balls still bounce at 4 px/s: this table is 86 m of slow motion
+SWING = 70                                     # steps from no power to full while the mouse is held
+CALM = 30                                      # steps the bot waits
+SIDE = 396                                     # [canvas px] left of the score
+
+
+class Billiards(Scene):
+    """One world seen from above."""
+
+    name = "lab/billiards"
+    title = "Billiards"
+    about = "Break fifteen balls and pot them: momentum until the first cushion, energy, and pockets that are sensors."
+    effects = Effects(response=True, restitution=True, drag=True, continuous=True, sensors=True)
+    pieces = ("circles", "capsules", "queries")
+    features = ("a break that keeps its momentum", "fast balls swept against balls", "pockets as sensors")
+    sliders = (Slider("bounce", 50, 100, 96, "%", step=2), Slider("drag", 0.1, 2.0, DRAG, "1/s", step=0.1))
+    actions = (("mouse", "aim; hold, let go"), ("arrows", "aim, power"), ("Space", "shoot"))
+    draggable = True
+    legend_at = (SIDE, 150)
+
+    def build(self):
+        """Table, cushions, pockets, balls."""
+        atlas = load_atlas("lab")
+        self.table, self.cast = atlas["table"], Cast(atlas)
+        self.ball_names = {}           # body id -> number
+        self.potted = []
+        self.shots = self.scratches = self.calm = 0
+        self.aim, self.power, self.held, self.last_pointer = 0.0, 0.9, -1, (0, 0)
+        self.budget = None             # what a break is measured by: momentum, steps, while no cushion was met
+        self.kept = 0.0                # worst error of momentum, as a share
+        self.grown = self.grown_by_three = 0.0     # most that energy grew in a step, as a share; where three met
+        self.compared = 0
+        self.energy = 0.0
+        self.fill()
+
+    def fill(self):
+        """A new world with the balls racked."""
+        self.worlds = []
+        bounce = self.values["bounce"] / 100.0
+        world = self.add_world(drag=self.values["drag"], pixels_per_meter=PIXELS_PER_METER)
+        self.material = Material(friction=0.0, restitution=bounce)
+        rubber = Material(friction=0.0, restitution=bounce * 0.85)
+        self.cushions = {world.add_body(shape, kind="static", material=rubber).id for shape in cushions()}
+        self.holes = {world.add_body(Circle(MOUTH), position=hole, kind="static", sensor=True).id for hole in HOLES}
+        self.ball_names.clear()
+        self.potted.clear()
+        self.cue = self._add_ball(0, HEAD_SPOT)
+        step_x, step_y = (2 * BALL + RACK_GAP) * cos(pi / 6), BALL + RACK_GAP / 2
+        number, random = 0, Random(self.seed)
+        for row in range(5):
+            for column in range(row + 1):
+                x = FOOT_SPOT[0] + row * step_x + random.uniform(-0.1, 0.1)
+                y = FOOT_SPOT[1] + (2 * column - row) * step_y + random.uniform(-0.1, 0.1)
+                self._add_ball(RACK[number], (x, y))
+                number += 1
+        self.racked = {identity: self.world.body(identity).position for identity in self.ball_names}
+        self.budget = None
+
+    def _add_ball(self, number, place):
+        body = self.world.add_body(Circle(BALL), position=place, material=self.material, bullet=True)
+        self.ball_names[body.id] = number
+        self.cast.add(body, f"ball_{number}")
+        return body
+
+    def change_slider(self, name, value):
+        """Rack anew."""
+        super().change_slider(name, value)
+        self.fill()
+
+    @property
+    def resting(self):
+        """True when every ball has stopped."""
+        bodies = self.world.bodies
+        return not ((bodies["vx"] != 0.0) | (bodies["vy"] != 0.0)).any()
+
+    def update(self, inputs):
+        """Aim and shoot, one step, then the books."""
+        if self.resting and not self.drag.holds:
+            self.calm += 1
+            self._aim(inputs)
+        else:
+            self.calm, self.held = 0, -1
+        before = kinetic_energy(self.world)
+        self.world.step()
+        self._keep_books(before)
+        self._pot()
+        self._stop_the_slow()
+        for row in self.world.events.hits:
+            self.play("blip", float(row["point_x"]), min(1.0, float(row["speed"]) / 500.0))
+
+    def _aim(self, inputs):
+        x, y = self.cue.position
+        if inputs.pointer != self.last_pointer and CLOTH.inflate(40, 40).collidepoint(inputs.pointer):
+            self.aim = atan2(inputs.pointer[1] - y, inputs.pointer[0] - x)
+        self.last_pointer = inputs.pointer
+        fine = 0.1 if inputs.held("focus") else 1.0
+        self.aim += 0.012 * fine * (inputs.held("right") - inputs.held("left"))
+        self.power += 0.01 * (inputs.held("up") - inputs.held("down")) + 0.05 * inputs.wheel
+        self.power = min(max(self.power, 0.05), 1.0)
+        if inputs.pointer_pressed and CLOTH.collidepoint(inputs.pointer):
+            self.held = 0
+        elif self.held >= 0 and inputs.pointer_down:
+            self.held += 1
+            swing = self.held / SWING % 2.0
+            self.power = max(0.05, swing if swing <= 1.0 else 2.0 - swing)
+        if inputs.pressed("fire") or (self.held >= 0 and not inputs.pointer_down):
+            self.shoot()
+
+    def shoot(self):
+        """Hit the cue ball along the aim, through its middle."""
+        speed = FASTEST * self.power
+        velocity = (speed * cos(self.aim), speed * sin(self.aim))
+        self.cue.velocity = velocity
+        mass = self.cue.mass
+        self.budget = (mass * velocity[0], mass * velocity[1], 0)
+        self.shots += 1
+        self.calm, self.held = 0, -1
+        self.play("hit", self.cue.position[0], 0.4 + 0.6 * self.power)
+
+    def _keep_books(self, before):
+        """Momentum against the cue ball's until a cushion is met; energy against the step before, always."""
+        keep = 1.0 / (1.0 + self.values["drag"] * self.world.dt)
+        self.energy = kinetic_energy(self.world)
+        if self.drag.holds:
+            self.budget = None
+            return
+        if before > 0.0:
+            grown = self.energy / (before * keep * keep) - 1.0
+            if self._three_met():
+                self.grown_by_three = max(self.grown_by_three, grown)
+            else:
+                self.grown = max(self.grown, grown)
+        if self.budget is None:
+            return
+        px, py, steps = self.budget
+        steps += 1
+        bodies, begun = self.world.bodies, self.world.events.begin
+        met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
+        if met & self.cushions or len(self.world.events.sensor_begin):
+            self.budget = None
+            return
+        left = keep ** steps
+        now_x, now_y = (float((bodies["mass"] * bodies[name]).sum()) for name in ("vx", "vy"))
+        off = hypot(now_x - px * left, now_y - py * left)
+        self.kept = max(self.kept, off / (hypot(px, py) * left))
+        self.compared += 1
+        self.budget = (px, py, steps)
+
+    def _three_met(self):
+        """True if a body was in two contacts in this step: what then happens is the solver's choice, not a law."""
+        contacts = self.world.contacts
+        both = np.concatenate((contacts["body_a"], contacts["body_b"]))
+        return len(np.unique(both)) < len(both)
+
+    def _pot(self):
+        begun = self.world.events.sensor_begin
+        for first, second in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
+            ball = first if first in self.ball_names else second
+            if ball not in self.ball_names:
+                continue               # it reached two pockets' sensors in one step
+            if ball == self.cue.id:
+                self.scratches += 1
+                self.cue.velocity = (0.0, 0.0)
+                self.cue.move_to(self._free_spot())
+                self.play("hurt", None, 0.5)
+                continue
+            self.potted.append(self.ball_names.pop(ball))
+            self.world.remove_body(ball)
+            self.play("coin", None, 0.7)
+
+    def _free_spot(self):
+        """The head spot, or the next place beside it that no ball holds."""
+        for shift in range(0, CLOTH.height // 2 - 8, 2):
+            for y in (HEAD_SPOT[1] + shift, HEAD_SPOT[1] - shift):
+                if all(body.id not in self.ball_names or body == self.cue
+                       for body in self.world.overlap(Circle(BALL + 1.0), (HEAD_SPOT[0], y, 0.0))):
+                    return HEAD_SPOT[0], y
+        return HEAD_SPOT
+
+    def _stop_the_slow(self):
+        bodies = self.world.bodies
+        if float((bodies["vx"] ** 2 + bodies["vy"] ** 2).max()) < RESTS * RESTS:
+            bodies["vx"] = bodies["vy"] = 0.0
+
+    def draw(self, canvas, alpha):
+        """Table, balls, cue, score."""
+        canvas.surface.fill((30, 24, 46))
+        draw_head(canvas, "BILLIARDS", "does a break keep the momentum it was given?")
+        canvas.surface.blit(self.table, TABLE)
+        for identity in self.ball_names:
+            x, y = self.world.body(identity).position
+            canvas.surface.fill((0, 62, 72), (round(x) - 3, round(y) + 4, 8, 2))       # a shadow on the cloth
+        self.cast.draw(canvas, self.camera, self.world, alpha)
+        if self.resting:
+            self._draw_stick(canvas.surface)
+        self._draw_score(canvas)
+
+    def _draw_stick(self, surface):
+        x, y = self.cue.position
+        c, s = cos(self.aim), sin(self.aim)
+        near = BALL + 4.0 + 26.0 * self.power
+        parts = ((0, 110, (20, 16, 32), 5), (0, 109, (198, 148, 92), 3), (70, 109, (110, 44, 40), 3),
+                 (0, 4, (150, 200, 236), 3))           # its outline, the shaft, the grip, the chalked tip
+        for start, end, color, width in ((near + part[0], near + part[1], *part[2:]) for part in parts):
+            pygame.draw.line(surface, color, (x - c * start, y - s * start), (x - c * end, y - s * end), width)
+
+    def _draw_score(self, canvas):
+        canvas.text("potted", SIDE, 26, FOG, SMALL)
+        canvas.text(f"{len(self.potted)}", 474, 24, GOLD, align="right")
+        for index in range(15):
+            place = (SIDE + 7 + index % 5 * 16, 42 + index // 5 * 14)
+            if index < len(self.potted):
+                self.cast.picture(f"ball_{self.potted[index]}").draw(canvas.surface, *place, 0.0)
+            else:
+                pygame.draw.circle(canvas.surface, SLATE, place, 5, 1)
+        canvas.text("power", SIDE, 86, FOG, SMALL)
+        canvas.surface.fill((20, 16, 32), (SIDE, 94, 78, 6))
+        canvas.surface.fill(GOLD, (SIDE + 1, 95, round(76 * self.power), 4))
+        held = self.compared > 0 and self.kept < 1e-9
+        rows = (("shots", f"{self.shots}", PAPER), ("scratches", f"{self.scratches}", PAPER),
+                ("energy", f"{self.energy / 1e6:.2f}", PAPER),
+                ("momentum", "kept" if held else "-", GREEN if held else FOG),
+                ("  off by", f"{self.kept:.0e}", PAPER if self.kept < 1e-9 else RED))
+        for number, (word, value, color) in enumerate(rows):
+            canvas.text(word, SIDE, 106 + number * 9, FOG, SMALL)
+            canvas.text(value, 474, 106 + number * 9, color, SMALL, align="right")
+        plate(canvas, (4, 238, 384, 26), (20, 16, 32, 160))
+        words = "aim with the mouse, hold the button for power, let go to shoot"
+        words = words if self.resting else "the balls are running"
+        canvas.text(words, 196, 248, FOG, SMALL, align="center")
+
+    def draw_on_frame(self, frame):
+        """The line of aim to the first ball in its way, and where that ball would go."""
+        if not self.resting or self.drag.holds:
+            return
+        lens = frame.lens(self.camera)
+        x, y = self.cue.position
+        c, s = cos(self.aim), sin(self.aim)
+        way, struck = self._first_in_the_way(x, y, c, s)
+        end = (x + c * way, y + s * way)
+        pygame.draw.line(frame.surface, PAPER, lens.points(x + c * BALL, y + s * BALL), lens.points(*end))
+        pygame.draw.circle(frame.surface, PAPER, lens.points(*end), BALL * lens.scale, 1)
+        if struck is not None:
+            dx, dy = struck[0] - end[0], struck[1] - end[1]
+            far = (struck[0] + dx * 3.0, struck[1] + dy * 3.0)
+            pygame.draw.line(frame.surface, SKY, lens.points(*struck), lens.points(*far), max(1, frame.scale - 1))
+
+    def _first_in_the_way(self, x, y, c, s):
+        """How far the cue ball would run before it meets a ball or a cushion's line, and that ball's place or None."""
+        room = CLOTH.inflate(-2 * BALL, -2 * BALL)
+        ends = [(edge - place) / heading for edge, place, heading in
+                ((room.right if c > 0 else room.left, x, c), (room.bottom if s > 0 else room.top, y, s)) if heading]
+        way, struck = max(0.0, min(ends)), None
+        for identity in self.ball_names:
+            place = self.world.body(identity).position
+            along, beside = (place[0] - x) * c + (place[1] - y) * s, (place[1] - y) * c - (place[0] - x) * s
+            if along > 0.0 and abs(beside) < 2 * BALL and identity != self.cue.id:
+                reach = along - (4 * BALL * BALL - beside * beside) ** 0.5
+                if reach < way:
+                    way, struck = max(reach, 0.0), place
+        return way, struck
+
+    def check(self):
+        """Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls fall in."""
+        places = {identity: self.world.body(identity).position for identity in self.ball_names}
+        moved = len(self.potted) + sum(hypot(x - self.racked[ball][0], y - self.racked[ball][1]) > BALL
+                                       for ball, (x, y) in places.items())
+        there = all(CLOTH.inflate(30, 30).collidepoint(place) for place in places.values())
+        return [
+            Goal("momentum stays until the first cushion", 120, self.compared >= 10 and self.kept < 1e-9,
+                 f"off by {self.kept:.2e} in {self.compared} steps"),
+            Goal("no collision of two adds energy", 300, self.shots > 0 and self.grown < 1e-9, f"{self.grown:+.2e}"),
+            Goal("none of three adds more than a twentieth", 300, self.grown_by_three < 0.05, f"{self.grown_by_three:+.2e}"),
+            Goal("the break moves nearly every ball", 300, moved >= 14, f"{moved} of 16"),
+            Goal("no ball leaves the table", 300, there),
+            Goal("a pocket counts a ball", 3600, len(self.potted) > 0, f"{len(self.potted)} in {self.shots} shots"),
+        ]
+
+    def bot(self):
+        """Break, then shoot at the ball and pocket that line up best."""
+        if self.calm == CALM and self.shots:
+            return InputFrame(frozenset(), self._best_point())
+        if self.calm == CALM + 1:
+            return InputFrame(frozenset(("fire",)), self.last_pointer)
+        return InputFrame(frozenset(), self.last_pointer)
+
+    def _best_point(self):
+        """Where the cue ball has to be to send a ball into a pocket, in whole canvas pixels."""
+        x, y = self.cue.position
+        best = (-2.0, (round(x) + 40, round(y)))
+        for identity in sorted(self.ball_names):
+            bx, by = self.world.body(identity).position
+            for hx, hy in HOLES:
+                far = hypot(hx - bx, hy - by)
+                if identity == self.cue.id or far < 1.0:
+                    continue
+                gx, gy = bx - (hx - bx) / far * 2 * BALL, by - (hy - by) / far * 2 * BALL
+                near = hypot(gx - x, gy - y)
+                straight = ((gx - x) * (hx - bx) + (gy - y) * (hy - by)) / (far * max(near, 1.0))
+                best = max(best, (straight - (far + near) / 800.0, (round(gx), round(gy))))
+        return best[1]
+
+    def state(self):
+        """The score and the books; the world holds the balls."""
+        budget = self.budget or (0.0, 0.0, -1)
+        return (self.frame, *self.values.values(), self.shots, self.scratches, self.calm, self.aim, self.power,
+                self.held, *self.potted, self.kept, self.grown, self.grown_by_three, self.compared, *budget)
+
+
+def cushions():
+    """Six cushions with slanted jaws, and the wooden frame behind the pockets."""
+    left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
+    shapes = []
+    for y, way in ((top, -1), (bottom, 1)):
+        for a, b in ((left + CORNER_GAP, middle - SIDE_GAP), (middle + SIDE_GAP, right - CORNER_GAP)):
+            shapes.append(Polygon([(a, y), (b, y), (b + JAW, y + way * DEEP), (a - JAW, y + way * DEEP)]))
+    for x, way in ((left, -1), (right, 1)):
+        a, b = top + CORNER_GAP, bottom - CORNER_GAP
+        shapes.append(Polygon([(x, a), (x, b), (x + way * DEEP, b + JAW), (x + way * DEEP, a - JAW)]))
+    wide, high, deep = CLOTH.width + 2 * DEEP, CLOTH.height + 2 * DEEP, 40
+    for x, y, width, height in ((CLOTH.centerx, top - DEEP - deep / 2, wide + 2 * deep, deep),
+                                (CLOTH.centerx, bottom + DEEP + deep / 2, wide + 2 * deep, deep),
+                                (left - DEEP - deep / 2, CLOTH.centery, deep, high),
+                                (right + DEEP + deep / 2, CLOTH.centery, deep, high)):
+        shapes.append(Polygon.box(width, height, (x, y)))
+    return shapes

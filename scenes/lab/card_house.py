@@ -1,0 +1,200 @@
+"""A house of cards: how much friction does it need to stand?
+
+What to see: two cards that lean on each other push their feet apart with half their weight times the tangent of
+their lean. So a single pair needs a friction of 0.223 at the table, no more and no less: the two pairs on the right
+have a twentieth less and a twentieth more. The house, whose lower cards carry the upper ones, needs twice that.
+"""
+
+from math import atan2, cos, hypot, radians, sin
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Capsule, Circle, Effects, Material, Polygon
+from scenes.lab.yard import Yard, plate
+
+LENGTH, RADIUS = 48.0, 2.0          # [px] between the centres of a card's round ends, and their radius
+LEAN = radians(25.0)                # from the vertical
+REACH, RISE = LENGTH * sin(LEAN), LENGTH * cos(LEAN)
+APART = 2.0 * (REACH + 2.0 * RADIUS) + 1.0      # [px] between neighbouring pairs
+PLANK = 4.0                         # [px] thick
+STOREY = RISE + 2.0 * RADIUS + PLANK
+# Moments about a foot: the push at the top, at the height RISE + RADIUS, holds the weight at half the REACH.
+NEEDED = REACH / (2.0 * (RISE + RADIUS))
+LESS, MORE = 0.95 * NEEDED, 1.05 * NEEDED
+FLOOR = 238                         # [canvas px]
+HOUSE_X = 140.0
+PAIRS = ((328.0, LESS, SKY), (436.0, MORE, GREEN))       # x, friction, colour of the cloth
+CLOTH = 62.0                        # [px] wide
+COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0      # [px] radius, [px/s], times a card's
+JUDGED_AT = 600                     # step: ten seconds
+SLIPPERY_AT, SLIPPERY = 604, 20     # the bot's step, and the friction it then chooses [1/100]
+
+
+class CardHouse(Scene):
+    """One world: the house, and two pairs of cards on cloths of known friction."""
+
+    name = "lab/card_house"
+    title = "House of cards"
+    about = "Thin cards held up by nothing but friction: how much of it does the house need?"
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+    pieces = ("boxes", "capsules", "circles")
+    features = ("thin capsules that lean on each other", "the friction that theory asks for, from both sides")
+    sliders = (Slider("friction", 5, 100, 70, "/ 100", step=5), Slider("storeys", 1, 4, 4), Slider("substeps", 1, 8, 4))
+    actions = (("Space", "throw a coin"), ("up down", "friction"), ("left right", "storeys"))
+    draggable = True
+    legend_at = (342, 88)
+
+    def build(self):
+        """The table; fill() builds the house."""
+        self.yard = Yard(FLOOR, 60, table=True)
+        self.held = None              # [px] how far its cards moved in the ten seconds that it stood, or None
+        self.slipped = False          # the house fell once at a friction that is too low
+        self.fill()
+
+    def fill(self):
+        """A new world with everything as it was built."""
+        self.worlds = []
+        self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
+        world, self.cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
+        friction = self.values["friction"] / 100.0
+        self._table(-200.0, PAIRS[0][0] - CLOTH / 2, friction)
+        self.cards = self._house(int(self.values["storeys"]), Material(friction=friction))
+        self.pairs = []
+        for x, rubs, _ in PAIRS:
+            material = Material(friction=rubs)
+            self._table(x - CLOTH / 2, x + CLOTH / 2, rubs)
+            self.pairs.append(self._pair(x, FLOOR, material))
+        self._table(PAIRS[0][0] + CLOTH / 2, PAIRS[1][0] - CLOTH / 2, friction)
+        self._table(PAIRS[1][0] + CLOTH / 2, 800.0, friction)
+        self.start = {card.id: card.center for card in (*self.cards, *self.pairs[0], *self.pairs[1])}
+        self.coins = []
+        self.since = 0
+        self.stood = 0                # steps that the house stood
+        self.wandered = 0.0           # [px] of the card that moved furthest while it stood
+
+    def _table(self, left, right, friction):
+        self.world.add_body(Polygon.box(right - left, 40), position=((left + right) / 2, FLOOR + 20.0), kind="static",
+                            material=Material(friction=friction))
+
+    def _pair(self, x, floor, material):
+        """Two cards that lean on each other over x, their feet on `floor`."""
+        shape = Capsule((-LENGTH / 2, 0), (LENGTH / 2, 0), RADIUS)
+        cards = []
+        for side in (-1, 1):
+            place = (x + side * (RADIUS + REACH / 2), floor - RADIUS - RISE / 2)
+            angle = atan2(-RISE, -side * REACH)
+            card = self.world.add_body(shape, position=place, angle=angle, material=material)
+            cards.append(self.cast.add(card, "card_red"))
+        return cards
+
+    def _house(self, storeys, material):
+        cards = []
+        for storey in range(storeys):
+            floor = FLOOR - storey * STOREY
+            left = HOUSE_X - (storeys - storey - 1) * APART / 2
+            for number in range(storeys - storey):
+                cards += self._pair(left + number * APART, floor, material)
+            for number in range(storeys - storey - 1):
+                place = (left + (number + 0.5) * APART, floor - RISE - 2.0 * RADIUS - PLANK / 2)
+                plank = self.world.add_body(Polygon.box(APART - 0.5, PLANK), position=place, material=material)
+                cards.append(self.cast.add(plank, "card_blue"))
+        return cards
+
+    def change_slider(self, name, value):
+        """Build anew."""
+        super().change_slider(name, value)
+        self.fill()
+
+    def update(self, inputs):
+        """Keys, one step, and a look at what still stands."""
+        for name, forth, back, notch in (("friction", "up", "down", 5), ("storeys", "right", "left", 1)):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way * notch)
+        if inputs.pressed("fire"):
+            self._throw()
+        self.world.step()
+        self.since += 1
+        if self.stands(self.cards):
+            self.stood = self.since
+            self.wandered = max(self.moved(card) for card in self.cards)
+            if self.since == JUDGED_AT and self.held is None:
+                self.held = self.wandered
+        elif self.values["friction"] <= SLIPPERY and not self.coins:
+            self.slipped = True
+
+    def _throw(self):
+        coin = self.world.add_body(Circle(COIN), position=(8.0, FLOOR - 90.0), velocity=(COIN_SPEED, -60.0),
+                                   material=Material(density=COIN_DENSITY))
+        self.coins = [*self.coins, self.cast.add(coin, "disc_gold")][-6:]
+        self.play("coin")
+
+    def moved(self, card):
+        """How far a card is from where it was laid [px]."""
+        x, y = self.start[card.id]
+        return hypot(card.center[0] - x, card.center[1] - y)
+
+    def stands(self, cards):
+        """True while no card has sunk or slid by half its reach."""
+        return all(self.moved(card) < REACH / 2 for card in cards)
+
+    def draw(self, canvas, alpha):
+        """The table with its cloths, the cards, the words."""
+        self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
+        for x, friction, color in PAIRS:
+            left = round(x - CLOTH / 2)
+            canvas.surface.fill(color, (left + 1, FLOOR, round(CLOTH) - 2, 2))
+            canvas.surface.fill((20, 16, 32), (left + 1, FLOOR + 2, round(CLOTH) - 2, 1))
+        self.cast.draw(canvas, self.camera, self.world, alpha)
+        for (x, friction, color), cards in zip(PAIRS, self.pairs, strict=True):
+            self._draw_pair_words(canvas, x, friction, color, self.stands(cards))
+        plate(canvas, (342, 22, 134, 60))
+        stands = self.stands(self.cards)
+        canvas.text("the house stands" if stands else "it fell", 348, 26, GREEN if stands else RED)
+        rows = (("cards", f"{len(self.cards)}"), ("friction", f"{self.values['friction'] / 100:.2f}"),
+                ("for", f"{self.stood / 60:.1f} s"), ("a pair needs", f"{NEEDED:.3f}"))
+        for number, (word, value) in enumerate(rows):
+            canvas.text(word, 348, 40 + number * 10, FOG, SMALL)
+            canvas.text(value, 470, 40 + number * 10, PAPER, SMALL, align="right")
+
+    def _draw_pair_words(self, canvas, x, friction, color, stands):
+        plate(canvas, (round(x) - 31, FLOOR - 96, 62, 24))
+        canvas.text(f"{friction:.3f}", x, FLOOR - 92, color, align="center")
+        canvas.text("stands" if stands else "slid apart", x, FLOOR - 82, PAPER if stands else ORANGE, SMALL, align="center")
+
+    def draw_on_frame(self, frame):
+        """A ring at each card's middle that moved: where the house gives."""
+        lens = frame.lens(self.camera)
+        for card in self.cards:
+            moved = self.moved(card)
+            if 1.0 < moved < REACH / 2:
+                pygame.draw.circle(frame.surface, GOLD, lens.points(*card.center), 2 * frame.scale, 1)
+
+    def check(self):
+        """It stands for ten seconds, the pairs do what theory says, and at a low friction it falls."""
+        slid, stood = (self.stands(cards) for cards in self.pairs)
+        moved = self.wandered if self.held is None else self.held
+        return [
+            Goal("the house stands for ten seconds", JUDGED_AT, self.held is not None, f"{self.stood} steps"),
+            Goal("its cards stay within a twentieth of their length", JUDGED_AT, moved < LENGTH / 20, f"{moved:.2f} px"),
+            Goal("a pair with a twentieth less friction than theory asks slides", 540, not slid, f"friction {LESS:.4f}"),
+            Goal("a pair with a twentieth more stands", 540, stood, f"friction {MORE:.4f}"),
+            Goal("the house falls at a friction of 0.2", 800, self.slipped, f"at {self.values['friction'] / 100:.2f}"),
+        ]
+
+    def bot(self):
+        """Watch for ten seconds, then make the cards slippery."""
+        changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()
+        return InputFrame(changes=changes)
+
+    def state(self):
+        """What was seen; the world holds the cards."""
+        return (self.frame, self.since, *self.values.values(), self.stood, self.wandered, self.held, self.slipped,
+                len(self.coins))

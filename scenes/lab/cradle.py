@@ -1,0 +1,196 @@
+"""Five steel balls in a row, struck by one or two: do only as many leave at the other end?
+
+What to see: with a hair of air between the balls each collision is one of two, and both momentum and energy leave
+only one way out: the last ball goes with the whole speed. The same row in three channels, one per solver. Close the
+gap, or send two into the wall so closely that three meet in one step: then momentum and energy alone no longer say
+what must happen, and the solvers differ.
+"""
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Circle, Effects, Material, Polygon
+from scenes.lab.piles import SOLVER_WORDS, SOLVERS, kinetic_energy
+from scenes.lab.yard import Yard, plate
+
+COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
+ZOOM, RADIUS = 0.5, 28.0            # [px] drawn 28 px large
+LANES = (16, 100, 184)              # [canvas px] top of each view
+LANE_HEIGHT = 84
+ROW = 5                             # balls that rest
+MIDDLE, LINE = 500.0, 72.0          # [px] middle of the row, height of the channel's axis
+LEFT, RIGHT = 14.0, 946.0           # [px] faces of the end walls
+FIRST = 60.0                        # [px] of the first striker
+SPEED = 300.0                       # [px/s] 5 px a step, less than the gap: one collision at a time
+ASIDE = 60.0                        # [px] the last ball has left when it is this far from its place
+CLEAN = 1e-9                        # of the striker's speed, momentum or energy
+SWITCH_AT = 300                     # the bot's step for two strikers
+
+
+class Cradle(Scene):
+    """Three worlds, one channel each."""
+
+    name = "lab/cradle"
+    title = "Cradle"
+    about = "Newton's cradle in a channel: strike a row of five with one or two balls, under three solvers."
+    effects = Effects(response=True, restitution=True, stacking=True)
+    pieces = ("circles",)
+    features = ("restitution of 1, a chain of collisions", "momentum and energy to nine digits")
+    solvers = SOLVERS
+    sliders = (Slider("strikers", 1, 3, 1), Slider("gap", 0, 16, 8, "px"))
+    actions = (("Space", "again"), ("up down", "strikers"), ("left right", "gap"))
+    draggable = True
+    legend_at = (4, 20)
+
+    def build(self):
+        """The channels; fill() lays the balls in."""
+        self.yard = Yard((), 90)
+        self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
+        self.results = {}            # (solver, strikers, gap) -> what the first pass gave
+        self.drift = {}              # the same -> the most that the energy was off, as a share
+        self.fill()
+
+    def fill(self):
+        """Three new worlds with the same balls."""
+        self.worlds, self.casts, self.balls = [], [], []
+        strikers, pitch = int(self.values["strikers"]), 2 * RADIUS + self.values["gap"]
+        ball = Material(density=1.0, friction=0.0, restitution=1.0)
+        for name in SOLVERS:
+            world, cast = self.add_world(solver=name, gravity=(0, 0)), Cast(load_atlas("lab"))
+            for x in (LEFT - 40.0, RIGHT + 40.0):
+                world.add_body(Polygon.box(80, 60), position=(x, LINE), kind="static", material=ball)
+            row = []
+            for number in range(strikers):
+                body = world.add_body(Circle(RADIUS), position=(FIRST + number * pitch, LINE), velocity=(SPEED, 0.0),
+                                      material=ball)
+                row.append(cast.add(body, "striker_ball"))
+            for number in range(ROW):
+                x = MIDDLE + (number - (ROW - 1) / 2) * pitch
+                row.append(cast.add(world.add_body(Circle(RADIUS), position=(x, LINE), material=ball), "steel_ball"))
+            self.casts.append(cast)
+            self.balls.append(row)
+        self.goes_from = self.balls[0][-1].position[0]
+        self.energy = [kinetic_energy(world) for world in self.worlds]
+        self.momentum = [float((world.bodies["mass"] * world.bodies["vx"]).sum()) for world in self.worlds]
+        self.touched = False         # someone drags: the books are closed
+
+    def change_slider(self, name, value):
+        """Lay in anew."""
+        super().change_slider(name, value)
+        self.fill()
+
+    def update(self, inputs):
+        """Keys, three steps, the books."""
+        for name, forth, back in (("strikers", "up", "down"), ("gap", "right", "left")):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("fire"):
+            self.fill()
+        self.touched |= self.drag.holds
+        for index, (name, world) in enumerate(zip(SOLVERS, self.worlds, strict=True)):
+            world.step()
+            if not self.touched:
+                self._keep_books(index, name, world)
+        if len(self.worlds[-1].events.hits):
+            self.play("blip", None, 0.4)
+
+    def _keep_books(self, index, name, world):
+        off = abs(kinetic_energy(world) / self.energy[index] - 1.0)
+        key = (name, int(self.values["strikers"]), int(self.values["gap"]))
+        self.drift[key] = max(self.drift.get(key, 0.0), off)
+        if key in self.results or self.balls[index][-1].position[0] < self.goes_from + ASIDE:
+            return
+        speeds = [body.velocity[0] / SPEED for body in self.balls[index]]
+        strikers = key[1]
+        wrong = max(abs(speed - (1.0 if number >= ROW else 0.0)) for number, speed in enumerate(speeds))
+        total = sum(speeds)
+        square = sum(speed * speed for speed in speeds)
+        self.results[key] = (wrong, abs(total / strikers - 1.0), abs(square / strikers - 1.0))
+
+    def views(self):
+        """One picture per channel."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """The channels, the balls, and the books under each."""
+        self.yard.draw(canvas, "CRADLE", "do as many leave as came, with the same speed?")
+        for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
+            self._draw_channel(canvas, camera.viewport)
+            cast.draw(canvas, camera, self.worlds[index], alpha)
+            self._draw_words(canvas, index, name, camera.viewport)
+
+    def _draw_channel(self, canvas, view):
+        surface, y = canvas.surface, view.y + round(LINE * ZOOM)
+        reach = round(RADIUS * ZOOM)
+        plate(canvas, (0, y - reach - 2, 480, 2 * reach + 4), (20, 16, 32, 150))
+        for edge, lit in ((y - reach - 3, (190, 196, 216)), (y + reach + 2, (92, 96, 124))):
+            surface.fill((58, 60, 82), (0, edge - 1, 480, 3))
+            surface.fill(lit, (0, edge - 1, 480, 1))
+        for x, width in ((0, round(LEFT * ZOOM)), (round(RIGHT * ZOOM), 480)):
+            surface.fill((92, 96, 124), (x, y - reach - 3, width, 2 * reach + 6))
+            pygame.draw.rect(surface, (20, 16, 32), (x, y - reach - 3, width, 2 * reach + 6), 1)
+
+    def _draw_words(self, canvas, index, name, view):
+        y = view.y + 66
+        canvas.text(SOLVER_WORDS[name], 8, view.y + 6, COLORS[name], outline=True)
+        bodies = self.worlds[index].bodies
+        energy = 100.0 * kinetic_energy(self.worlds[index]) / self.energy[index]
+        momentum = 100.0 * float((bodies["mass"] * bodies["vx"]).sum()) / self.momentum[index]
+        key = (name, int(self.values["strikers"]), int(self.values["gap"]))
+        plate(canvas, (4, y - 3, 472, 12))
+        canvas.text("momentum", 10, y, FOG, SMALL)
+        canvas.text(f"{momentum:+.4f} %", 110, y, PAPER, SMALL, align="right")
+        canvas.text("energy", 134, y, FOG, SMALL)
+        canvas.text(f"{energy:.4f} %", 226, y, PAPER, SMALL, align="right")
+        if key in self.results:
+            clean = self.results[key][0] < 1e-6
+            canvas.text("as many leave as came" if clean else f"others move too, by {100 * self.results[key][0]:.1f} %",
+                        470, y, GREEN if clean else RED, SMALL, align="right")
+        else:
+            canvas.text("not struck yet", 470, y, FOG, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """An arrow over every ball that moves, as long as it is fast."""
+        for index, camera in enumerate(self.cameras):
+            lens = frame.lens(camera)
+            for body in self.balls[index]:
+                way = body.velocity[0] / SPEED
+                if abs(way) > 0.01:
+                    x, y = lens.points(*body.position)
+                    y -= 20 * frame.scale
+                    end = x + way * 18 * frame.scale
+                    tip = 3 * frame.scale * (1 if way > 0 else -1)
+                    pygame.draw.line(frame.surface, faded(COLORS[SOLVERS[index]], 0.0), (x, y), (end, y), frame.scale)
+                    pygame.draw.polygon(frame.surface, COLORS[SOLVERS[index]],
+                                        [(end + tip, y), (end, y - abs(tip)), (end, y + abs(tip))])
+
+    def check(self):
+        """One in, one out; two in, two out; nothing lost."""
+        goals = []
+        for name in SOLVERS:
+            for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
+                wrong, momentum, energy = self.results.get((name, strikers, 8), (1.0, 1.0, 1.0))
+                goals.append(Goal(f"{name}: {strikers} in, {strikers} out", due, wrong < CLEAN, f"off by {wrong:.2e}"))
+                goals.append(Goal(f"{name}, {strikers}: momentum and energy stay", due, max(momentum, energy) < CLEAN,
+                                  f"{momentum:.2e}, {energy:.2e}"))
+            drift = self.drift.get((name, 1, 8), 1.0)
+            goals.append(Goal(f"{name}: with one striker energy stays for good, walls and all", SWITCH_AT, drift < CLEAN,
+                              f"{drift:.2e}"))
+        return goals
+
+    def bot(self):
+        """One striker, then two."""
+        return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
+
+    def state(self):
+        """The books; the worlds hold the balls."""
+        found = [value for key in sorted(self.results) for value in (*key, *self.results[key])]
+        drift = [value for key in sorted(self.drift) for value in (*key, self.drift[key])]
+        return (self.frame, *self.values.values(), self.touched, *found, *drift)

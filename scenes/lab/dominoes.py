@@ -1,0 +1,207 @@
+"""Two rows of dominoes, the second four times as large: does its wave run twice as fast?
+
+What to see: both rows look alike, and so they must fall: with gravity alone as the clock, four times the size takes
+twice the time (Froude's rule). Any length hidden in the solver, a slop, a margin, a fixed speed, breaks the likeness.
+So the second row lags behind on the screen by half, and its wave runs at twice the speed over the ground.
+"""
+
+from math import degrees, radians, sqrt
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Effects, Material, Polygon
+from scenes.lab.piles import SOLVERS
+from scenes.lab.yard import Yard, plate
+
+KEEPING = SOLVERS[1:]                # those that can hold a row of dominoes up
+SCALES = (1.0, 4.0)                  # of the two rows
+HEIGHT, THICK = 32.0, 6.0            # [px] of a domino of the first row
+DRAWN = 48.0                         # [canvas px] of every domino
+COLORS = (SKY, ORANGE)
+FLOORS = (104, 222)                  # [canvas px]
+VIEWS = ((0, 16, 480, 104), (0, 136, 480, 102))
+FIRST_X = 16.0                       # [canvas px] of the first domino
+ROOM = 424.0                         # [canvas px] for the row
+PUSH = 1.0                           # [sqrt(g h)] speed given to the first one's top
+PUSHED_AT = 30                       # the bot's step
+FELL = radians(60.0)
+PASSES = radians(12.0)               # the wave has reached a domino that leans this far
+SMOOTH, FLOOR = 0.05, 12.8           # friction of polished bone; of the table, so that feet grip it: sqrt(a * b) = 0.8
+STEADY = 4                           # the first dominoes and the last two are not timed: the wave has to find its speed
+
+
+class Dominoes(Scene):
+    """Two worlds: the same row, small and large."""
+
+    name = "lab/dominoes"
+    title = "Dominoes"
+    about = "The same row of dominoes at two sizes. Four times as large, the wave should run twice as fast."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+    pieces = ("boxes",)
+    features = ("Froude's scaling measured: size x 4, speed x 2", "thin boxes that topple and come to rest leaning")
+    solvers = KEEPING
+    sliders = (Slider("spacing", 45, 80, 60, "% of height", step=5), Slider("substeps", 1, 8, 4),
+               Slider("solver", 0, 1, 1, choices=KEEPING))
+    actions = (("Space", "push"), ("left right", "spacing"), ("up down", "substeps"))
+    draggable = True
+    legend_at = (190, 20)
+
+    def build(self):
+        """Two tables; fill() sets the rows up."""
+        self.yard = Yard(FLOORS, 50, table=True)
+        if self.solver in KEEPING:          # named on the command line, or chosen before a restart
+            self.values["solver"] = KEEPING.index(self.solver)
+        self.fill()
+
+    def fill(self):
+        """Two new worlds with a row each."""
+        self.solver = KEEPING[int(self.values["solver"])]
+        self.worlds, self.casts, self.rows, self.cameras = [], [], [], []
+        spacing = HEIGHT * self.values["spacing"] / 100.0
+        count, zoom = int(ROOM / spacing * HEIGHT / DRAWN) + 1, DRAWN / HEIGHT
+        for scale, view, floor in zip(SCALES, VIEWS, FLOORS, strict=True):
+            world, cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
+            world.add_body(Polygon.box(600 * scale, 64 * scale), position=(120 * scale, 32 * scale), kind="static",
+                           material=Material(friction=FLOOR))
+            shape = Polygon.box(THICK * scale, HEIGHT * scale)
+            row = [world.add_body(shape, position=((FIRST_X / zoom + n * spacing) * scale, -HEIGHT * scale / 2),
+                                  material=Material(friction=SMOOTH)) for n in range(count)]
+            for number, body in enumerate(row):
+                cast.add(body, f"domino_{number * 7 % 4}")
+            self.cameras.append(Camera(view, zoom / scale, y=-(floor - view[1]) * scale / zoom))
+            self.casts.append(cast)
+            self.rows.append(row)
+        self.since = 0
+        self.pushed = None                             # step of the push
+        self.leaned = [[0.0] * count for _ in SCALES]  # angles a step ago [rad]
+        self.passed = [[None] * count for _ in SCALES] # [steps] when the wave came by, between steps
+
+    def change_slider(self, name, value):
+        """Set up anew."""
+        super().change_slider(name, value)
+        self.fill()
+
+    def update(self, inputs):
+        """Keys, two steps, and the clock at every domino."""
+        for name, forth, back, notch in (("spacing", "right", "left", 5), ("substeps", "up", "down", 1)):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way * notch)
+        if inputs.pressed("fire"):
+            self._push()
+        self.since += 1
+        for index, world in enumerate(self.worlds):
+            world.step()
+            self._time(index)
+
+    def _push(self):
+        """The same push for both, by Froude's rule; a second one sets the rows up first."""
+        if self.pushed is not None:
+            self.fill()
+        self.pushed = self.since
+        self.play("hit")
+        for scale, world, row in zip(SCALES, self.worlds, self.rows, strict=True):
+            first = row[0]
+            x, y = first.position
+            speed = PUSH * sqrt(world.gravity[1] * HEIGHT * scale)
+            # At the top, (h/2)^2 / inertia shares the impulse between moving and turning.
+            gives = 1.0 / first.mass + (HEIGHT * scale / 2) ** 2 / first.inertia
+            first.apply_impulse((speed / gives, 0.0), (x, y - HEIGHT * scale / 2))
+
+    def _time(self, index):
+        leaned, passed = self.leaned[index], self.passed[index]
+        for number, body in enumerate(self.rows[index]):
+            before, now = leaned[number], body.angle
+            if passed[number] is None and now >= PASSES:
+                passed[number] = self.since - 1 + (PASSES - before) / (now - before)
+                if number:
+                    self.play("blip", FIRST_X + number * DRAWN * self.values["spacing"] / 100.0, 0.25)
+            leaned[number] = now
+
+    def speed(self, index):
+        """The wave's speed over the ground between the timed dominoes [px/s], or None before it is there."""
+        passed = self.passed[index]
+        last = len(passed) - 3
+        if passed[last] is None or passed[STEADY] is None:
+            return None
+        spacing = HEIGHT * SCALES[index] * self.values["spacing"] / 100.0
+        return (last - STEADY) * spacing / ((passed[last] - passed[STEADY]) * self.worlds[index].dt)
+
+    def ratio(self):
+        """How many times as fast the wave of the large ones is, or None."""
+        small, large = self.speed(0), self.speed(1)
+        return None if small is None or large is None else large / small
+
+    def views(self):
+        """One picture per row."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """Two tables with their rows; over each its size and its speed."""
+        self.yard.draw(canvas, "DOMINOES", "four times as large: does the wave run twice as fast?")
+        for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
+            cast.draw(canvas, camera, self.worlds[index], alpha)
+            self._draw_words(canvas, index)
+        ratio = self.ratio()
+        plate(canvas, (352, 142, 124, 30))
+        canvas.text("large : small", 358, 146, FOG, SMALL)
+        right = abs(ratio - 2.0) < 0.04 if ratio else True
+        canvas.text(f"{ratio:.3f}" if ratio else "-", 470, 146, GREEN if right else RED, align="right")
+        canvas.text("Froude: sqrt(4) =", 358, 159, FOG, SMALL)
+        canvas.text("2.000", 470, 158, PAPER, align="right")
+
+    def _draw_words(self, canvas, index):
+        color, scale, top = COLORS[index], SCALES[index], VIEWS[index][1] + 6
+        plate(canvas, (4, top, 180, 30))
+        canvas.surface.fill(color, (4, top, 2, 30))
+        meter = self.worlds[index].tolerances.pixels_per_meter
+        speed = self.speed(index)
+        canvas.text(f"{HEIGHT * scale / meter:g} m high", 10, top + 4, color)
+        canvas.text(f"{speed / meter:.2f} m/s" if speed else "- m/s", 178, top + 4, PAPER, align="right")
+        bar = round(meter / scale * DRAWN / HEIGHT)
+        canvas.surface.fill(PAPER, (10, top + 22, bar, 1))
+        for x in (10, 9 + bar):
+            canvas.surface.fill(PAPER, (x, top + 20, 1, 5))
+        canvas.text("1 m", 14 + bar, top + 20, FOG, SMALL)
+        fallen = sum(body.angle > FELL for body in self.rows[index])
+        canvas.text(f"{fallen} of {len(self.rows[index])} down", 178, top + 20, FOG, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """A mark under the head of each wave."""
+        for index, camera in enumerate(self.cameras):
+            there = [body for body, at in zip(self.rows[index], self.passed[index], strict=True) if at is not None]
+            if there and len(there) < len(self.rows[index]):
+                lens = frame.lens(camera)
+                x, y = lens.points(there[-1].position[0], 0.0)
+                s = frame.scale
+                mark = [(x, y + 2 * s), (x - 3 * s, y + 8 * s), (x + 3 * s, y + 8 * s)]
+                pygame.draw.polygon(frame.surface, COLORS[index], mark)
+                pygame.draw.line(frame.surface, faded(COLORS[index], 0.3), (x, y), (x, y - 52 * s))
+
+    def check(self):
+        """All fall, none falls by itself, and the speeds are as two to one."""
+        ratio = self.ratio()
+        angles = [[body.angle for body in row] for row in self.rows]
+        least = min(min(row) for row in angles)
+        return [
+            Goal("none falls before the push", PUSHED_AT, self.pushed is not None or least > -0.01,
+                 f"{degrees(least):.2f} deg"),
+            Goal("all are down by more than 60 degrees", 540, least > FELL, f"the least {degrees(least):.1f} deg"),
+            Goal("four times the size, twice the speed, within 2 %", 540, ratio is not None and abs(ratio - 2.0) < 0.04,
+                 f"{ratio:.4f}" if ratio else "not there yet"),
+        ]
+
+    def bot(self):
+        """One push."""
+        return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
+
+    def state(self):
+        """The clocks; the worlds hold the dominoes."""
+        return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

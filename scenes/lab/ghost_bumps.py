@@ -1,0 +1,275 @@
+"""A floor of boxes, a floor of tiles, a chain: all equally flat. On which of them are the seams felt?
+
+What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Separate boxes know
+nothing of each other, so a corner that is sunk in by a hair catches on the next box's side. Tiles are merged and the
+links of a chain know their neighbours: there the speed stays the same to the last bits.
+"""
+
+from collections import deque
+from math import log10
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
+from game.draw import SMALL
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas, load_backdrop
+from game.turned import Cast
+from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
+from scenes.lab.pieces import piece
+
+FLOORS = ("boxes", "tiles", "chain")
+TITLES = {"boxes": "separate boxes", "tiles": "one grid of tiles", "chain": "one chain"}
+COLORS = {"boxes": RED, "tiles": SKY, "chain": GREEN}
+TILE, LENGTH = 16, 260               # [px] of a tile; tiles of a floor
+FLOOR_Y = 54.0                       # [px] the floor's surface in a view
+KINDS = {"box": (Polygon.box(14, 14), "wood", 7.0), "disc": (Circle(7.0), "gold", 7.0),
+         "capsule": (Capsule((-7, 0), (7, 0), 5.0), "teal", 5.0)}      # shape, colours, height of the middle
+START_X = {"box": 210.0, "disc": 130.0, "capsule": 50.0}       # [px]: side by side they would hide each other
+GROUND = Filter(membership=1)
+VIEWS = tuple((4, 32 + 80 * lane, 308, 70) for lane in range(len(FLOORS)))
+LOST = 40.0                          # [px] a slider this far from its place is set back to it
+WANTED = 200                         # tiles to slide over before the floors are judged
+KEEPS = 1e-9                         # of the speed: what merged floors may cost
+FELT = 1e-3                          # of the speed: a seam that can be felt
+HISTORY = 200                        # steps in the curves
+LEAST = 1e-16                        # errors below are drawn at the bottom
+PLOTS = (("speed error [log]", (318, 24, 158, 104)), ("height off the floor [px]", (318, 134, 158, 80)))
+HEIGHT_TOP = 4.0                     # [px] top of the lower curve
+
+
+class GhostBumps(Scene):
+    """One world per floor, three sliders in each."""
+
+    name = "lab/ghost_bumps"
+    title = "Ghost bumps"
+    about = "Box, disc and capsule slide over boxes, tiles and a chain: which floor's seams do they feel?"
+    effects = Effects(response=True, gravity=True, rotation=True, stacking=True)
+    pieces = ("boxes", "circles", "capsules", "tiles", "chains")
+    features = ("tiles merged into runs", "chains with ghost neighbours", "speed and height as live curves")
+    sliders = (Slider("speed", 60, 600, 360, "px/s", step=20),)
+    actions = (("left right", "speed"),)
+    draggable = True
+    legend_at = (318, 220)
+
+    def build(self):
+        """Three floors with three sliders each."""
+        for floor in FLOORS:
+            lay_floor(self.add_world(), floor)
+        self.cameras = [Camera(view) for view in VIEWS]
+        self.sky = load_backdrop("sky_dusk")
+        self.mountains = load_backdrop("mountains_mid")
+        self.tiles = load_atlas("tiles")
+        pictures = {kind: piece(shape, ramp) for kind, (shape, ramp, _) in KINDS.items()}
+        self.casts = [Cast(pictures) for _ in FLOORS]
+        self.curves = {floor: deque(maxlen=HISTORY) for floor in FLOORS}     # (speed error, height), only seen
+        self.sliding = [{} for _ in FLOORS]
+        for index, world in enumerate(self.worlds):
+            for number, (kind, (shape, _, _)) in enumerate(KINDS.items()):
+                body = world.add_body(shape, filter=Filter(2 << number, 1), gravity_scale=1.0)
+                self.casts[index].add(body, kind)
+                self.sliding[index][kind] = body
+        self.launch()
+
+    def launch(self):
+        """All sliders at their starts, and the tallies at nothing."""
+        keys = [(floor, kind) for floor in FLOORS for kind in KINDS]
+        self.slowed = dict.fromkeys(keys, 0.0)       # largest speed error, as a share
+        self.raised = dict.fromkeys(keys, 0.0)       # largest height off the floor [px]
+        self.aloft = dict.fromkeys(keys, 0)          # steps without a contact
+        self.set_back = dict.fromkeys(keys, 0)
+        self.free = dict.fromkeys(keys, False)       # dragged: no longer judged in this run
+        self.run = 0
+        self.nominal = 0.0                           # [px] that a slider should have come
+        for index in range(len(FLOORS)):
+            for kind in KINDS:
+                self._put(index, kind)
+        self._follow(jump=True)
+
+    def _put(self, index, kind):
+        body = self.sliding[index][kind]
+        body.move_to((START_X[kind] + self.nominal, FLOOR_Y - KINDS[kind][2]), 0.0)
+        body.velocity = (float(self.values["speed"]), 0.0)
+        body.angular_velocity = 0.0
+
+    def change_slider(self, name, value):
+        """Another speed: from the start again."""
+        before = self.values[name]
+        super().change_slider(name, value)
+        if self.values[name] != before:
+            self.launch()
+
+    def update(self, inputs):
+        """Keys, one step of each world, then speeds and heights; at the end of the floors from the start."""
+        turn = inputs.pressed("right") - inputs.pressed("left")
+        if turn:
+            self.change_slider("speed", self.values["speed"] + 20 * turn)
+        if START_X["box"] + self.nominal > (LENGTH - 4) * TILE:
+            done = self.run, self.slowed, self.raised, self.aloft, self.set_back
+            self.launch()
+            self.run, self.slowed, self.raised, self.aloft, self.set_back = done
+        for world in self.worlds:
+            world.step()
+        self.nominal += self.values["speed"] / 60
+        self.run = max(self.run, int(self.nominal // TILE))
+        for index in range(len(FLOORS)):
+            self._judge(index)
+        self._follow()
+
+    def _judge(self, index):
+        floor, world = FLOORS[index], self.worlds[index]
+        speed = float(self.values["speed"])
+        error_now = height_now = 0.0
+        contacts = world.contacts
+        near = contacts["separation"] <= world.tolerances.slop
+        touching = set(contacts["body_a"][near].tolist()) | set(contacts["body_b"][near].tolist())
+        for kind, (_, _, half) in KINDS.items():
+            body, key = self.sliding[index][kind], (floor, kind)
+            if self.drag.holds and self.drag.body.id == body.id and self.drag.world is world:
+                self.free[key] = True
+            x, y = body.position
+            error = abs(body.velocity[0] - speed) / speed
+            height = FLOOR_Y - half - y
+            if not self.free[key]:
+                error_now, height_now = max(error_now, error), max(height_now, height)
+                self.slowed[key] = max(self.slowed[key], error)
+                self.raised[key] = max(self.raised[key], height)
+                self.aloft[key] += body.id not in touching
+            if not self.drag.holds and abs(x - START_X[kind] - self.nominal) + abs(y - FLOOR_Y + half) > LOST:
+                self.set_back[key] += 1
+                self._put(index, kind)
+        self.curves[floor].append((error_now, height_now))
+
+    def _follow(self, jump=False):
+        for camera in self.cameras:
+            x = START_X["disc"] + self.nominal - camera.viewport.width / 2 + 24
+            camera.x, camera.y = x, 0.0
+            if jump:
+                camera.place(x, 0.0)
+
+    def views(self):
+        """One picture per floor."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """The floors in three strips, what each slider lost beside them."""
+        canvas.surface.fill(NIGHT)
+        canvas.text("GHOST BUMPS", 4, 4, GOLD)
+        canvas.text(f"{self.run} tiles at {self.values['speed']} px/s, no friction", 474, 6, FOG, SMALL, align="right")
+        for index, floor in enumerate(FLOORS):
+            camera = self.cameras[index]
+            view = camera.viewport
+            self._draw_strip(canvas, floor, camera, alpha)
+            self.casts[index].draw(canvas, camera, self.worlds[index], alpha)
+            pygame.draw.rect(canvas.surface, SLATE, view, 1)
+            canvas.text(TITLES[floor], view.x + 2, view.y - 8, COLORS[floor], SMALL)
+            words = "   ".join(f"{kind} {amount(self.slowed[floor, kind])}" for kind in KINDS)
+            canvas.text(words, view.right - 2, view.y - 8, PAPER, SMALL, align="right")
+        for number, floor in enumerate(FLOORS):
+            y = 222 + number * 14
+            canvas.surface.fill(COLORS[floor], (320, y, 3, 5))
+            stops = sum(self.set_back[floor, kind] for kind in KINDS)
+            canvas.text(TITLES[floor], 326, y, COLORS[floor], SMALL)
+            canvas.text(f"{stops} set back" if stops else "never set back", 474, y, FOG, SMALL, align="right")
+
+    def _draw_strip(self, canvas, floor, camera, alpha):
+        view, surface = camera.viewport, canvas.surface
+        left, _ = camera.view(alpha)
+        surface.set_clip(view)
+        surface.blit(self.sky, view, (60, 70, *view.size))
+        width = self.mountains.get_width()
+        x = view.x - round(left * 0.2) % width
+        while x < view.right:
+            surface.blit(self.mountains, (x, view.y + 6))
+            x += width
+        top = view.y + round(FLOOR_Y)
+        first = int(left // TILE)
+        for column in range(max(first, 0), min(first + view.width // TILE + 2, LENGTH)):
+            place = (column * TILE - round(left) + view.x, top)
+            if floor == "boxes":
+                surface.blit(self.tiles["stone_0"], place)
+            else:
+                surface.blit(self.tiles["ground_68" if floor == "tiles" else "ground_deep_0"], place)
+        if floor == "chain":
+            surface.fill(INK, (view.x, top, view.width, 2))
+            surface.fill(COLORS["chain"], (view.x, top, view.width, 1))
+            for column in range(first, first + view.width // TILE + 2):
+                x = column * TILE - round(left) + view.x
+                pygame.draw.circle(surface, INK, (x, top), 2)
+                surface.set_at((x, top), PAPER)
+        surface.set_clip(None)
+
+    def draw_on_frame(self, frame):
+        """The two curves at window resolution."""
+        for number, (title, canvas_rect) in enumerate(PLOTS):
+            rect = frame.from_canvas(canvas_rect)
+            scale = frame.text_scale
+            frame.surface.fill(INK, rect)
+            pygame.draw.rect(frame.surface, SLATE, rect, 1)
+            frame.text(title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
+            plot = pygame.Rect(rect.x + 2, rect.y + 12 * scale, rect.width - 4, rect.height - 15 * scale)
+            marks = ((1e-4, "1e-4"), (1e-8, "1e-8"), (1e-12, "1e-12")) if number == 0 else ((2.0, "2"), (4.0, "4"))
+            for value, text in marks:
+                y = plot.bottom - plot.height * share(number, value)
+                pygame.draw.line(frame.surface, (52, 46, 76), (plot.left, y), (plot.right, y))
+                frame.text_if_free(text, plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
+            for floor in FLOORS:
+                values = [each[number] for each in self.curves[floor]]
+                if len(values) > 1:
+                    step = plot.width / (HISTORY - 1)
+                    x = plot.right - step * (len(values) - 1)
+                    points = [(x + i * step, plot.bottom - 1 - (plot.height - 2) * share(number, value))
+                              for i, value in enumerate(values)]
+                    pygame.draw.lines(frame.surface, COLORS[floor], False, points, max(1, frame.scale - 1))
+
+    def check(self):
+        """Seams are felt where nobody merges them, and nowhere else."""
+        felt = max(self.slowed["boxes", kind] for kind in KINDS)
+        goals = [Goal("the seams of separate boxes are felt", 300, felt > FELT,
+                      ", ".join(f"{kind} {self.slowed['boxes', kind]:.1e}" for kind in KINDS))]
+        for floor in FLOORS[1:]:
+            worst = max(self.slowed[floor, kind] for kind in KINDS)
+            aloft, raised = (max(tally[floor, kind] for kind in KINDS) for tally in (self.aloft, self.raised))
+            goals += [
+                Goal(f"no speed is lost on the {floor}", 590, self.run >= WANTED and worst <= KEEPS,
+                     f"{worst:.1e} after {self.run} tiles"),
+                Goal(f"nothing leaves the {floor}", 590, self.run >= WANTED and aloft == 0 and raised < 0.1,
+                     f"{aloft} steps aloft, {raised:.3f} px high"),
+            ]
+        return goals
+
+    def bot(self):
+        """Watch."""
+        return frozenset()
+
+    def state(self):
+        """The tallies; the worlds hold the sliders."""
+        tallies = (self.slowed, self.raised, self.aloft, self.set_back)
+        return (self.frame, self.values["speed"], self.run, self.nominal, *(v for tally in tallies for v in tally.values()))
+
+
+def lay_floor(world, floor):
+    """The floor of a world, its surface at FLOOR_Y."""
+    if floor == "boxes":
+        middles = [((column + 0.5) * TILE, FLOOR_Y + TILE / 2) for column in range(LENGTH)]
+        world.add_bodies(Polygon.box(TILE, TILE), middles, kind="static", filter=GROUND)
+    elif floor == "tiles":
+        world.add_body(TileGrid([[True] * LENGTH], TILE), position=(0.0, FLOOR_Y), kind="static", filter=GROUND)
+    else:
+        points = [(column * TILE, 0.0) for column in range(LENGTH + 1)]
+        world.add_body(Chain(points), position=(0.0, FLOOR_Y), kind="static", filter=GROUND)
+
+
+def share(number, value):
+    """Where a value stands in a curve, 0 at the bottom to 1 at the top."""
+    if number == 1:
+        return min(max(value / HEIGHT_TOP, 0.0), 1.0)
+    return (log10(min(max(value, LEAST), 1.0)) - log10(LEAST)) / -log10(LEAST)
+
+
+def amount(error):
+    """A share as short text: 0, 1e-12, 3 %."""
+    if error <= 0.0:
+        return "0"
+    return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

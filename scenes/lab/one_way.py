@@ -1,0 +1,314 @@
+"""Planks that are open from below, and a lift: do crates and the hero agree about what is solid?
+
+What to see: springs throw crates, balls and nuts up through the planks, and they come to rest on top. The hero jumps
+through the same planks and stands on them. The lift carries a crate, which the solver moves, and a walker, which walks
+in whole pixels: neither slips.
+"""
+
+from math import cos, hypot, pi, sin
+
+import pygame
+
+from game.backdrop import Backdrop
+from game.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED
+from game.draw import SMALL, whole
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Character, Circle, Effects, Material, Polygon, TileGrid
+from scenes.lab.pieces import piece
+
+TILE, COLUMNS, ROWS = 16, 30, 17
+FLOOR = 15                                       # row of the floor
+PLANKS = {                                       # name: (row, first column, last column)
+    "low": (11, 1, 5), "middle": (8, 3, 8), "high": (5, 1, 7), "tower": (11, 11, 18), "roof": (7, 12, 17),
+}
+SPRINGS = (192.0, 240.0, 288.0)                  # [px] where bodies are thrown from
+KINDS = {"crate": (Polygon.box(16, 16), None), "ball": (Circle(7.0), "gold"),
+         "nut": (Polygon([(8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6)]), "violet")}
+BRAKED = Material(rolling_resistance=0.1)         # balls come to rest on a plank
+THROWS = (238.0, 306.0)                          # [px/s] up to the first plank, and up to the roof
+MOST = 9                                         # bodies at once; the oldest leaves
+REST_SPEED, REST_STEPS = 8.0, 20                 # slower than this for so long counts as landed
+HERO_BOX = (10, 20)                              # [px]
+WALKER_BOX = (16, 13)
+RUN, JUMP, HERO_GRAVITY, FALL = 110.0, 380.0, 900.0, 360.0     # [px/s], [px/s2]
+LIFT_AT, LIFT_SIZE = (396.0, 178.0), (56, 16)
+LIFT_WAY = (34.0, 34.0)                          # [px] swing along x and y
+RIDERS = (-15.0, 15.0)                           # [px] crate and walker from the lift's middle
+SETTLED = 60                                     # steps until riders count as riding
+DUST = ((240, 226, 210), (180, 160, 150), (110, 96, 110))
+BOT = ((20, 44, "jump"), (60, 84, "jump right"), (84, 110, "right"), (140, 150, "jump left"), (150, 172, "left jump"),
+       (215, 218, "down jump"), (260, 262, "down jump"), (300, 330, "right"), (330, 352, "jump left"))
+
+
+class OneWay(Scene):
+    """One world of tiles, thrown bodies, a hero, and a lift with two riders."""
+
+    name = "lab/one_way"
+    title = "One-way platforms"
+    about = "Crates and the hero pass the same planks from below, land on them, and ride the same lift."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, one_way=True)
+    pieces = ("tiles", "boxes", "circles", "queries", "characters")
+    features = ("one-way tiles for solver bodies and characters", "a kinematic lift carries both",
+                "the hero pushes crates and stands on them")
+    sliders = (Slider("throw every", 20, 120, 35, "steps", step=5), Slider("lift", 0.0, 2.0, 1.0, step=0.25))
+    actions = (("left right", "run"), ("Space", "jump"), ("down+Space", "drop"))
+    draggable = True
+    legend_at = (8, 28)
+
+    def build(self):
+        """Level, lift, riders and the hero; bodies are thrown with time."""
+        self.add_world()
+        self.backdrop = Backdrop()
+        self.tiles, self.things, self.heroes = load_atlas("tiles"), load_atlas("things"), load_atlas("hero")
+        pictures = {name: piece(shape, ramp) for name, (shape, ramp) in KINDS.items() if ramp}
+        pictures["crate"] = self.things["crate"]
+        self.cast = Cast(pictures)
+        self.world.add_body(level(), kind="static")
+        self.hero = Character(self.world, Polygon.box(*HERO_BOX), (48.0, FLOOR * TILE - HERO_BOX[1] / 2), user="hero")
+        self.vy, self.grounded, self.facing, self.run = 0.0, True, 1, 0.0
+        self.clock = 0.0                             # [steps] of the lift
+        self.lift = self.world.add_body(Polygon.box(*LIFT_SIZE), position=lift_at(0.0), kind="kinematic")
+        x, y = lift_at(0.0)
+        top = y - LIFT_SIZE[1] / 2
+        self.rider = self.world.add_body(KINDS["crate"][0], position=(x + RIDERS[0], top - 8.0))
+        self.cast.add(self.rider, "crate")
+        self.walker = Character(self.world, Polygon.box(*WALKER_BOX), (x + RIDERS[1], top - WALKER_BOX[1] / 2), user="walker")
+        self.walker_vy = 0.0
+        self.thrown = {}                             # body id -> [was below, steps at rest, planks landed on]
+        self.throws = 0
+        self.passed = {"body": 0, "hero": 0}
+        self.landed = {"body": 0, "hero": 0}
+        self.hero_below = dict.fromkeys(PLANKS, True)
+        self.hero_through = None                     # the plank he came through and did not land on yet
+        self.offsets = None                          # where the riders stood when they had settled
+        self.slip = {"crate": 0.0, "walker": 0.0}
+        self.carried = 0.0                           # [px] way of the lift since then
+        self.disturbed = False                       # a rider was dragged
+
+    def change_slider(self, name, value):
+        """Another swing of the lift: its riders settle again."""
+        super().change_slider(name, value)
+        if name == "lift":
+            self.offsets = None
+
+    def update(self, inputs):
+        """Lift, hero, throws, one step, then who passed and who landed."""
+        if self.frame % max(1, int(self.values["throw every"])) == 10:
+            self._throw()
+        self._aim_lift()
+        before = self._hero_bottom()
+        self._move_hero(inputs)
+        self._move_walker()
+        self.world.step()
+        self._watch_bodies()
+        self._watch_hero(before)
+        self._watch_riders()
+
+    def _throw(self):
+        kind = tuple(KINDS)[self.throws % len(KINDS)]
+        x = SPRINGS[self.random.randrange(len(SPRINGS))]
+        speed = THROWS[self.random.randrange(2)] + self.random.uniform(0.0, 14.0)
+        self.throws += 1
+        found = self.world.query_aabb((x - 12.0, FLOOR * TILE - 28.0), (x + 12.0, FLOOR * TILE - 2.0))
+        if any(body.kind == "dynamic" for body in found):
+            return                                   # something lies on the spring
+        body = self.world.add_body(
+            KINDS[kind][0], position=(x, FLOOR * TILE - 14.0), velocity=(self.random.uniform(-9.0, 9.0), -speed),
+            angular_velocity=self.random.uniform(-1.5, 1.5), material=BRAKED,
+        )
+        self.cast.add(body, kind)
+        self.thrown[body.id] = [dict.fromkeys(PLANKS, True), 0, set()]
+        self.play("spring", x, 0.25)
+        self.particles.burst(x, FLOOR * TILE - 4, 8, DUST, speed=(20, 80), life=(0.15, 0.4), angle=-pi / 2, spread=1.6)
+        if len(self.thrown) > MOST:
+            self._vanish(next(iter(self.thrown)))
+
+    def _vanish(self, identity):
+        body = self.world.body(identity)
+        self.particles.burst(*body.center, 12, DUST, speed=(10, 60), life=(0.2, 0.5))
+        self.world.remove_body(body)
+        del self.thrown[identity]
+
+    def _aim_lift(self):
+        """The velocity that brings the lift to its next place in one step."""
+        x, y = self.lift.position
+        self.clock += float(self.values["lift"])
+        next_x, next_y = lift_at(self.clock)
+        self.lift.velocity = ((next_x - x) * 60, (next_y - y) * 60)
+
+    def _move_hero(self, inputs):
+        way = inputs.held("right") - inputs.held("left")
+        drops = inputs.held("down") and inputs.pressed("jump")
+        if inputs.pressed("jump") and self.grounded and not drops:
+            self.vy = -JUMP
+            self.play("jump", self.hero.position[0], 0.4)
+        if not inputs.held("jump") and self.vy < -0.4 * JUMP:
+            self.vy = -0.4 * JUMP
+        self.vy = min(self.vy + HERO_GRAVITY / 60, FALL)
+        if drops:
+            self.vy = 60.0
+        moved = self.hero.move(way * RUN / 60, self.vy / 60, drop=drops)
+        self.facing = way or self.facing
+        self.run += abs(moved.x)
+        if moved.grounded or (self.vy < 0.0 and moved.y == 0 and abs(self.vy) > 60.0):
+            self.vy = 0.0
+        self.grounded = moved.grounded
+
+    def _move_walker(self):
+        self.walker_vy = min(self.walker_vy + HERO_GRAVITY / 60, FALL)
+        if self.walker.move(0.0, self.walker_vy / 60).grounded:
+            self.walker_vy = 0.0
+
+    def _hero_bottom(self):
+        return self.hero.position[1] + HERO_BOX[1] / 2
+
+    def _watch_bodies(self):
+        shapes = self.world.shapes
+        bottoms = dict(zip(shapes["body"].tolist(), shapes["max_y"].tolist(), strict=True))
+        for identity, seen in list(self.thrown.items()):
+            body = self.world.body(identity)
+            x, y = body.center
+            if not (0.0 < x < COLUMNS * TILE and y < ROWS * TILE):
+                self._vanish(identity)
+                continue
+            bottom, (vx, vy) = bottoms[identity], body.velocity
+            below, slow, landed = seen
+            seen[1] = slow + 1 if hypot(vx, vy) < REST_SPEED else 0
+            for name, (row, first, last) in PLANKS.items():
+                top, inside = row * TILE, first * TILE < x < (last + 1) * TILE
+                if below[name] and bottom < top - 0.5:
+                    below[name] = False
+                    self.passed["body"] += inside and vy < 0.0
+                elif bottom > top + TILE:
+                    below[name] = True
+                if inside and abs(bottom - top) < 1.0 and seen[1] == REST_STEPS and name not in landed:
+                    landed.add(name)
+                    self.landed["body"] += 1
+
+    def _watch_hero(self, before):
+        bottom, x = self._hero_bottom(), self.hero.position[0]
+        for name, (row, first, last) in PLANKS.items():
+            top, inside = row * TILE, first * TILE < x < (last + 1) * TILE
+            if inside and before > top >= bottom and self.vy < 0.0:
+                self.passed["hero"] += 1
+                self.hero_through = name
+            if inside and self.grounded and bottom == top and self.hero_through == name:
+                self.landed["hero"] += 1
+                self.hero_through = None
+                self.play("land", x, 0.4)
+                self.particles.burst(x, bottom, 6, DUST, speed=(10, 50), life=(0.15, 0.35), angle=-pi / 2, spread=2.6)
+
+    def _watch_riders(self):
+        if self.frame < SETTLED or self.values["lift"] == 0.0:
+            return
+        x, y = self.lift.position
+        crate, walker = self.rider.position, self.walker.position
+        now = (crate[0] - x, crate[1] - y, walker[0] - x, walker[1] - y)
+        self.disturbed |= self.drag.holds and self.drag.body.id == self.rider.id
+        if self.disturbed:
+            return
+        if self.offsets is None:
+            self.offsets = now
+        self.carried += hypot(*self.lift.velocity) / 60
+        cx, cy, wx, wy = (a - b for a, b in zip(now, self.offsets, strict=True))
+        self.slip["crate"] = max(self.slip["crate"], hypot(cx, cy))
+        self.slip["walker"] = max(self.slip["walker"], abs(wx), abs(wy))
+
+    def draw(self, canvas, alpha):
+        """Dusk, the level, what moves in it, and the tallies."""
+        self.backdrop.draw(canvas, 40.0, dim=14)
+        surface = canvas.surface
+        for column in range(COLUMNS):
+            for row in (FLOOR, FLOOR + 1):
+                surface.blit(self.tiles["ground_124" if row == FLOOR else "ground_255"], (column * TILE, row * TILE))
+        for row, first, last in PLANKS.values():
+            for column in range(first, last + 1):
+                name = "left" if column == first else "right" if column == last else "middle"
+                surface.blit(self.tiles[f"plank_{name}"], (column * TILE, row * TILE))
+        for x in SPRINGS:
+            surface.blit(self.things["spring_0"], (round(x) - 8, FLOOR * TILE - 16))
+        self._draw_lift(canvas, alpha)
+        self.cast.draw(canvas, self.camera, self.world, alpha)
+        self._draw_characters(canvas, alpha)
+        self.particles.draw(canvas, self.camera, alpha)
+        self._draw_board(canvas)
+
+    def _draw_lift(self, canvas, alpha):
+        row = self.world.bodies[self.world.rows([self.lift.id])[0]]
+        x = row["previous_x"] + (row["x"] - row["previous_x"]) * alpha
+        y = row["previous_y"] + (row["y"] - row["previous_y"]) * alpha
+        left, top = whole(x - LIFT_SIZE[0] / 2), whole(y - LIFT_SIZE[1] / 2)
+        image = self.things["platform"]
+        canvas.surface.blit(image, (left, top), (0, 0, 28, 16))
+        canvas.surface.blit(image, (left + LIFT_SIZE[0] - 28, top), (image.get_width() - 28, 0, 28, 16))
+
+    def _draw_characters(self, canvas, alpha):
+        px, py = self.hero.previous
+        x, y = self.hero.position
+        x, bottom = px + (x - px) * alpha, py + (y - py) * alpha + HERO_BOX[1] / 2
+        if not self.grounded:
+            name = "jump_0" if self.vy < -60.0 else "fall_0"
+        else:
+            run = self.heroes.animation("run" if self.run > 0.0 and self.facing and self._runs() else "idle")
+            name = run.names[int(self.run / 13.0 if self._runs() else self.frame / 10) % len(run.names)]
+        image = self.heroes[name]
+        image = image if self.facing > 0 else pygame.transform.flip(image, True, False)
+        canvas.surface.blit(image, (whole(x) - image.get_width() // 2, whole(bottom) - image.get_height()))
+        px, py = self.walker.previous
+        x, y = self.walker.position
+        image = self.things.animation("walker").images[0]
+        canvas.surface.blit(image, (whole(x) - image.get_width() // 2, whole(y + WALKER_BOX[1] / 2) - image.get_height()))
+
+    def _runs(self):
+        return abs(self.hero.position[0] - self.hero.previous[0]) > 0.4
+
+    def _draw_board(self, canvas):
+        canvas.surface.fill(NIGHT, (0, 0, 480, 17))
+        canvas.surface.fill(INK, (0, 17, 480, 1))
+        canvas.text("ONE-WAY PLATFORMS", 4, 4, GOLD)
+        x = 474
+        good = max(self.slip.values()) < 2.0
+        for text, color in ((f"lift slips {max(self.slip.values()):.1f} px", GREEN if good else RED),
+                            (f"hero {self.passed['hero']} up {self.landed['hero']} landed", PAPER),
+                            (f"bodies {self.passed['body']} up {self.landed['body']} landed", FOG)):
+            x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
+
+    def check(self):
+        """Both kinds come through from below, both land, and the lift loses neither."""
+        return [
+            Goal("bodies come through from below", 600, self.passed["body"] >= 6, f"{self.passed['body']} times"),
+            Goal("bodies land on planks", 600, self.landed["body"] >= 3, f"{self.landed['body']} times"),
+            Goal("the hero comes through from below", 240, self.passed["hero"] >= 3, f"{self.passed['hero']} times"),
+            Goal("the hero lands on planks", 240, self.landed["hero"] >= 3, f"{self.landed['hero']} times"),
+            Goal("the lift carries crate and walker", 400, self.carried > 200.0 and max(self.slip.values()) < 2.0,
+                 f"{self.slip['crate']:.2f} px and {self.slip['walker']:.2f} px in {self.carried:.0f} px"),
+        ]
+
+    def bot(self):
+        """Up the left planks, down through two, and up again."""
+        frame = self.frame % 400
+        held = {action for start, end, actions in BOT if start <= frame < end for action in actions.split()}
+        return InputFrame(frozenset(held))
+
+    def state(self):
+        """The hero and the tallies; the world holds the rest."""
+        return (self.frame, *self.values.values(), self.vy, self.grounded, self.walker_vy, self.clock, self.throws,
+                *self.passed.values(), *self.landed.values(), *self.slip.values(), self.carried)
+
+
+def level():
+    """The floor, the walls beside it and the planks."""
+    solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
+    one_way = [[False] * COLUMNS for _ in range(ROWS)]
+    for row, first, last in PLANKS.values():
+        one_way[row][first : last + 1] = [True] * (last + 1 - first)
+    return TileGrid(solid, TILE, one_way)
+
+
+def lift_at(clock):
+    """Where the lift's middle is after so many steps of its clock [px]."""
+    turn = 2.0 * pi * clock / 240.0
+    return LIFT_AT[0] + LIFT_WAY[0] * cos(turn), LIFT_AT[1] + LIFT_WAY[1] * sin(2.0 * turn + 0.5 * pi) * 0.5

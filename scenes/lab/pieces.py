@@ -1,0 +1,80 @@
+"""Pictures of convex shapes in the game's style, made from the shape itself: what is drawn is what collides.
+
+Dark outline, light rim, dithered inside: the same seen from every side, so that the light does not turn with the body.
+"""
+
+from functools import lru_cache
+from math import ceil
+
+import numpy as np
+import pygame
+
+from game.colors import INK
+from game.turned import TurnedPicture
+from physics import Capsule, Circle
+
+OUTLINE, RIM = 1.0, 2.6         # [px] inwards from the edge
+# rim, inside, inside where dithered, mark
+RAMPS = {
+    "wood": ((246, 196, 120), (196, 128, 74), (168, 102, 66), (122, 70, 54)),
+    "steel": ((222, 232, 240), (142, 160, 184), (118, 134, 164), (80, 92, 124)),
+    "teal": ((150, 236, 212), (52, 168, 156), (40, 138, 138), (26, 98, 110)),
+    "coral": ((255, 190, 160), (232, 108, 92), (200, 82, 84), (146, 52, 72)),
+    "violet": ((220, 186, 250), (142, 104, 202), (116, 82, 176), (82, 56, 134)),
+    "gold": ((255, 240, 170), (238, 184, 76), (212, 146, 60), (158, 98, 50)),
+}
+
+
+@lru_cache(maxsize=128)
+def turning(shape, ramp):
+    """The picture of a shape, ready to be drawn at any angle with the shape's origin at a point."""
+    return TurnedPicture(piece(shape, ramp))
+
+
+def piece(shape, ramp, marked=True):
+    """A surface with the shape's origin in its middle. ramp: a name of RAMPS; marked: a spot that shows it turn."""
+    points, radius = hull(shape)
+    reach = ceil(float(np.hypot(points[:, 0], points[:, 1]).max()) + radius) + 1
+    side = np.arange(2 * reach) + 0.5 - reach
+    x, y = np.meshgrid(side, side, indexing="ij")
+    depth = -signed_distance(points, radius, x, y)
+    rim, inside, dither, mark = RAMPS[ramp]
+    colors = np.zeros((2 * reach, 2 * reach, 3), np.uint8)
+    colors[:] = inside
+    columns, rows = np.indices(x.shape)
+    colors[((columns + rows) % 2 == 0) & (depth > RIM + 1.0)] = dither
+    colors[depth < RIM] = rim
+    if marked and depth.max() > 4.5:
+        spot = points.mean(axis=0)
+        near = np.maximum(np.abs(x - spot[0]), np.abs(y - spot[1])) < 1.01
+        colors[near | ((np.abs(y - spot[1]) < 0.6) & (x > spot[0]) & (depth > RIM + 1.0))] = mark
+    colors[depth < OUTLINE] = INK
+    image = pygame.Surface((2 * reach, 2 * reach), pygame.SRCALPHA, 32)
+    pygame.surfarray.blit_array(image, colors)
+    alpha = pygame.surfarray.pixels_alpha(image)
+    alpha[:] = np.where(depth > 0.0, 255, 0)
+    del alpha                   # unlocks the surface
+    return image
+
+
+def hull(shape):
+    """A convex shape as corners (k, 2) clockwise on the screen and a rounding radius."""
+    if isinstance(shape, Circle):
+        return np.array([shape.center]), shape.radius
+    if isinstance(shape, Capsule):
+        return np.array([shape.a, shape.b]), shape.radius
+    return np.array(shape.points, float), float(getattr(shape, "radius", 0.0))
+
+
+def signed_distance(points, radius, x, y):
+    """Distance [px] from (x, y) to the edge of a rounded hull, negative inside; NumPy arrays or numbers."""
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    nearest = np.full(x.shape, np.inf)
+    inside = np.full(x.shape, len(points) > 2)
+    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0)):
+        dx, dy = bx - ax, by - ay
+        length = dx * dx + dy * dy
+        share = np.clip(((x - ax) * dx + (y - ay) * dy) / length, 0.0, 1.0) if length > 0.0 else 0.0
+        nearest = np.minimum(nearest, np.hypot(x - ax - share * dx, y - ay - share * dy))
+        inside &= dx * (y - ay) - dy * (x - ax) >= 0.0
+    return np.where(inside, -nearest, nearest) - radius

@@ -1,0 +1,37 @@
+"""What a pile of bodies does, in numbers: how deep it overlaps, how fast it moves, what energy it holds."""
+
+import numpy as np
+
+SOLVERS = ("projection", "sequential_impulse", "soft_step")
+SOLVER_WORDS = {"projection": "push out", "sequential_impulse": "impulses", "soft_step": "soft step"}
+
+
+def deepest(world):
+    """The deepest overlap of the world's contacts [px]."""
+    contacts = world.contacts
+    return max(0.0, -float(contacts["separation"].min())) if len(contacts) else 0.0
+
+
+def kinetic_energy(world):
+    """Of all moving bodies, turning included [mass px2/s2]."""
+    bodies = world.bodies
+    inertia = bodies["inertia"] if world.effects.rotation else 0.0
+    return 0.5 * float(np.sum(bodies["mass"] * (bodies["vx"] ** 2 + bodies["vy"] ** 2)
+                              + inertia * bodies["angular_velocity"] ** 2))
+
+
+def height_energy(world):
+    """Of all dynamic bodies in the world's gravity, against y = 0 [mass px2/s2]."""
+    bodies = world.bodies[world.bodies["inverse_mass"] > 0.0]
+    return -float(np.sum(bodies["mass"] * bodies["center_y"])) * world.gravity[1]
+
+
+def fastest(world):
+    """The highest speed of a dynamic body [px/s]."""
+    bodies = world.bodies[world.bodies["inverse_mass"] > 0.0]
+    return float(np.sqrt(np.max(bodies["vx"] ** 2 + bodies["vy"] ** 2))) if len(bodies) else 0.0
+
+
+def step_seconds(world):
+    """What the last step took, all stages [s]. Never part of a scene's state."""
+    return sum(world.profile.stages.values())

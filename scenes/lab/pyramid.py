@@ -1,0 +1,194 @@
+"""A pyramid of crates: does it stand still, and what does standing cost per step?
+
+What to see: rows grow the number of crates by the square and the weight on the lowest ones with it. Turn down the
+substeps or take another solver and the overlap grows and the top starts to wander. Then drop the ball.
+"""
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Circle, Effects, Material, Polygon
+from scenes.lab.curves import Curves
+from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds
+from scenes.lab.yard import Yard, plate
+
+SIZE = 32.0                         # [px] a crate of one metre
+LOOKS = ((9, 24), (14, 16), (20, 11))       # up to so many rows, crates are drawn that large [canvas px]
+FLOOR = 248                         # [canvas px]
+MIDDLE = 300                        # [canvas px] the pyramid's axis
+GAP = 0.02                          # of a crate, between neighbours in a row
+BALL = 20                           # [canvas px] radius of the ball's picture
+BALL_FROM = (160, 26)                # [canvas px] in the view
+BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] at which it is thrown
+DROP_AT = 330                       # the bot's step
+JUDGED_AT = 300                     # step at which the pyramid has to have stood still
+ENERGY_SLACK = 0.001                # of the height energy
+PLOTS = (("microseconds a step [log]", 108), ("overlap, 1/1000 crate [log]", 160))
+
+
+class Pyramid(Scene):
+    """One world, one pyramid, one ball."""
+
+    name = "lab/pyramid"
+    title = "Pyramid"
+    about = "Up to 210 crates in a pyramid: overlap, speed, energy and milliseconds, and a ball to knock it down."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+    pieces = ("boxes", "circles")
+    features = ("soft step with substeps, against the other solvers", "overlap, energy and cost measured live",
+                "a heavy ball to knock it down")
+    solvers = SOLVERS
+    sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 2, choices=SOLVERS))
+    actions = (("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
+    draggable = True
+    legend_at = (4, 212)
+
+    def build(self):
+        """The yard and the curves; fill() raises the pyramid."""
+        self.yard = Yard(FLOOR)
+        self.curves = [Curves(title, {title: color}) for (title, _), color in zip(PLOTS, (SKY, GOLD), strict=True)]
+        if self.solver in SOLVERS:          # named on the command line, or chosen before a restart
+            self.values["solver"] = SOLVERS.index(self.solver)
+        self.balls = 0
+        self.fill()
+
+    def fill(self):
+        """A new world with the pyramid in it."""
+        rows = int(self.values["rows"])
+        self.drawn = next(size for most, size in LOOKS if rows <= most)
+        zoom = self.drawn / SIZE
+        self.worlds = []
+        self.camera = Camera(((0, 16), (480, 254)), zoom, x=-MIDDLE / zoom, y=-(FLOOR - 16) / zoom)
+        self.solver = SOLVERS[int(self.values["solver"])]
+        world, self.cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
+        world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
+        shape, width = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP)
+        for row in range(rows):
+            for column in range(rows - row):
+                place = ((column - (rows - row - 1) / 2) * width, -(row + 0.5) * SIZE)
+                self.cast.add(world.add_body(shape, position=place), f"crate_{self.drawn}_{(row + column) % 2}")
+        self.top = world.body(int(world.bodies["id"][-1]))
+        self.crates = rows * (rows + 1) // 2
+        self.since = 0
+        self.thrown = None
+        self.quiet = 0.0             # fastest crate in the second before it is judged [px/s]
+        self.still = None            # where the top stood when it was judged, or None
+        self.deepest = 0.0           # overlap in that second [px]
+        self.energy = self.start_energy = height_energy(world)
+        self.most_energy = self.energy
+
+    def change_slider(self, name, value):
+        """Another solver goes on with the same crates; another number builds anew."""
+        super().change_slider(name, value)
+        if name == "solver":
+            self.solver = self.world.solver = SOLVERS[int(self.values["solver"])]
+        else:
+            self.fill()
+
+    def update(self, inputs):
+        """Keys, one step, the measurements."""
+        for name, forth, back in (("rows", "right", "left"), ("substeps", "up", "down")):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("fire"):
+            self._drop()
+        self.world.step()
+        self._sound()
+        self.since += 1
+        if self.thrown is None and not self.drag.holds:
+            self.energy = kinetic_energy(self.world) + height_energy(self.world)
+            self.most_energy = max(self.most_energy, self.energy)
+        if JUDGED_AT - 60 <= self.since <= JUDGED_AT and self.thrown is None:
+            self.quiet = max(self.quiet, fastest(self.world))
+            self.deepest = max(self.deepest, deepest(self.world))
+            if self.since == JUDGED_AT:
+                self.still = self.top.position
+
+    def _drop(self):
+        """A new ball from the upper left; the one before is taken away."""
+        if self.thrown is not None:
+            self.world.remove_body(self.thrown)
+        radius = BALL / self.camera.zoom
+        start = (self.camera.x + BALL_FROM[0] / self.camera.zoom, self.camera.y + BALL_FROM[1] / self.camera.zoom)
+        material = Material(density=BALL_DENSITY, friction=0.6)
+        self.thrown = self.world.add_body(Circle(radius), position=start, material=material,
+                                          velocity=(BALL_SPEED * SIZE, 0.0))
+        self.cast.add(self.thrown, "iron_ball")
+        self.balls += 1
+        self.play("land")
+
+    def _sound(self):
+        hits = self.world.events.hits
+        if self.thrown is not None and len(hits):
+            mine = (hits["body_a"] == self.thrown.id) | (hits["body_b"] == self.thrown.id)
+            if mine.any() and float(hits["speed"][mine].max()) > 4 * SIZE:
+                self.play("hit", None, 0.6)
+                self.camera.shake(0.25)
+
+    def observe(self):
+        """Feed the curves."""
+        self.curves[0].note({PLOTS[0][0]: step_seconds(self.world) * 1e6})
+        self.curves[1].note({PLOTS[1][0]: 1000.0 * deepest(self.world) / SIZE})
+
+    def draw(self, canvas, alpha):
+        """The pile before the dusk, the numbers on a plate."""
+        self.yard.draw(canvas, "PYRAMID", "does it stand still, and what does standing cost?")
+        self.cast.draw(canvas, self.camera, self.world, alpha)
+        plate(canvas, (4, 22, 130, 80))
+        solver = SOLVERS[int(self.values["solver"])]
+        canvas.text(f"{self.crates} crates", 10, 26, GOLD)
+        spent = self.curves[0].smooth.get(PLOTS[0][0], 0.0) / 1000.0
+        change = 100.0 * (self.energy - self.start_energy) / abs(self.start_energy)
+        rows = (("solver", SOLVER_WORDS[solver]), ("substeps", f"{self.values['substeps']}"),
+                ("a step", f"{spent:.2f} ms"), ("contacts", f"{len(self.world.contacts)}"),
+                ("overlap", f"{100 * deepest(self.world) / SIZE:.2f} %"),
+                ("fastest", f"{fastest(self.world) / SIZE:.3f} m/s"), ("energy", f"{change:+.3f} %"))
+        for number, (word, value) in enumerate(rows):
+            canvas.text(word, 10, 38 + number * 9, FOG, SMALL)
+            canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """The curves."""
+        for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
+            curves.draw(frame, (4, y, 130, 48))
+        if self.still is not None and self.thrown is None:
+            lens = frame.lens(self.camera)
+            x, y = lens.points(self.still[0], self.still[1] - SIZE)
+            wide, high = 3 * frame.scale, 5 * frame.scale
+            color = GREEN if self.quiet < SIZE / 20 else RED
+            pygame.draw.polygon(frame.surface, color, [(x, y), (x - wide, y - high), (x + wide, y - high)])
+
+    def check(self):
+        """It stood where it was built, without creeping, sinking or gaining energy; the ball then knocks it down."""
+        rows = int(self.values["rows"])
+        sunk = abs(self.still[1] + (rows - 0.5) * SIZE) / SIZE if self.still else 1.0
+        aside = abs(self.still[0]) / SIZE if self.still else 1.0
+        gained = (self.most_energy - self.start_energy) / abs(self.start_energy)
+        moved = self.top.position[1] + (rows - 0.5) * SIZE if self.thrown else 0.0
+        return [
+            Goal("nothing moves by more than a twentieth of a crate a second", JUDGED_AT,
+                 self.still is not None and self.quiet < SIZE / 20, f"{self.quiet / SIZE:.4f} crates/s"),
+            Goal("the top is where it was built", JUDGED_AT, sunk < 0.05 and aside < 0.05,
+                 f"{sunk:.4f} crates lower, {aside:.4f} aside"),
+            Goal("no overlap beyond a fiftieth of a crate", JUDGED_AT,
+                 self.still is not None and self.deepest < SIZE / 50, f"{self.deepest / SIZE:.4f} crates"),
+            Goal("standing adds no energy", JUDGED_AT, gained < ENERGY_SLACK, f"{gained:+.6f}"),
+            Goal("the ball knocks the top down", 560, self.thrown is not None and moved > 2 * SIZE,
+                 f"{moved / SIZE:.1f} crates"),
+        ]
+
+    def bot(self):
+        """Watch it stand, then drop the ball."""
+        return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
+
+    def state(self):
+        """The measurements; the world holds the rest."""
+        x, y = self.still or (0.0, 0.0)
+        return (self.frame, self.since, *self.values.values(), self.balls, self.quiet, self.deepest, self.energy,
+                self.most_energy, x, y)

@@ -1,0 +1,306 @@
+"""Any two convex shapes: how far apart are they, or how deep in each other, and do three methods agree?
+
+What to see: drag and turn the shapes. Below them the best axis of SAT with both shadows on it; at the right the same
+two shapes as one, the set of all differences A - B: they meet when it holds the origin. GJK walks to the origin with a
+simplex, EPA grows a polygon from inside to its edge; Enter shows the next step.
+"""
+
+from math import cos, hypot, pi, sin
+
+import numpy as np
+import pygame
+
+from game.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, WHITE, YELLOW, faded
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.overlays.layer_impulses import arrow
+from game.overlays.outlines import ring
+from game.scene import Goal, Scene, Slider
+from physics import Capsule, Circle, Effects, Polygon, Segment, collide, debug, distance
+from scenes.lab.pieces import hull
+from scenes.lab.shape_pictures import draw_differences, draw_shadows, placed_hull
+
+CHOICES = {
+    "circle": Circle(33.0), "capsule": Capsule((-27, 0), (27, 0), 17.0), "box": Polygon.box(72, 44),
+    "triangle": Polygon([(40, 0), (-22, 35), (-22, -35)]),
+    "hexagon": Polygon([(37 * cos(k * pi / 3), 37 * sin(k * pi / 3)) for k in range(6)]),
+    "rounded": Polygon(Polygon.box(46, 28).points, radius=12.0), "segment": Segment((-42, 0), (42, 0)),
+    "shard": Polygon([(45, -5), (20, 25), (-17, 30), (-42, 8), (-35, -20), (5, -27)]),
+}
+NAMES = tuple(CHOICES)
+COLORS = (SKY, ORANGE)                    # of A and B
+ARENA = pygame.Rect(4, 18, 300, 212)
+PICTURE = pygame.Rect(308, 18, 168, 130)  # of the differences
+SIDE_X, SIDE_Y = 310, 154
+ICON = 18
+ICONS = tuple(pygame.Rect(22 + i * (ICON + 2), 233 + row * (ICON + 1), ICON, ICON) for row in range(2) for i in range(len(NAMES)))
+START = ((128.0, 112.0, 0.2), (232.0, 104.0, -0.4))
+TURN_NOTCH, TURN_SPEED, MOVE_SPEED = 2 * pi / 64, 1.2, 70.0      # [rad], [rad/s], [px/s]
+EXACT = 1e-9                              # [px] within which the methods must agree, at this size
+LEG = 25                                  # steps of the bot with one pair of shapes
+MOST_STEPS = 24
+
+
+class Shapes(Scene):
+    """One world with two kinematic bodies; everything shown is asked of their shapes and poses."""
+
+    name = "lab/shapes"
+    title = "Shapes"
+    about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
+    effects = Effects()                   # contacts are found and drawn; nobody is pushed
+    features = ("separating axes and shadows", "GJK simplex and EPA polytope, round by round",
+                "collide, distance and SAT compared in every step")
+    sliders = (Slider("A", 0, len(NAMES) - 1, 2, choices=NAMES), Slider("B", 0, len(NAMES) - 1, 1, choices=NAMES),
+               Slider("step", 0, MOST_STEPS, MOST_STEPS))
+    actions = (("mouse", "drag"), ("wheel", "turn"), ("arrows", "move"), ("Shift+arrows", "turn"), ("Space", "other"),
+               ("Enter", "next step"))
+    legend_at = (8, 22)
+    hides_pointer = False
+
+    def build(self):
+        """Two bodies and the tallies."""
+        self.add_world()
+        self.poses = [list(pose) for pose in START]
+        self.chosen, self.dragged, self.grip = 1, None, (0.0, 0.0)
+        self.bodies = [self.world.add_body(shape, position=pose[:2], angle=pose[2], kind="kinematic")
+                       for shape, pose in zip(self.shapes, self.poses, strict=True)]
+        self.compared = self.overlapping = self.apart = 0
+        self.disagreed = self.mirrored = 0
+        self.worst = {"gap": 0.0, "axis": 0.0}
+        self.rounds = 0
+        self.pairs = set()
+        self._ask()
+
+    @property
+    def shapes(self):
+        """The two shapes chosen."""
+        return [CHOICES[NAMES[int(self.values[side])]] for side in "AB"]
+
+    @property
+    def step_shown(self):
+        """The round of GJK or EPA that is drawn, or None."""
+        return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
+
+    def change_slider(self, name, value):
+        """Another shape takes the same place."""
+        super().change_slider(name, value)
+        if name in "AB":
+            which = "AB".index(name)
+            self.bodies[which].set_shapes(self.shapes[which])
+            self.values["step"] = MOST_STEPS
+
+    def update(self, inputs):
+        """Hands, one step for the overlays, and all questions anew."""
+        self._hands(inputs)
+        for body, pose in zip(self.bodies, self.poses, strict=True):
+            body.move_to(tuple(pose[:2]), pose[2])
+        self.world.step()
+        self._ask()
+        self._compare()
+
+    def _hands(self, inputs):
+        x, y = inputs.pointer
+        if inputs.pointer_pressed:
+            self._press(x, y)
+        if not inputs.pointer_down:
+            self.dragged = None
+        pose = self.poses[self.chosen]
+        if self.dragged is not None:
+            pose[0], pose[1] = x + self.grip[0], y + self.grip[1]
+        pose[2] += inputs.wheel * TURN_NOTCH
+        if inputs.pressed("fire"):
+            self.chosen = 1 - self.chosen
+        if inputs.pressed("confirm"):
+            count = len(self.steps)
+            self.values["step"] = (min(int(self.values["step"]), count - 1) + 1) % max(count, 1)
+        side, rise = inputs.held("right") - inputs.held("left"), inputs.held("down") - inputs.held("up")
+        if inputs.held("focus"):
+            pose[2] += side * TURN_SPEED / 60
+        else:
+            pose[0] += side * MOVE_SPEED / 60
+            pose[1] += rise * MOVE_SPEED / 60
+        pose[0] = min(max(pose[0], ARENA.left + 36.0), ARENA.right - 36.0)
+        pose[1] = min(max(pose[1], ARENA.top + 36.0), ARENA.bottom - 36.0)
+
+    def _press(self, x, y):
+        for number, rect in enumerate(ICONS):
+            if rect.collidepoint(x, y):
+                self.chosen = number // len(NAMES)
+                self.change_slider("AB"[self.chosen], number % len(NAMES))
+        if ARENA.collidepoint(x, y):
+            gaps = [distance(Circle(0.5), (x, y, 0.0), shape, tuple(pose)).distance
+                    for shape, pose in zip(self.shapes, self.poses, strict=True)]
+            which = int(gaps[1] < gaps[0])
+            if gaps[which] < 6.0:
+                self.chosen = self.dragged = which
+                self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
+
+    def _ask(self):
+        a, b = self.shapes
+        pose_a, pose_b = (tuple(pose) for pose in self.poses)
+        self.gap = distance(a, pose_a, b, pose_b)
+        self.manifold = collide(a, pose_a, b, pose_b)
+        self.axes = debug.sat_axes(a, pose_a, b, pose_b)
+        self.steps = debug.gjk_steps(a, pose_a, b, pose_b)
+
+    def _compare(self):
+        """Three methods and both orders: overlap or not, how far, how deep."""
+        a, b = self.shapes
+        pose_a, pose_b = (tuple(pose) for pose in self.poses)
+        gap, other = self.gap, distance(b, pose_b, a, pose_a)
+        meets = len(self.manifold) > 0
+        self.compared += 1
+        self.pairs.add((int(self.values["A"]), int(self.values["B"])))
+        self.overlapping += meets
+        self.apart += not meets
+        self.disagreed += meets != (gap.distance <= 0.0)
+        self.mirrored += (other.distance, other.point_a, other.point_b) != (gap.distance, gap.point_b, gap.point_a)
+        self.rounds = max(self.rounds, gap.iterations)
+        if not meets:
+            (ax, ay), (bx, by) = gap.point_a, gap.point_b
+            self.worst["gap"] = max(self.worst["gap"], abs(hypot(bx - ax, by - ay) - gap.distance))
+        # No shadow's gap is wider than the gap itself, and one is as wide; the least overlap of shadows is the depth.
+        self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
+
+    def draw(self, canvas, alpha):
+        """Grounds, icons and numbers; the geometry comes at window resolution."""
+        canvas.surface.fill(NIGHT)
+        canvas.text("SHAPES", 4, 4, GOLD)
+        canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")
+        canvas.text("all differences A - B", PICTURE.x + 2, 6, FOG, SMALL)
+        for rect in (ARENA, PICTURE):
+            canvas.surface.fill(INK, rect)
+            pygame.draw.rect(canvas.surface, SLATE, rect.inflate(2, 2), 1)
+        for x in range(ARENA.left + 10, ARENA.right, 16):
+            canvas.surface.fill(faded(DUSK, 0.4), (x, ARENA.top, 1, ARENA.height))
+        for y in range(ARENA.top + 10, ARENA.bottom, 16):
+            canvas.surface.fill(faded(DUSK, 0.4), (ARENA.left, y, ARENA.width, 1))
+        for row, side in enumerate("AB"):
+            canvas.text(side, 8, 239 + row * (ICON + 1), COLORS[row])
+        for number, rect in enumerate(ICONS):
+            row, index = divmod(number, len(NAMES))
+            self._draw_icon(canvas.surface, rect, NAMES[index], COLORS[row], int(self.values["AB"[row]]) == index)
+        canvas.text(f"{NAMES[int(self.values['A'])]} and {NAMES[int(self.values['B'])]}", 190, 240, PAPER, SMALL)
+        canvas.text("click to choose", 190, 256, FOG, SMALL)
+        self._draw_numbers(canvas)
+
+    def _draw_icon(self, surface, rect, name, color, chosen):
+        surface.fill(DUSK if chosen else INK, rect)
+        pygame.draw.rect(surface, color if chosen else SLATE, rect, 1)
+        points, radius = hull(CHOICES[name])
+        corners = np.array(ring(points.tolist(), radius, 1.0)) * 0.165 + rect.center
+        if len(corners) > 2:
+            pygame.draw.polygon(surface, color if chosen else faded(color, 0.45), corners.tolist())
+        else:
+            pygame.draw.line(surface, color if chosen else faded(color, 0.45), *corners.tolist(), 2)
+
+    def _draw_numbers(self, canvas):
+        meets, gap = len(self.manifold) > 0, self.gap
+        color = RED if meets else GREEN
+        canvas.text("depth" if meets else "distance", SIDE_X, SIDE_Y + 3, color, SMALL)
+        canvas.text(f"{abs(gap.distance):.3f}", 474, SIDE_Y, color, align="right")
+        deepest = f"{float(np.min(self.manifold.separations)):.3f}" if meets else "no contact"
+        best = f"{float(self.axes[0]['separation']):.3f} of {len(self.axes)} axes"
+        rows = (("collide", deepest, PAPER), ("best axis", best, PAPER),
+                ("rounds", f"{gap.iterations}", PAPER), ("normal", f"{gap.normal[0]:.3f} {gap.normal[1]:.3f}", PAPER))
+        for line, (label, value, hue) in enumerate(rows):
+            y = SIDE_Y + 14 + line * 9
+            canvas.text(label, SIDE_X, y, FOG, SMALL)
+            canvas.text(value, 474, y, hue, SMALL, align="right")
+        y = SIDE_Y + 56
+        if self.steps:
+            index = min(int(self.values["step"]), len(self.steps) - 1)
+            step = self.steps[index]
+            what = f"{len(step['polytope'])} corners" if step["phase"] == "epa" else f"{len(step['simplex'])} points"
+            hue = PINK if step["phase"] == "epa" else YELLOW
+            canvas.text(f"{step['phase'].upper()} {what}", SIDE_X, y, hue, SMALL)
+            canvas.text(f"step {index + 1} of {len(self.steps)}", 474, y, hue, SMALL, align="right")
+            canvas.text("so far, of the cores", SIDE_X, y + 9, FOG, SMALL)
+            canvas.text(f"{step['distance']:.3f}", 474, y + 9, PAPER, SMALL, align="right")
+        wrong = self.disagreed + self.mirrored
+        canvas.text("compared", SIDE_X, y + 27, FOG, SMALL)
+        canvas.text(f"{self.compared} times, {len(self.pairs)} pairs", 474, y + 27, PAPER, SMALL, align="right")
+        canvas.text("disagreements", SIDE_X, y + 36, FOG, SMALL)
+        canvas.text(f"{wrong}", 474, y + 36, RED if wrong else GREEN, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """Shapes, shadows, witnesses and the picture of the differences."""
+        lens = frame.lens(self.camera)
+        width = max(1, frame.scale - 1)
+        surface = frame.surface
+        surface.set_clip(frame.from_canvas(ARENA))
+        placed = [placed_hull(shape, pose) for shape, pose in zip(self.shapes, self.poses, strict=True)]
+        for index, ((points, radius), color) in enumerate(zip(placed, COLORS, strict=True)):
+            corners = [lens.points(x, y) for x, y in ring(points, radius, lens.scale)]
+            if len(corners) > 2:
+                pygame.draw.polygon(surface, faded(color, 0.72 if index == self.chosen else 0.8), corners)
+            pygame.draw.lines(surface, color, True, corners, width + (index == self.chosen))
+            if radius and len(points) > 1:
+                core = [lens.points(x, y) for x, y in points]
+                pygame.draw.lines(surface, faded(color, 0.4), len(core) > 2, core, 1)
+        draw_shadows(frame, lens, placed, self.axes, COLORS)
+        self._draw_witness(frame, lens)
+        for point in self.manifold.points.tolist():
+            place = lens.points(*point)
+            pygame.draw.circle(surface, PAPER, place, 1.5 * frame.scale)
+            nx, ny = self.manifold.normal
+            arrow(frame, *place, nx * 12 * frame.scale, ny * 12 * frame.scale, RED)
+        surface.set_clip(None)
+        draw_differences(frame, frame.from_canvas(PICTURE), placed, len(self.manifold) > 0, self.step_shown)
+        for index, pose in enumerate(self.poses):
+            x, y = lens.points(pose[0], pose[1])
+            frame.text_if_free("AB"[index], x, y - 3 * frame.text_scale, COLORS[index], SMALL, frame.text_scale, "center", True)
+
+    def _draw_witness(self, frame, lens):
+        """The nearest points, and those of the step that is shown."""
+        a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
+        pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
+        for place in (a, b):
+            pygame.draw.circle(frame.surface, GOLD, place, 1.2 * frame.scale)
+        step = self.step_shown
+        if step is not None:
+            x, y = self.poses[0][:2]
+            places = [lens.points(x + px, y + py) for px, py in step["witness"]]
+            color = PINK if step["phase"] == "epa" else YELLOW
+            pygame.draw.line(frame.surface, faded(color, 0.3), *places)
+            for place in places:
+                pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
+
+    def check(self):
+        """The methods agree along the whole tour."""
+        return [
+            Goal("shapes seen apart and in each other", 240, min(self.apart, self.overlapping) > 20,
+                 f"{self.apart} and {self.overlapping} steps"),
+            Goal("collide and distance say the same", 590, self.compared > 500 and self.disagreed == 0,
+                 f"{self.disagreed} of {self.compared} differ"),
+            Goal("in either order the same", 590, self.mirrored == 0, f"{self.mirrored} differ"),
+            Goal("nearest points are as far apart as said", 590, self.worst["gap"] <= EXACT, f"{self.worst['gap']:.1e} px"),
+            Goal("the best axis is as wide as the distance, or the depth", 590, self.worst["axis"] <= EXACT,
+                 f"{self.worst['axis']:.1e} px off"),
+            Goal("many pairs of shapes", 590, len(self.pairs) >= 20, f"{len(self.pairs)}"),
+        ]
+
+    def bot(self):
+        """A tour: another pair every 25 steps; B is dragged into A and out again, turning."""
+        leg, step = divmod(self.frame, LEG)
+        changes = ()
+        if step == 0:
+            changes = (("slider:A", leg % len(NAMES)), ("slider:B", (leg * 3 + leg // len(NAMES)) % len(NAMES)))
+        if step == 0:                      # let go, so that the next press takes hold of B's middle
+            return InputFrame(frozenset(), self._pointer(1), False, 0, changes)
+        share = (step - 1) / (LEG - 2)
+        reach = 112.0 * abs(2.0 * share - 1.0) + 6.0
+        turn = 0.7 * leg + share
+        target = (round(START[0][0] + 14 + reach * cos(turn)), round(START[0][1] + 8 + 0.8 * reach * sin(turn)))
+        pointer = self._pointer(1) if step == 1 else target
+        actions = frozenset({"confirm"}) if step in (8, 10, 12, 14) else frozenset()
+        return InputFrame(actions, pointer, True, 1 if step % 3 == 0 else 0, changes)
+
+    def _pointer(self, which):
+        return round(self.poses[which][0]), round(self.poses[which][1])
+
+    def state(self):
+        """The poses and the tallies."""
+        poses = [value for pose in self.poses for value in pose]
+        return (self.frame, *poses, *self.values.values(), self.chosen, self.compared, self.overlapping, self.disagreed,
+                self.mirrored, self.rounds)

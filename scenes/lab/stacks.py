@@ -1,0 +1,188 @@
+"""The same column of crates in three worlds, one per solver: which of them stands straight?
+
+What to see: pushing out treats each overlap by itself and forgets the weight above: the column jitters apart.
+Impulses that are kept from step to step carry it. The soft step keeps them too, and its contacts give like stiff
+springs: its column stands a third of a percent lower, and comes to rest after a nudge. Take substeps away, make the
+crate on top heavy, drag one out: who falls first?
+"""
+
+from math import hypot
+
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Effects, Material, Polygon
+from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest
+from scenes.lab.yard import Yard, plate
+
+COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
+SIZE, ZOOM = 32.0, 0.5                     # [px] a crate of one metre, drawn 16 px large
+VIEWS = ((4, 16, 154, 210), (163, 16, 154, 210), (322, 16, 154, 210))
+FLOOR = 220                                # [canvas px]
+MIDDLE, GROUND = 154.0, (FLOOR - 16) / ZOOM    # [px] of each world
+UNEVEN = (0.0, 1.5, -1.0, 0.5, -1.5, 1.0)  # [px] crates are not laid exactly one over the other
+NUDGE = 40.0                               # [px/s] given to a top crate that is not heavy
+WINDOW = 60                                # steps over which the sway is measured
+SETTLED = 120                              # steps after which sway counts
+
+
+class Stacks(Scene):
+    """Three worlds with the same column."""
+
+    name = "lab/stacks"
+    title = "Stacks"
+    about = "One column of crates under three solvers: height, sway and overlap, measured live."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+    pieces = ("boxes",)
+    features = ("push-out, sequential impulses and soft step side by side", "sag, sway and overlap measured live")
+    solvers = SOLVERS
+    sliders = (Slider("crates", 4, 12, 11), Slider("top crate", 1, 20, 1, "x as heavy"), Slider("substeps", 1, 8, 4))
+    actions = (("Space", "nudge"), ("left right", "crates"), ("up down", "top crate"))
+    draggable = True
+    legend_at = (4, 20)
+
+    def build(self):
+        """The picture of the yard, then three worlds."""
+        self.yard = Yard(FLOOR)
+        self.cameras = [Camera(view, ZOOM) for view in VIEWS]
+        self.fill()
+
+    def fill(self):
+        """Three new worlds with the same crates."""
+        self.worlds, self.casts, self.tops = [], [], []
+        self.since = self.nudged = 0
+        self.touched = False
+        self.track = {name: [] for name in SOLVERS}         # x of the top crate in the last steps
+        self.sway = dict.fromkeys(SOLVERS, 0.0)
+        self.sag = dict.fromkeys(SOLVERS, 0.0)
+        self.calm_sway = dict.fromkeys(SOLVERS, 0.0)        # the most while nobody had touched it
+        self.depth = dict.fromkeys(SOLVERS, 0.0)            # deepest since it settled
+        self.standing = dict.fromkeys(SOLVERS, 0)           # steps that the top crate stayed near its place
+        for name in SOLVERS:
+            self._raise_column(name)
+
+    def _raise_column(self, solver):
+        world, cast = self.add_world(solver=solver, substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
+        world.add_body(Polygon.box(8000, 64), position=(MIDDLE, GROUND + 32), kind="static")
+        count = int(self.values["crates"])
+        for number in range(count):
+            heavy = self.values["top crate"] if number == count - 1 else 1.0
+            place = (MIDDLE + UNEVEN[number % len(UNEVEN)], GROUND - (number + 0.5) * SIZE)
+            body = world.add_body(Polygon.box(SIZE, SIZE), position=place, material=Material(density=float(heavy)))
+            cast.add(body, "crate_16_2" if heavy > 1.0 else f"crate_16_{number % 2}")
+        self.casts.append(cast)
+        self.tops.append(body)
+
+    def change_slider(self, name, value):
+        """Another column is built at once."""
+        super().change_slider(name, value)
+        self.fill()
+
+    def update(self, inputs):
+        """Keys, three steps, three measurements."""
+        for name, forth, back in (("crates", "right", "left"), ("top crate", "up", "down")):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("fire"):
+            self.nudged += 1
+            self.touched = True
+            self.play("hit")
+            for top in self.tops:
+                top.apply_impulse((NUDGE * SIZE * SIZE, 0.0))
+        self.since += 1
+        self.touched |= self.drag.holds
+        for name, world, top in zip(SOLVERS, self.worlds, self.tops, strict=True):
+            world.step()
+            self._measure(name, world, top)
+
+    def _measure(self, name, world, top):
+        x, y = top.position
+        count = int(self.values["crates"])
+        self.sag[name] = y - (GROUND - (count - 0.5) * SIZE)
+        if self.since > SETTLED:
+            self.track[name] = [*self.track[name][-WINDOW + 1:], x]
+            self.sway[name] = max(self.track[name]) - min(self.track[name])
+            if not self.touched:
+                self.calm_sway[name] = max(self.calm_sway[name], self.sway[name])
+            self.depth[name] = max(self.depth[name], deepest(world))
+        self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
+
+    def stands(self, name):
+        """True while the top crate has never left its place by a crate's size."""
+        return self.standing[name] == self.since
+
+    def views(self):
+        """One picture per solver."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """The columns, and under each its numbers."""
+        self.yard.draw(canvas, "STACKS", "which solver lets a column of crates stand straight?")
+        for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
+            cast.draw(canvas, camera, self.worlds[index], alpha)
+            self._draw_words(canvas, name, camera.viewport)
+        for x in (160, 319):
+            pygame.draw.line(canvas.surface, faded(PAPER, 0.75), (x, 16), (x, 269))
+
+    def _draw_words(self, canvas, name, view):
+        box = pygame.Rect(view.x, 222, view.width, 46)
+        plate(canvas, box)
+        canvas.surface.fill(COLORS[name], (box.x, box.y, 2, box.height))
+        canvas.text(SOLVER_WORDS[name], box.x + 6, box.y + 3, COLORS[name])
+        stands = self.stands(name)
+        canvas.text("stands" if stands else "fell", box.right - 4, box.y + 3, GREEN if stands else RED, align="right")
+        tall = self.values["crates"] * SIZE
+        rows = (("sinks", self.sag[name] / tall), ("sways", self.sway[name] / SIZE),
+                ("overlap", self.depth[name] / SIZE))
+        for row, (word, share) in enumerate(rows):
+            y = box.y + 16 + row * 9
+            canvas.text(word, box.x + 6, y, FOG, SMALL)
+            canvas.surface.fill(faded(COLORS[name], 0.7), (box.x + 42, y, 56, 5))
+            canvas.surface.fill(COLORS[name], (box.x + 42, y, round(56 * min(1.0, abs(share))), 5))
+            canvas.text(f"{100 * share:.1f} %", box.right - 4, y, PAPER, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """A thin line where the top of an ideal column is."""
+        top = GROUND - self.values["crates"] * SIZE
+        for camera in self.cameras:
+            lens = frame.lens(camera)
+            (left, y), (right, _) = lens.points(MIDDLE - 60.0, top), lens.points(MIDDLE + 60.0, top)
+            for x in range(round(left), round(right), 6 * frame.scale):
+                pygame.draw.line(frame.surface, PAPER, (x, y), (x + 3 * frame.scale, y))
+
+    def check(self):
+        """Impulses that are kept hold the column, also against a nudge; pushing out does not."""
+        pushed, kept, soft = SOLVERS
+        tall = self.values["crates"] * SIZE
+        return [
+            Goal("the soft step stands, also after a nudge", 300, self.stands(soft) and self.nudged > 0,
+                 f"{self.standing[soft]} of {self.since} steps"),
+            Goal("left alone it sways by less than a fiftieth of a crate", 240, self.calm_sway[soft] < SIZE / 50,
+                 f"{self.calm_sway[soft]:.3f} px"),
+            Goal("it keeps its height to a hundredth", 300, abs(self.sag[soft]) < tall / 100,
+                 f"sinks {self.sag[soft]:.2f} px"),
+            Goal("its crates overlap by less than a fiftieth", 300, self.depth[soft] < SIZE / 50,
+                 f"{self.depth[soft]:.2f} px"),
+            Goal("sequential impulses stand until the nudge", 240, self.standing[kept] >= 240,
+                 f"sways {self.calm_sway[kept]:.2f} px"),
+            Goal("pushing out falls, or sinks three times as far", 300,
+                 not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
+                 f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px"),
+        ]
+
+    def bot(self):
+        """Watch, and nudge once."""
+        return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
+
+    def state(self):
+        """The measurements; the worlds hold the rest."""
+        measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
+        values = (row[name] for row in measured for name in SOLVERS)
+        return (self.frame, self.since, self.nudged, *self.values.values(), *values)

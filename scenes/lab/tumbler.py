@@ -1,0 +1,233 @@
+"""A turning drum full of shapes that are carried up and fall: does any of them ever get out?
+
+What to see: the drum is one kinematic body of many boxes. Its walls move into what lies on them in every step, from
+every side and at the same time, with the weight of the whole load above. A leak, a jitter or energy out of nothing
+would show at once.
+"""
+
+from math import cos, hypot, pi, sin
+from random import Random
+
+import numpy as np
+import pygame
+
+from game.camera import Camera
+from game.colors import FOG, GOLD, GREEN, INK, PAPER, RED
+from game.draw import SMALL
+from game.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from game.sprites import load_atlas
+from game.turned import Cast
+from physics import Capsule, Circle, Effects, Polygon
+from scenes.lab.piles import deepest, kinetic_energy, step_seconds
+from scenes.lab.yard import Yard, plate
+
+ZOOM = 0.5
+SIDES = 10
+INSIDE = 208.0                     # [px] from the middle to each wall
+WALL = 20.0                        # [px] thick
+FIN = 44.0                         # [px] the blades reach in
+VIEW = ((120, 16), (360, 254))
+MIDDLE = (360.0, 254.0)            # [px] of the world: the middle of the view
+TOYS = ("red", "blue", "gold", "green", "purple", "teal")
+SLACK = 8.0                        # [px] a centre beyond the wall's inner face by this much is out
+STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
+
+
+def ring(count, size, start):
+    """Corners of a regular polygon that fills size x size about its middle."""
+    angles = start + np.arange(count) * 2 * pi / count
+    return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
+
+
+KINDS = (("block", Polygon.box(20, 20)), ("disc", Circle(10)), ("brick", Polygon.box(28, 12)),
+         ("pill", Capsule((-6, 0), (6, 0), 6)), ("hexagon", Polygon(ring(6, 24, 0.0))),
+         ("triangle", Polygon(ring(3, 28, -pi / 2))))
+THINNEST = 12.0                    # [px] bricks and pills
+
+
+class Tumbler(Scene):
+    """One world: a drum, and shapes in it."""
+
+    name = "lab/tumbler"
+    title = "Tumbler"
+    about = "A turning drum of boxes with up to 160 mixed shapes in it. Not one may get out."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+    pieces = ("boxes", "circles", "capsules")
+    features = ("one kinematic body of many boxes", "circles, capsules, boxes, triangles and hexagons mixed")
+    sliders = (Slider("bodies", 20, 160, 130, step=10), Slider("speed", -2.0, 2.0, 0.6, "rad/s", step=0.1))
+    actions = (("left right", "drum's speed"), ("up down", "bodies"))
+    draggable = True
+    legend_at = (4, 130)
+
+    def build(self):
+        """The yard; fill() makes drum and load."""
+        self.yard = Yard(262, 70)
+        self.camera = Camera(VIEW, ZOOM)
+        self.fill()
+
+    def fill(self):
+        """A new world: the drum, and shapes laid out in rows inside it."""
+        self.worlds = []
+        world, self.cast = self.add_world(), Cast(load_atlas("lab"))
+        self.drum = world.add_body(*drum_boxes(), position=MIDDLE, kind="kinematic",
+                                   angular_velocity=float(self.values["speed"]))
+        count = int(self.values["bodies"])
+        random = Random(f"{self.seed} {count}")
+        for number, place in enumerate(places(count)):
+            name, shape = KINDS[number % len(KINDS)]
+            body = world.add_body(shape, position=place, angle=0.0 if name == "brick" else random.uniform(-pi, pi))
+            self.cast.add(body, f"{name}_{random.choice(TOYS)}")
+        self.escaped = 0
+        self.highest = MIDDLE[1] + INSIDE        # y of the highest centre since the load has settled
+        self.most = self.energy = 0.0            # kinetic energy
+        self.overlap = self.pressed = 0.0        # [px] deepest ever, and deepest of each step on average
+        self.spent = 0.0                         # [ms]
+        self.since = 0
+
+    def change_slider(self, name, value):
+        """Another number fills the drum anew, another speed only turns it."""
+        super().change_slider(name, value)
+        if name == "bodies":
+            self.fill()
+        else:
+            self.drum.angular_velocity = float(self.values["speed"])
+
+    def update(self, inputs):
+        """Keys, one step, and a look at who is where."""
+        for name, forth, back, notch in (("speed", "right", "left", 0.1), ("bodies", "up", "down", 10)):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way * notch)
+        self.world.step()
+        self.since += 1
+        self._look()
+
+    def _look(self):
+        bodies = self.world.bodies[1:]
+        x, y = bodies["x"] - MIDDLE[0], bodies["y"] - MIDDLE[1]
+        turned = self.drum.angle + np.arange(SIDES)[:, None] * 2 * pi / SIDES
+        out = (x * np.cos(turned) + y * np.sin(turned)).max(axis=0) > INSIDE + SLACK
+        self.escaped = max(self.escaped, int(out.sum()))
+        self.energy = kinetic_energy(self.world)
+        if self.since > 120:
+            self.highest = min(self.highest, float(bodies["y"].min()))
+            self.most = max(self.most, self.energy)
+            deep = deepest(self.world)
+            self.overlap = max(self.overlap, deep)
+            self.pressed += (deep - self.pressed) / (self.since - 120)
+
+    def observe(self):
+        """The clock."""
+        self.spent += (step_seconds(self.world) * 1e3 - self.spent) * 0.05
+
+    def draw(self, canvas, alpha):
+        """The drum, its load, the numbers."""
+        self.yard.draw(canvas, "TUMBLER", "does any of them ever get out of the turning drum?")
+        angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
+        draw_drum(canvas.surface, self.camera, angle)
+        self.cast.draw(canvas, self.camera, self.world, alpha)
+        plate(canvas, (4, 22, 112, 92))
+        out = self.escaped
+        canvas.text(f"{out} got out" if out else "none got out", 10, 26, RED if out else GREEN)
+        rows = (("shapes", f"{len(self.world.bodies) - 1}"), ("turns", f"{self.drum.angle / (2 * pi):.2f}"),
+                ("contacts", f"{len(self.world.contacts)}"), ("overlap", f"{deepest(self.world):.2f} px"),
+                ("on average", f"{self.pressed:.2f} px"),
+                ("speed", f"{self._pace():.0f} px/s"), ("a step", f"{self.spent:.2f} ms"))
+        for number, (word, value) in enumerate(rows):
+            canvas.text(word, 10, 40 + number * 10, FOG, SMALL)
+            canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
+
+    def _pace(self):
+        """Root mean square speed of the load [px/s]."""
+        mass = float(self.world.bodies["mass"][1:].sum())
+        return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
+
+    def check(self):
+        """Nobody gets out, the load is carried up, and it is not thrown about."""
+        fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE          # [px2/s2] what a fall through the whole drum gives
+        mass = float(self.world.bodies["mass"][1:].sum())
+        return [
+            Goal("none gets out", 300, self.escaped == 0, f"{self.escaped} of {len(self.world.bodies) - 1}"),
+            Goal("the load is carried above the middle", 480, self.highest < MIDDLE[1],
+                 f"highest at {self.highest:.0f} px"),
+            Goal("a quarter of a turn", 300, abs(self.drum.angle) > pi / 2, f"{self.drum.angle:.2f} rad"),
+            Goal("no energy out of nothing", 480, 0.0 < 2.0 * self.most / mass < fall,
+                 f"{2.0 * self.most / mass:.0f} of at most {fall:.0f} px2/s2"),
+            Goal("the deepest overlap is a fifth of the thinnest shape, on average", 480, self.pressed < THINNEST / 5,
+                 f"{self.pressed:.2f} px, once {self.overlap:.2f} px"),
+        ]
+
+    def bot(self):
+        """Watch."""
+        return InputFrame()
+
+    def state(self):
+        """What was seen; the world holds the rest."""
+        return (self.frame, self.since, *self.values.values(), self.escaped, self.highest, self.energy, self.most,
+                self.overlap, self.pressed)
+
+
+def drum_boxes():
+    """The walls, a little longer than a side so that the corners close, and every other one with a blade."""
+    side = 2.0 * (INSIDE + WALL) * np.tan(pi / SIDES)
+    boxes = []
+    for number in range(SIDES):
+        angle = 2 * pi * number / SIDES
+        boxes.append(Polygon.box(WALL, side, radial(INSIDE + WALL / 2, angle), angle))
+        if number % 2 == 0:
+            boxes.append(Polygon.box(FIN, WALL / 2, radial(INSIDE - FIN / 2, angle), angle))
+    return boxes
+
+
+def radial(distance, angle):
+    """The point at a distance from the drum's middle in a direction."""
+    return distance * cos(angle), distance * sin(angle)
+
+
+def places(count):
+    """So many places inside the drum, in rows from the bottom up."""
+    step, room = 24.0, INSIDE - 20.0
+    across = [step * column for column in range(-int(room / step), int(room / step) + 1)]
+    found = [(x, y) for y in reversed(across) for x in across if hypot(x, y) < room and not in_blade(x, y)]
+    return [(MIDDLE[0] + x, MIDDLE[1] + y) for x, y in found[:count]]
+
+
+def in_blade(x, y):
+    """True if a shape laid here would start inside a blade of the drum at rest."""
+    for number in range(0, SIDES, 2):
+        c, s = radial(1.0, 2 * pi * number / SIDES)
+        if c * x + s * y > INSIDE - FIN - 14.0 and abs(c * y - s * x) < WALL / 4 + 14.0:
+            return True
+    return False
+
+
+def draw_drum(surface, camera, angle):
+    """Walls, blades and rivets at an angle, lit from above left."""
+    x, y = camera.to_canvas(*MIDDLE)
+
+    def at(distance, turn):
+        dx, dy = radial(distance * ZOOM, angle + turn)
+        return x + dx, y + dy
+
+    half = pi / SIDES
+    inner, outer = INSIDE / cos(half), (INSIDE + WALL) / cos(half)
+    ground = [at(outer, half + 2 * half * number) for number in range(SIDES)]
+    pygame.draw.polygon(surface, (24, 20, 38), ground)
+    for number in range(SIDES):
+        turn = 2 * half * number
+        quad = [at(inner, turn - half), at(outer, turn - half), at(outer, turn + half), at(inner, turn + half)]
+        facing = -(cos(angle + turn) * -0.55 + sin(angle + turn) * -0.8)        # the inner face looks inwards
+        pygame.draw.polygon(surface, STEEL[1 + round(1 + facing)], quad)
+        pygame.draw.line(surface, STEEL[3], quad[0], quad[3])
+        pygame.draw.polygon(surface, INK, quad, 1)
+        for share in (-0.6, 0.6):
+            dx, dy = at((INSIDE + WALL / 2), turn + half * share)
+            surface.fill(INK, (round(dx) - 1, round(dy) - 1, 2, 2))
+        if number % 2 == 0:
+            spread = WALL / 4 / (INSIDE - FIN)
+            root = WALL / 4 / INSIDE
+            tip = INSIDE - FIN
+            blade = [at(INSIDE, turn - root), at(tip, turn - spread), at(tip, turn + spread), at(INSIDE, turn + root)]
+            pygame.draw.polygon(surface, STEEL[2], blade)
+            pygame.draw.polygon(surface, INK, blade, 1)

@@ -1,0 +1,53 @@
+"""Where the lab's piles stand: dusk behind, grass or a wooden table under them; and the head line that all share."""
+
+import pygame
+
+from game.backdrop import Backdrop
+from game.colors import FOG, GOLD, INK
+from game.draw import CANVAS_SIZE, SMALL, Canvas
+from game.sprites import load_atlas
+
+TILE = 16
+HEAD = 16          # [canvas px] of the dark head line
+
+
+class Yard:
+    """A picture of the canvas's size, drawn once. ground: canvas y of the floor, or several; dim darkens the sky."""
+
+    def __init__(self, ground, dim=40, table=False):
+        canvas = Canvas()
+        Backdrop().draw(canvas, 60, dim)
+        for y in ground if isinstance(ground, tuple) else (ground,):
+            (_lay_boards if table else _lay_grass)(canvas.surface, y)
+        self.picture = canvas.surface
+
+    def draw(self, canvas, title, question):
+        """Draw the ground of the picture and its head line."""
+        canvas.surface.blit(self.picture, (0, 0))
+        draw_head(canvas, title, question)
+
+
+def draw_head(canvas, title, question):
+    """The dark line on top: the scene's name, and what it asks."""
+    canvas.surface.fill(INK, (0, 0, CANVAS_SIZE[0], HEAD))
+    canvas.text(title, 4, 4, GOLD)
+    canvas.text(question, CANVAS_SIZE[0] - 6, 6, FOG, SMALL, align="right")
+
+
+def plate(canvas, rect, ground=(20, 16, 32, 205)):
+    """A dark see-through plate to write on."""
+    shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
+    shade.fill(ground)
+    canvas.surface.blit(shade, rect[:2])
+
+
+def _lay_grass(surface, y):
+    tiles = load_atlas("tiles")
+    for x in range(0, CANVAS_SIZE[0], TILE):
+        surface.blit(tiles["ground_124"], (x, y))
+        for row in range(1, (CANVAS_SIZE[1] - y) // TILE + 1):
+            surface.blit(tiles["ground_255"], (x, y + row * TILE))
+
+
+def _lay_boards(surface, y):
+    surface.blit(load_atlas("lab")["floor"], (0, y))
