@@ -140,8 +140,8 @@ def find_turning_impacts(
     paths (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for the
     others; everyone: 0 where only bullets mind what moves, 1 where all do, 2 where besides nothing turns and what has a
     closed form was found by it; slack [px]: closer at the start
-    is in contact already. Motion into the other by less than a quarter of the half size stops nobody: the contact lets
-    it out. impacts_out (n, 5). Returns the number found. O(candidates).
+    is in contact already. Without a stacking solver motion into the other by less than a quarter of the half size stops
+    nobody: the contact lets it out at once. impacts_out (n, 5). Returns the number found. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -177,7 +177,7 @@ def find_turning_impacts(
         dy = left_m * (paths[m, 4] - paths[m, 1]) - left_o * (paths[o, 4] - paths[o, 1])
         room_left = 0.25 * bodies[m].smallest_half
         turns = abs(paths[m, 5] - paths[m, 2]) * bodies[m].extent + abs(paths[o, 5] - paths[o, 2]) * bodies[o].extent
-        stops = -(nx * dx + ny * dy) > room_left or turns > room_left
+        stops = everyone == 0 or -(nx * dx + ny * dy) > room_left or turns > room_left
         if found < impacts_out.shape[0]:
             impacts_out[found, 0] = float(i)
             impacts_out[found, 1] = fraction

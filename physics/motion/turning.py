@@ -258,13 +258,14 @@ def front_side(mover, count, motion, other, fraction, local_x, local_y, link):
 def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, slack, room):
     """(fraction or MISS, core) of the mover against one link of a chain, from its front.
 
-    half [px]: the mover's smallest half extent; motion into the link by less than a quarter of it slides along; 0: none does.
+    half [px]: the mover's smallest half extent; 0: of none. Motion into the link by no
+    more than `slack` [px] slides along.
     """
     link = geometry.links[k]
     motion = room.advance.motion_a
     other = room.advance.motion_b
     if half > 0.0 and (front_side(room.mover, count, motion, other, 0.0, local_x, local_y, link)
-                       - front_side(room.mover, count, motion, other, 1.0, local_x, local_y, link) <= CORE * half):
+                       - front_side(room.mover, count, motion, other, 1.0, local_x, local_y, link) <= slack):
         return MISS, False
     room.advance.local_b[0, 0] = link.ax - local_x
     room.advance.local_b[0, 1] = link.ay - local_y
