@@ -10,7 +10,7 @@ import math
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.motion.turning import sweep_turning
-from physics.motion.time_of_impact import MISS, is_straight
+from physics.motion.time_of_impact import MISS, has_closed_form
 from physics.profile import TOI_CALLS
 from physics.tables import AUTO, CHAIN, DYNAMIC, MASK, OFF, RAY, STATIC, SWEPT, TILES
 
@@ -151,10 +151,6 @@ def find_turning_impacts(
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        asks = p if fast[a.body_row] else q
-        straight = asks.continuous == RAY or asks.continuous == SWEPT or (asks.continuous == AUTO and everyone == 2)
-        if straight and is_straight(a) and is_straight(b):
-            continue
         still = stands_still(bodies, paths, a.body_row) or stands_still(bodies, paths, b.body_row)
         if still == (moving == 1) or not (still or everyone > 0 or p.bullet or q.bullet):
             continue
@@ -163,6 +159,10 @@ def find_turning_impacts(
         other = candidates[i, 1] if from_a else candidates[i, 0]
         kind = shapes[mover].kind
         if kind == TILES or kind == CHAIN or kind == MASK or shapes[other].kind == MASK:
+            continue
+        mode = bodies[shapes[mover].body_row].continuous
+        straight = mode == RAY or mode == SWEPT or (mode == AUTO and everyone == 2)
+        if straight and has_closed_form(shapes[mover], shapes[other], mode):
             continue
         work_inout[TOI_CALLS] += 1
         fraction, nx, ny = first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts, room, work_inout)

@@ -10,7 +10,7 @@ import math
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
 from physics.narrowphase.circles import collide_polygon_circle
-from physics.narrowphase.placement import corners_at
+from physics.narrowphase.placement import corners_at, is_hull
 from physics.narrowphase.sat import ALL_EDGES, edge_normal
 from physics.narrowphase.tiles import tile_at
 from physics.profile import TOI_CALLS
@@ -294,6 +294,14 @@ def is_straight(shape):
             or (shape.kind == POLYGON and shape.radius == 0.0))
 
 
+@subkernel
+def has_closed_form(mover, other, mode):
+    """Whether a fast shape is swept here: by its own outline, or as a ray from the middle of any hull."""
+    if mode == RAY:
+        return is_straight(other) and is_hull(mover.kind)
+    return is_straight(other) and is_straight(mover)
+
+
 def make_impact_pass(one_way: bool):
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
     @kernel
@@ -317,17 +325,17 @@ def make_impact_pass(one_way: bool):
             q = bodies[b.body_row]
             a_fast = is_fast(p, dt, only_straight)
             b_fast = is_fast(q, dt, only_straight)
-            if not (a_fast or b_fast) or not (is_straight(a) and is_straight(b)):
+            if not (a_fast or b_fast):
                 continue
             from_a = a_fast and a.kind != TILES
             if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
                 from_a = False
             mover = candidates[i, 0] if from_a else candidates[i, 1]
             other = candidates[i, 1] if from_a else candidates[i, 0]
-            if shapes[mover].kind == TILES:
+            body = p if from_a else q
+            if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
                 continue
             work_inout[TOI_CALLS] += 1
-            body = p if from_a else q
             fraction, nx, ny = sweep_pair(geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, one_way, slack,
                                           scratch)
             if fraction > 1.0:
