@@ -99,9 +99,9 @@ class World:
 
     def _plan(self):
         self._plan_list = stages.plan(self._effects, self._solver)
-        if (self.sensed is not None) != (self._solver in NEEDS_STACKING):
+        if (self.sensed is not None) != self.stacks:
             # The two kinds of worlds keep other facts in their contacts.
-            self.sensed = np.zeros(0, CONTACT) if self._solver in NEEDS_STACKING else None
+            self.sensed = np.zeros(0, CONTACT) if self.stacks else None
             self.found_contacts = np.zeros(0, CONTACT)
         self.profile = Profile(self.stages)
 
@@ -132,6 +132,11 @@ class World:
         self._solver = self._checked_solver(name)
         sleep.wake_all(self)
         self._plan()
+
+    @property
+    def stacks(self) -> bool:
+        """Whether the solver is one whose contacts remember."""
+        return self._solver in NEEDS_STACKING
 
     def _checked_solver(self, name):
         name = checks.choice("solver", name, SOLVERS)
@@ -336,7 +341,7 @@ class World:
             raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
 
     def _needs_velocities(self, what):
-        if "integrate_velocities" not in self.stages and self._solver not in NEEDS_STACKING:
+        if "integrate_velocities" not in self.stages and not self.stacks:
             raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
 
     # --- queries, digest, snapshot -------------------------------------------------------------------------------------

@@ -1,0 +1,37 @@
+"""Defects that were found in the rigid-body core, each by the smallest scene that showed it."""
+
+import numpy as np
+
+from physics import Effects, Polygon, World
+
+
+def test_snapshot_of_another_kind_of_solver_is_stepped_with_unit_normals():
+    """Contacts of projection have no anchors: taken for kept manifolds they had normals of length 0."""
+    world = World(Effects.rigid_bodies(), solver="projection")
+    world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
+    world.add_body(Polygon.box(20, 20), position=(0, -9.9))
+    world.step()
+    taken = world.snapshot()
+    world.solver = "soft_step"
+    world.restore(taken)
+    for _ in range(5):
+        world.step()
+        assert len(world.contacts)
+        assert np.allclose(np.hypot(world.contacts["normal_x"], world.contacts["normal_y"]), 1.0)
+
+
+def test_sleepers_of_a_snapshot_wake_under_a_solver_without_sleep():
+    world = World(Effects.rigid_bodies())
+    ground = world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
+    box = world.add_body(Polygon.box(20, 20), position=(0, -10))
+    for _ in range(60):
+        world.step()
+    assert not box.awake
+    taken = world.snapshot()
+    world.solver = "projection"
+    world.restore(taken)
+    assert box.awake
+    world.remove_body(ground)
+    for _ in range(30):
+        world.step()
+    assert box.position[1] > 0.0
