@@ -198,7 +198,7 @@ class App:
             loading.show(self.picture, 0.0, "")
             warm_up_scene(scene_class, options.broadphase, solver,
                           lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
-        compile_for(options.solver)
+        compile_for(options.solver if first else None)
         if first:
             scene = make_scene(options, self.registry)
             play = Play(scene, self.devices, self.sounds, options.bot, options.recording, bool(options.record),

@@ -88,6 +88,11 @@ def read_options(arguments, registry):
     _needs_scene(options, registry)
     if options.tier is not None:
         _check_tier(options, registry)
+    if options.solver is not None and options.scene is not None:
+        valid = registry.scene_class(options.scene).valid_solvers()
+        if options.solver not in valid:
+            raise UsageError(f"--solver: {options.scene} cannot use {options.solver}, which needs the effect stacking; "
+                             f"valid: {', '.join(valid)}")
     return options
 
 

@@ -172,9 +172,12 @@ class Scene:
 
     def solver_choices(self):
         """The solvers that the player may switch between: none where nothing is pushed, or each world has its own."""
-        if self.solvers or not self.effects.response:
-            return ()
-        return tuple(SOLVERS) if self.effects.stacking else ("blocking", "projection")
+        return () if self.solvers or not self.effects.response else self.valid_solvers()
+
+    @classmethod
+    def valid_solvers(cls):
+        """The solvers that the scene's effects allow."""
+        return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
     def set_solver(self, name):
         """Switch the solver of every world, mid-game."""

@@ -85,6 +85,7 @@ def test_profile_prints_a_table(capsys):
 WRONG = [
     (["--scene", "shoter"], "no scene 'shoter'; valid: arena"),
     (["--scene", "arena", "--broadphase", "octree"], "valid: brute, sweep, hash, tree"),
+    (["--scene", "arena", "--solver", "soft_step"], "--solver: arena cannot use soft_step, which needs the effect stacking; "),
     (["--scene", "arena", "--solver", "magic"], "no solver 'magic'; valid: "),
     (["--scene", "arena", "--overlay", "bounds,boxes"], "no overlay 'boxes'; valid: bounds, motion"),
     (["--scene", "arena", "--tier", "pixels"], "arena has no sprite bodies"),
