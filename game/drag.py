@@ -16,6 +16,7 @@ HERTZ = 5.0              # [1/s] of the spring: in 0.2 s the body is where the p
 DAMPING_RATIO = 1.0      # critical: no swinging back and forth about the pointer
 MOST_PULL = 300.0        # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
 SPIN_DAMPING = 2.0       # [1/s] a hanging body comes to rest instead of swinging for ever
+FOLLOW = 20.0            # [1/s] where no force moves a body, its speed follows the pointer
 REACH = 4.0              # [canvas px] how far beside a body a press may be: a card is 2 px thin
 
 
@@ -23,6 +24,7 @@ class Drag:
     """One pointer's hold on at most one body of a scene."""
 
     def __init__(self):
+        self.body = None
         self.release()
 
     @property
@@ -31,7 +33,10 @@ class Drag:
         return self.body is not None
 
     def release(self):
-        """Let go."""
+        """Let go. What flies without forces flies on as before."""
+        if self.holds and self.before is not None and (self.world.bodies["id"] == self.body.id).any():
+            self.body.velocity = self.before
+        self.before = None
         self.body = self.world = self.camera = None
         self.grip = (0.0, 0.0)       # [px] the grabbed point in body space
 
@@ -49,12 +54,13 @@ class Drag:
     def _grab(self, pointer, views):
         self.release()
         for world, camera in views:
-            if not camera.viewport.collidepoint(pointer) or not has_forces(world.effects):
+            if not camera.viewport.collidepoint(pointer):
                 continue
             point = to_world(camera, pointer)
             body = body_at(world, point, REACH / camera.zoom)
             if body is not None:
                 self.body, self.world, self.camera = body, world, camera
+                self.before = None if has_forces(world.effects) else body.velocity
                 x, y = point[0] - body.position[0], point[1] - body.position[1]
                 c, s = cos(body.angle), sin(body.angle)
                 self.grip = (c * x + s * y, c * y - s * x)
@@ -76,6 +82,9 @@ class Drag:
         body.wake()
         turns = world.effects.rotation
         point = self.held_point()
+        if not has_forces(world.effects):
+            body.velocity = tuple(FOLLOW * (goal - at) for goal, at in zip(target, point, strict=True))
+            return
         row = world.bodies[world.rows([body.id])[0]]
         force = spring_force(row, point, target, world.dt, turns)
         most = MOST_PULL * world.tolerances.pixels_per_meter * body.mass

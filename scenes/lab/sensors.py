@@ -51,6 +51,7 @@ class Sensors(Scene):
     actions = (("left right", "speed"), ("up down", "scanner"))
     legend_at = (8, 252)
     broadphase = "sweep"
+    draggable = True
 
     def build(self):
         """The zones and the mines; saucers come with time."""

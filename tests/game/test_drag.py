@@ -217,3 +217,25 @@ def test_the_hand_is_drawn_and_drawing_changes_nothing():
 def test_the_pointer_is_shown_where_it_can_drag():
     shows = [Play(kind(seed=1), DeviceSource(), Sounds(silent=True)).shows_pointer for kind in (Yard, Shut)]
     assert shows == [True, False]
+
+
+class Sky(Yard):
+    """A world in which nothing is pushed: one disc on its way."""
+
+    effects = Effects(sensors=True)
+
+    def build(self):
+        self.cameras = [Camera((0, 0, 480, 270), 1.0)]
+        self.add_world()
+        self.disc = self.world.add_body(Circle(12.0), position=(100, 100), velocity=(30.0, 0.0))
+
+
+def test_where_nothing_is_pushed_a_held_body_follows_and_then_flies_on():
+    scene = Sky(seed=1)
+    held = [InputFrame(pointer=(100, 100), pointer_down=True)] + [InputFrame(pointer=(220, 180), pointer_down=True)] * 60
+    session = Session(scene, ScriptSource(held + [InputFrame(pointer=(220, 180))] * 3))
+    for _ in range(61):
+        session.step()
+    assert hypot(scene.disc.position[0] - 220, scene.disc.position[1] - 180) < 1.0
+    session.step()
+    assert scene.disc.velocity == (30.0, 0.0)
