@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from physics import Capsule, Circle, Material, PixelMask, Polygon, Segment, World, mass_of
-from tests.oracles import outlines
 from tests.stability.piles import floor, metres, pile_effects
+
+pytest.importorskip("shapely")         # the outlines' oracle stands on it
+from tests.oracles import outlines  # noqa: E402
 
 NAN, INF = math.nan, math.inf
 
