@@ -17,6 +17,7 @@ from physics.motion.rectangles import make_rectangle_pass
 from physics.motion.time_of_impact import find_impacts_by_mode, stop_at_impacts
 from physics.narrowphase.contacts import new_scratch, write_impacts
 from physics.narrowphase.dispatch import NarrowPhase
+from physics.narrowphase.persist import mix_materials
 from physics.narrowphase.placement import refresh_aabbs
 from physics.rasters import add_missing_rasters
 from physics.profile import CONTACTS, COUNTERS
@@ -180,7 +181,10 @@ def _narrow_phase(effects):
 def _measured(world, contacts):
     measure_approach(world.bodies, contacts)
     if world.effects.response:
-        prepare_contacts(world.bodies, world.shapes, contacts)
+        prepare_contacts(world.bodies, contacts)
+        mix_materials(world.library.tables, world.shapes, contacts)
+        if not world.effects.conveyor:
+            contacts["surface_speed"] = 0.0
     return contacts
 
 

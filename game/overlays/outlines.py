@@ -103,13 +103,6 @@ def draw_outline(surface, lens, outline, color, width=1, scale=1):
         _draw_ticks(surface, lens.clip, points, color, scale)
 
 
-def fill_outline(surface, lens, outline, color):
-    """Fill one outline through a lens."""
-    found = corners_of(outline, lens.scale)
-    if found is not None and found[1] and len(found[0]) > 2:
-        pygame.draw.polygon(surface, color, [lens.points(x, y) for x, y in found[0]])
-
-
 def _draw_ticks(surface, clip, points, color, scale):
     """Hatching below a chain: it is solid on the side its normal does not show to."""
     room = clip.inflate(8 * scale, 8 * scale)

@@ -1,7 +1,5 @@
 """How fast two bodies close in on each other at a contact: what hits report and bounces are made of."""
 
-import math
-
 from physics.jit import kernel, subkernel
 
 
@@ -27,19 +25,14 @@ def measure_approach(bodies, contacts_inout):
 
 
 @kernel
-def prepare_contacts(bodies, shapes, contacts_inout):
-    """Write what a response starts from: where B is seen from A, and the mixed materials. O(contacts).
-
-    Friction is the geometric mean, restitution the greater: one slippery or one bouncy side is enough.
-    """
+def prepare_contacts(bodies, contacts_inout):
+    """Write where B is seen from A: what a response without anchors starts from. O(contacts)."""
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
         a = bodies[c.body_row_a]
         b = bodies[c.body_row_b]
         c.anchor_x = b.center_x - a.center_x
         c.anchor_y = b.center_y - a.center_y
-        c.friction = math.sqrt(shapes[c.row_a].friction * shapes[c.row_b].friction)
-        c.restitution = max(shapes[c.row_a].restitution, shapes[c.row_b].restitution)
 
 
 @kernel

@@ -78,7 +78,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                     a_arm = ax * ty - ay * tx
                     b_arm = bx * ty - by * tx
                     effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
-                change = -(vx * tx + vy * ty) / effective
+                change = -(vx * tx + vy * ty - c.surface_speed) / effective
                 limit = c.friction * c.normal_impulse
                 impulse = max(-limit, min(limit, c.tangent_impulse + change))
                 change = impulse - c.tangent_impulse

@@ -11,7 +11,6 @@ from random import Random
 import numpy as np
 import pygame
 
-from game.camera import Camera
 from game.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
 from game.draw import SMALL
 from game.inputs import InputFrame

@@ -10,7 +10,7 @@ from math import degrees, radians, sqrt
 import pygame
 
 from game.camera import Camera
-from game.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
 from game.draw import SMALL
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider

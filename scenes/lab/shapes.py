@@ -10,7 +10,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pygame
 
-from game.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, WHITE, YELLOW, faded
+from game.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
 from game.draw import SMALL
 from game.inputs import InputFrame
 from game.overlays.layer_impulses import arrow

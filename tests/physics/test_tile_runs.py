@@ -1,7 +1,5 @@
 """Tiles merge into runs: nothing that slides over them, or down along them, feels a seam (hard_cases E3, E4, U10)."""
 
-import math
-
 import numpy as np
 import pytest
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from physics import Effects, Polygon, World
+from physics import Effects, Material, Polygon, World
 
 
 def test_snapshot_of_another_kind_of_solver_is_stepped_with_unit_normals():
@@ -35,3 +35,14 @@ def test_sleepers_of_a_snapshot_wake_under_a_solver_without_sleep():
     for _ in range(30):
         world.step()
     assert box.position[1] > 0.0
+
+
+def test_belt_carries_without_a_stacking_solver_too():
+    """The effect conveyor was declared, and nothing ran."""
+    for conveyor in (True, False):
+        world = World(Effects(response=True, gravity=True, friction=True, conveyor=conveyor))
+        world.add_body(Polygon.box(2000, 20), position=(0, 10), kind="static", material=Material(surface_speed=60.0))
+        box = world.add_body(Polygon.box(20, 20), position=(-300, -10))
+        for _ in range(120):
+            world.step()
+        assert abs(box.velocity[0] - 60.0 * conveyor) < 0.6

@@ -7,7 +7,7 @@ import pytest
 
 from physics import JIT, Capsule, Chain, Circle, Material, Polygon, Segment, TileGrid, World
 from tests.stability.invariants import Watch, movers
-from tests.stability.piles import SOLVERS, floor, metres, needs_speed, pile_effects
+from tests.stability.piles import SOLVERS, metres, needs_speed, pile_effects
 
 SHAPES = {"box": (Polygon.box(12, 12), 6.0), "circle": (Circle(6.0), 6.0), "capsule": (Capsule((-5, 0), (5, 0), 4.0), 4.0)}
 SMOOTH = Material(friction=0.0)
