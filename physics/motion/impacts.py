@@ -10,7 +10,7 @@ import math
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.motion.turning import sweep_turning
-from physics.motion.time_of_impact import MISS, has_closed_form
+from physics.motion.time_of_impact import MISS, has_closed_form, write_impact
 from physics.profile import TOI_CALLS
 from physics.tables import AUTO, CHAIN, DYNAMIC, MASK, OFF, RAY, STATIC, SWEPT, TILES
 
@@ -178,13 +178,7 @@ def find_turning_impacts(
         room_left = 0.25 * bodies[m].smallest_half
         turns = abs(paths[m, 5] - paths[m, 2]) * bodies[m].extent + abs(paths[o, 5] - paths[o, 2]) * bodies[o].extent
         stops = everyone == 0 or -(nx * dx + ny * dy) > room_left or turns > room_left
-        if found < impacts_out.shape[0]:
-            impacts_out[found, 0] = float(i)
-            impacts_out[found, 1] = fraction
-            impacts_out[found, 2] = -nx if from_a else nx
-            impacts_out[found, 3] = -ny if from_a else ny
-            impacts_out[found, 4] = 1.0 if stops else 0.0
-        found += 1
+        found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
     return found
 
 

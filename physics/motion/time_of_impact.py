@@ -302,6 +302,21 @@ def has_closed_form(mover, other, mode):
     return is_straight(other) and is_straight(mover)
 
 
+@subkernel
+def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
+    """Write an impact of a candidate pair when there is room, and return the count, which goes on past the capacity.
+
+    nx, ny: from what was met to the mover, which is A of the pair where from_a says so.
+    """
+    if found < impacts_out.shape[0]:
+        impacts_out[found, 0] = float(pair)
+        impacts_out[found, 1] = fraction
+        impacts_out[found, 2] = -nx if from_a else nx
+        impacts_out[found, 3] = -ny if from_a else ny
+        impacts_out[found, 4] = 1.0 if stops else 0.0
+    return found + 1
+
+
 def make_impact_pass(one_way: bool):
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
     @kernel
@@ -347,13 +362,7 @@ def make_impact_pass(one_way: bool):
                 dx -= rest.vx
                 dy -= rest.vy
             stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
-            if found < impacts_out.shape[0]:
-                impacts_out[found, 0] = float(i)
-                impacts_out[found, 1] = fraction
-                impacts_out[found, 2] = -nx if from_a else nx
-                impacts_out[found, 3] = -ny if from_a else ny
-                impacts_out[found, 4] = 1.0 if stops else 0.0
-            found += 1
+            found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
         return found
     return find_impacts
 
