@@ -160,6 +160,7 @@ def _compile(function):
     if not JIT:
         return function
     dispatcher = numba.njit(function, error_model="numpy", fastmath=False)
+    _take_literals_as_values(dispatcher)
     folder = _folder_for(Path(function.__code__.co_filename))
     if folder:
         before = numba.config.CACHE_DIR
@@ -170,6 +171,19 @@ def _compile(function):
             numba.config.CACHE_DIR = before
     registry.append(dispatcher)
     return dispatcher
+
+
+def _take_literals_as_values(dispatcher):
+    """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
+
+    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one machine.
+    """
+    general = dispatcher.get_call_template
+
+    def get_call_template(args, kws):
+        return general(tuple(numba.types.unliteral(each) for each in args),
+                       {name: numba.types.unliteral(each) for name, each in kws.items()})
+    dispatcher.get_call_template = get_call_template
 
 
 def subkernel(function):
