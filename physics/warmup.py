@@ -3,11 +3,13 @@
 import numpy as np
 
 from physics.broadphase.brute_force import BruteForce
-from physics.broadphase.dynamic_tree import DynamicTree
+from physics.broadphase.dynamic_tree import REBUILD_FROM, DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.effects import Effects
 from physics.motion.character import Character
+from physics.narrowphase.trace import steps_of
+from physics.settings import SLEEP_TIME
 from physics.shapes import Bounds, Capsule, Chain, Circle, PixelMask, Polygon, TileGrid
 from physics.world import World
 
@@ -30,6 +32,12 @@ def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=N
     runs = [(f"broad phase {name}", lambda name=name: _small_world(effects, solver, STRATEGIES[name](),
                                                                   (Circle(4), Circle(4)))) for name in names]
     strategy = STRATEGIES[names[0]]
+    if effects.stacking:
+        runs.append(("rest", lambda: _rest(effects, solver)))
+    if "tree" in names:
+        runs.append(("broad phase tree", lambda: _crowd(effects)))
+    if effects.continuous:
+        runs.append(("sweeps", lambda: _impacts(effects, solver)))
     for piece in PIECES if pieces is None else pieces:
         if piece in PAIRS and effects.narrowphase:
             runs += [(piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]]
@@ -57,6 +65,39 @@ def _small_world(effects, solver, strategy, pair):
     world.step()
 
 
+def _rest(effects, solver):
+    """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep."""
+    world = World(effects, solver=solver, **{"gravity": (0.0, 0.0)} if effects.gravity else {})
+    for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3)):         # as near as contacts are found
+        world.add_body(Circle(4), position=place)
+        for _ in range(3):
+            world.step()
+    for _ in range(int(2.0 * SLEEP_TIME / world.dt) if effects.sleeping else 0):
+        world.step()
+    world.remove_body(world.add_body(Circle(4), position=(8.3, 8.3)))
+    world.add_body(Circle(4), position=(7.0, 7.0), velocity=(-99.0, -99.0))
+    world.step()
+
+
+def _crowd(effects):
+    """So many new bodies that the tree is built anew."""
+    world = World(effects, DynamicTree())
+    world.add_bodies(Circle(1), np.array([(40.0 * number, 0.0) for number in range(2 * REBUILD_FROM)]))
+    world.step()
+
+
+def _impacts(effects, solver):
+    """Each way to be swept, into what stands and into another that is swept."""
+    for way in ("ray", "swept", "toi"):
+        world = World(effects, solver=solver)
+        world.add_body(BOX, kind="static")
+        world.add_body(Circle(2), position=(-20, 0), velocity=(3000.0, 0.0), continuous=way)
+        world.add_body(BOX, position=(20, 0), velocity=(-3000.0, 0.0), continuous=way, bullet=way == "toi")
+        world.add_body(BOX, position=(60, 0), velocity=(-6000.0, 0.0), continuous=way, bullet=way == "toi")
+        world.step()
+        world.step()
+
+
 def _queries(effects):
     world = World(effects)
     world.add_body(Circle(4), kind="static")
@@ -71,6 +112,12 @@ def _casts(effects):
     world.closest((9, 9))
 
 
+def _steps(effects):
+    box = np.array([(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)])
+    for off in (4.0, 40.0):
+        steps_of(box, box + off)
+
+
 def _character(effects, solver):
     world = World(effects, solver=solver)
     world.add_body(Polygon.box(40, 8), position=(0, 20), kind="kinematic", velocity=(60.0, 0.0))
@@ -79,5 +126,5 @@ def _character(effects, solver):
     world.step()
 
 
-QUESTIONS = {"queries": _queries, "casts": _casts}
+QUESTIONS = {"queries": _queries, "casts": _casts, "steps": _steps}
 PIECES = (*PAIRS, *QUESTIONS, "characters")

@@ -47,6 +47,7 @@ class Shapes(Scene):
     name = "lab/shapes"
     title = "Shapes"
     about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
+    pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts", "steps")
     effects = Effects()                   # contacts are found and drawn; nobody is pushed
     features = ("separating axes and shadows", "GJK simplex and EPA polytope, round by round",
                 "collide, distance and SAT compared in every step")

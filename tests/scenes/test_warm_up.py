@@ -1,0 +1,48 @@
+"""After a scene's warm-up nothing is left to compile: no player waits in the middle of a game.
+
+Each scene in a process of its own, since another scene's kernels would hide what this one's warm-up forgot.
+"""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+import physics
+from scenes import SCENES
+
+FRAMES = 400
+PLAY = """
+import json, sys
+from game.headless import start_dummy_display
+start_dummy_display()
+from game.inputs import BotSource
+from game.registry import Registry
+from game.session import Session
+from game.warmup import warm_up_scene
+from physics import jit
+from scenes import SCENES
+
+def versions():
+    return {f"{each.py_func.__module__}.{each.py_func.__qualname__}": len(each.signatures) for each in jit.registry}
+
+scene_class = Registry(SCENES).scene_class(sys.argv[1])
+warm_up_scene(scene_class)
+session = Session(scene_class(1), BotSource())
+before = versions()
+for _ in range(int(sys.argv[2])):
+    session.step()
+print(json.dumps([name for name, count in versions().items() if count > before.get(name, 0)]))
+"""
+
+
+@pytest.mark.deep
+@pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
+@pytest.mark.parametrize("name", SCENES)
+def test_nothing_is_compiled_in_the_middle_of_a_game(name):
+    run = subprocess.run([sys.executable, "-c", PLAY, name, str(FRAMES)], capture_output=True, text=True, check=True,
+                         env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"})
+    late = json.loads(run.stdout.splitlines()[-1])
+    assert not late, f"{name}: its warm-up leaves out {', '.join(late)}"
