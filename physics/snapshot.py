@@ -22,7 +22,7 @@ TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": 
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
 WALK = ("body", "left", "top", "remainder_x", "remainder_y", "riding", "grounded", "squeezed", "pressed", "carry_x", "carry_y",
-        "push_vx", "push_vy", "deep", "wedged")
+        "belt", "belt_x", "push_vx", "push_vy", "deep", "wedged")
 
 
 def digest(world) -> str:

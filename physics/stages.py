@@ -58,7 +58,7 @@ def plan(effects, solver) -> list[Stage]:
         found.append(_impacts(effects))
     found.append(_positions(effects))
     if effects.response:
-        found.append(Stage("carry", lambda world, dt: carry.carry_characters(world)))
+        found.append(Stage("carry", lambda world, dt: carry.carry_characters(world, dt)))
     found.append(_narrow_phase(effects))
     if effects.response and solver == "blocking":
         found.append(Stage("blocking", _blocking))
@@ -74,7 +74,7 @@ def _plan_piles(effects, solver):
              Stage("narrow_phase", stacking.narrow_phase(effects)), Stage(solver, stacking.solve_contacts(effects, solver))]
     if effects.continuous:
         found.append(Stage("time_of_impact", sweeps.Sweeper(effects.one_way).run))
-    found += [Stage("carry", lambda world, dt: carry.carry_characters(world))]
+    found += [Stage("carry", lambda world, dt: carry.carry_characters(world, dt))]
     if effects.sensors:
         found.append(Stage("sensors", stacking.sense(effects)))
     if effects.sleeping:

@@ -158,6 +158,8 @@ CHARACTER = np.dtype([                 # one per Character: moves in whole pixel
     ("pressed", np.int64),             # id of the body that bore it in the last step, -1: none
     ("foot_x", np.float64), ("foot_y", np.float64),   # [px] the point that stood on it
     ("carry_x", np.float64), ("carry_y", np.float64),  # [px] motion of what it rides that has not made a whole pixel yet
+    ("belt", np.float64),              # [px/s] at which the ground under its feet runs to the right
+    ("belt_x", np.float64),            # [px] of that which has not made a whole pixel yet
     ("push_vx", np.float64), ("push_vy", np.float64),  # [px/s] of the solid that pushed it in the last step
     ("deep", np.float64),              # [px] it is in something that came into it, after the last step
     ("wedged", np.bool_),              # something under its feet presses it against a ceiling

@@ -178,45 +178,53 @@ def take_back(characters_inout, bodies_inout):
 @kernel
 def ride_bodies(
     # read
-    geometry, shapes, slop,
+    geometry, shapes, piles, belts, dt, slop,
     # write
     scratch, rows_out, characters_inout, bodies_inout,
 ):
     """Carry characters by what the point under their feet was moved by, in whole pixels with the remainder kept.
 
-    For what they ride in a world that stacks: dynamic bodies, and kinematic ones that turn or are no boxes. Then they
-    step down to where it went. rows_out (shapes): scratch. O(characters · shapes).
+    piles: 1 in a world that stacks: dynamic bodies carry, and kinematic ones that turn or are no boxes; they step down to
+    where these went. belts: 1 where surfaces run: for dt [s]. rows_out (shapes): scratch. O(characters · shapes).
     """
     for axis in range(2):
         along_x = 1 - axis
         for me in range(len(characters_inout)):
             c = characters_inout[me]
             c.carried = 0
-            row = row_of(bodies_inout, c.riding) if c.riding >= 0 else -1
-            if row < 0 or bodies_inout[row].kind == STATIC or not ridden_freely(bodies_inout, shapes, row):
+            way = 0
+            row = row_of(bodies_inout, c.riding) if piles == 1 and c.riding >= 0 else -1
+            if row >= 0 and (bodies_inout[row].kind == STATIC or not ridden_freely(bodies_inout, shapes, row)):
+                row = -1
+            if row < 0:
                 c.carry_x = 0.0
                 c.carry_y = 0.0
-                continue
-            r = bodies_inout[row]
-            # x is carried first; the point's motion is the same for both axes.
-            u, v = turned(c.foot_x - r.previous_x, c.foot_y - r.previous_y, math.cos(r.angle - r.previous_angle),
-                          math.sin(r.angle - r.previous_angle))
-            if along_x == 1:
-                c.carry_x += r.x + u - c.foot_x
-                way = whole_pixels(c.carry_x)
-                c.carry_x -= way
             else:
-                c.carry_y += r.y + v - c.foot_y
-                way = whole_pixels(c.carry_y)
-                c.carry_y -= way
+                r = bodies_inout[row]
+                # x is carried first; the point's motion is the same for both axes.
+                u, v = turned(c.foot_x - r.previous_x, c.foot_y - r.previous_y, math.cos(r.angle - r.previous_angle),
+                              math.sin(r.angle - r.previous_angle))
+                if along_x == 1:
+                    c.carry_x += r.x + u - c.foot_x
+                    way = whole_pixels(c.carry_x)
+                    c.carry_x -= way
+                else:
+                    c.carry_y += r.y + v - c.foot_y
+                    way = whole_pixels(c.carry_y)
+                    c.carry_y -= way
+            if belts == 1 and along_x == 1:
+                c.belt_x = c.belt_x + c.belt * dt if c.belt != 0.0 else 0.0
+                run = whole_pixels(c.belt_x)
+                c.belt_x -= run
+                way += run
             if way != 0:
-                stopped = shift(geometry, shapes, me, row, way, along_x, 1, slop, scratch, rows_out, characters_inout,
+                stopped = shift(geometry, shapes, me, row, way, along_x, piles, slop, scratch, rows_out, characters_inout,
                                 bodies_inout)
                 c.carried = way - stopped if way > 0 else way + stopped
-        carry_riders(geometry, shapes, along_x, 1, slop, scratch, rows_out, characters_inout, bodies_inout)
+        carry_riders(geometry, shapes, along_x, piles, slop, scratch, rows_out, characters_inout, bodies_inout)
     for me in range(len(characters_inout)):
         c = characters_inout[me]
-        row = row_of(bodies_inout, c.riding) if c.riding >= 0 else -1
+        row = row_of(bodies_inout, c.riding) if piles == 1 and c.riding >= 0 else -1
         if row >= 0 and ridden_freely(bodies_inout, shapes, row):
             step_down(geometry, shapes, me, slop, scratch, rows_out, characters_inout, bodies_inout)
 
@@ -263,8 +271,8 @@ def give_way(
             c.squeezed = True
 
 
-def carry_characters(world):
-    """The stage: does nothing in a world without characters. Those that were moved meet others in this very step."""
+def carry_characters(world, dt):
+    """The stage, for dt [s]: does nothing in a world without characters. Those that were moved meet others in this very step."""
     characters = world.characters.rows
     if not len(characters):
         return
@@ -276,8 +284,11 @@ def carry_characters(world):
         take_back(characters, bodies)
     room = world.scratch_rows(2 * len(shapes))
     carry_and_push(world.library.tables, shapes, piles, slop, world.walk_scratch, room[:len(shapes)], characters, bodies)
+    belts = int(world.effects.conveyor)
+    if piles or belts:
+        ride_bodies(world.library.tables, shapes, piles, belts, dt, slop, world.walk_scratch, room[:len(shapes)], characters,
+                    bodies)
     if piles:
-        ride_bodies(world.library.tables, shapes, slop, world.walk_scratch, room[:len(shapes)], characters, bodies)
         give_way(world.library.tables, shapes, slop, world.walk_scratch, room[:len(shapes)],
                  room[len(shapes):2 * len(shapes)], characters, bodies)
     moved = characters["body"][before != world.bodies[characters["body_row"]][["x", "y"]]]

@@ -77,6 +77,14 @@ class Character:
         row = self.world.characters.rows[self._row]
         return (row["previous_left"] + row["width"] / 2.0, row["previous_top"] + row["height"] / 2.0)
 
+    @property
+    def surface_speed(self):
+        """Speed [px/s] at which the ground under its feet runs to the right, felt in the last move; 0 in the air.
+
+        It carries the character in a step of a world with the effect conveyor.
+        """
+        return float(self.world.characters.rows["belt"][self._row])
+
     def move(self, dx, dy, drop=False) -> Moved:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError."""
         world = self.world
@@ -105,7 +113,8 @@ class Character:
         row = self.world.characters.rows[self._row:self._row + 1]
         row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
         row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)
-        row["remainder_x"] = row["remainder_y"] = row["carry_x"] = row["carry_y"] = row["push_vx"] = row["push_vy"] = 0.0
+        for name in ("remainder_x", "remainder_y", "carry_x", "carry_y", "push_vx", "push_vy", "belt", "belt_x"):
+            row[name] = 0.0
         row["riding"], row["grounded"], row["squeezed"] = -1, False, False
         self.body.move_to((float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0)))
 

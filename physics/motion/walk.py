@@ -10,7 +10,7 @@ import math
 from physics.jit import kernel, subkernel
 from physics.motion.shove import knock, shove
 from physics.motion.solids import BLOCKED, FREE, ON_SLOPE, blocked_at, character_of, gather_solids
-from physics.tables import DYNAMIC, SLOPE, STATIC, TILES
+from physics.tables import CHAIN, DYNAMIC, SLOPE, STATIC, TILES
 
 
 @subkernel
@@ -106,8 +106,37 @@ def slope_under(geometry, bodies, shapes, row, x, y):
 
 
 @subkernel
+def speed_under(geometry, bodies, shapes, row, x, y):
+    """Speed [px/s] at which a surface runs to the right under a point [px] that stands on it.
+
+    Source: engines' conveyor materials (Box2D's tangent speed): along the tangent, to the right on a floor.
+    """
+    s = shapes[row]
+    if s.kind != CHAIN:
+        return s.surface_speed
+    b = bodies[s.body_row]
+    cosine = math.cos(b.angle)
+    sine = math.sin(b.angle)
+    span = geometry.chains[s.geometry]
+    nearest = math.inf
+    speed = s.surface_speed
+    for k in range(span.offset, span.offset + span.count):
+        link = geometry.links[k]
+        ax = b.x + cosine * link.ax - sine * link.ay
+        ay = b.y + sine * link.ax + cosine * link.ay
+        bx = b.x + cosine * link.bx - sine * link.by
+        by = b.y + sine * link.bx + cosine * link.by
+        if ax <= x < bx:
+            off = abs(ay + (by - ay) * (x - ax) / (bx - ax) - y)
+            if off < nearest:
+                nearest = off
+                speed = link.surface_speed if link.friction >= 0.0 else s.surface_speed
+    return speed
+
+
+@subkernel
 def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bodies_inout):
-    """Write what the character touches: ground, slope, what carries it, walls."""
+    """Write what the character touches: ground, slope, what carries it and how fast its surface runs, walls."""
     c = characters_inout[me]
     falling = 0 if c.drop else 1
     what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, c.left, c.top + 1, c.width, c.height,
@@ -115,6 +144,9 @@ def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bod
     c.grounded = what != FREE
     c.riding = -1
     c.slope = 0.0
+    c.belt = 0.0
+    if what != FREE:
+        c.belt = speed_under(geometry, bodies_inout, shapes, by, c.left + 0.5 * c.width, float(c.top + c.height))
     if what != FREE and shapes[by].kind == TILES:
         # The slope under the middle of the feet; at its ends a foot beside it still stands on it.
         bottom = c.top + c.height + 0.5
