@@ -42,6 +42,9 @@ class PixelMask:
         self._turned = {}
         self.fitted = {}               # tier -> the shapes that stand for it, kept by fitting.fit
 
+    def __deepcopy__(self, memo):
+        return self                # a value: copies of a world share it
+
     @classmethod
     def from_array(cls, solid, origin=None, snap=True) -> "PixelMask":
         """From solid[row, col]; origin in pixels, None = the image centre. Raises ValueError, TypeError."""

@@ -263,6 +263,9 @@ class Table:
 
     def keep(self, flags):
         """Drop the rows whose flag is False; the others keep their order."""
-        kept = self.rows[flags]
-        self.data[:len(kept)] = kept
-        self.count = len(kept)
+        if not len(flags) or flags.all():
+            return
+        first = int(np.argmin(flags))          # what stands before the first dropped row stays where it is
+        kept = self.rows[first:][flags[first:]]
+        self.data[first:first + len(kept)] = kept
+        self.count = first + len(kept)

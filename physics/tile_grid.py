@@ -40,6 +40,9 @@ class TileGrid:
         for array in (self.solid, self.one_way, self.slopes):
             array.flags.writeable = False
 
+    def __deepcopy__(self, memo):
+        return self                # a value: copies of a world share it
+
     @property
     def smallest_half(self):
         return self.tile_size / 2.0

@@ -1,5 +1,6 @@
 """Snapshots, files and digests: the way on is the same to the bit; what is damaged is refused with its reason."""
 
+import copy
 import io
 import json
 import zipfile
@@ -215,3 +216,23 @@ def test_snapshot_of_other_effects_is_refused():
         other.restore(world.snapshot())
     with pytest.raises(TypeError, match="snapshot"):
         other.restore("kept.npz")
+
+
+def test_a_copy_of_a_world_shares_the_values_and_goes_its_own_way():
+    """copy.deepcopy is a whole second world: equal steps give equal digests, and neither sees the other."""
+    mask, grid = PixelMask.from_array(np.ones((8, 8), bool)), TileGrid([[True] * 20], 16)
+    world = World(Effects(response=True, gravity=True))
+    world.add_body(grid, kind="static", position=(0, 100))
+    body = world.add_body(mask, position=(100, 40))
+    for _ in range(20):
+        world.step()
+    copied = copy.deepcopy(world)
+    assert copied.body(body.id).shapes[0] is mask and copied.digest() == world.digest()
+    for _ in range(40):
+        world.step()
+    assert copied.body(body.id).position != body.position
+    copied.add_body(mask, position=(200, 0))
+    world.add_body(mask, position=(200, 0))
+    for _ in range(40):
+        copied.step()
+    assert len(copied.library.rasters.rows) == len(world.library.rasters.rows)
