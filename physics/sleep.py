@@ -88,6 +88,9 @@ def forget(world, ids):
     bodies, shapes = world.bodies["id"], world.shapes["id"]
     kept = []
     for contacts in (world.found_contacts, world.parked):
+        if not len(contacts):
+            kept.append(contacts)
+            continue
         there = np.isin(contacts["shape_a"], shapes) & np.isin(contacts["shape_b"], shapes)
         there &= ~(np.isin(contacts["body_a"], ids) | np.isin(contacts["body_b"], ids))
         contacts = contacts[there]
