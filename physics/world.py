@@ -49,8 +49,7 @@ class World:
         self._bodies, self._shapes = Table(BODY), Table(SHAPE)
         self.library = Library()
         self.pairs = stages.PairList()
-        self._broadphase = None
-        self._stepping = False
+        self._broadphase, self._stepping = None, False
         self._next_body = self._next_shape = 0
         self._users, self._shapes_of, self._tiers, self._sources = {}, {}, {}, {}
         self.characters = Table(CHARACTER)
@@ -65,10 +64,13 @@ class World:
         self.sensed = self.impact_ghosts = None
         self.swept_sensors = self.found_contacts
         self._room = np.zeros(16, np.int64)
-        self.queries = QueryIndex()
-        self.events = Events()
+        self.queries, self.events = QueryIndex(), Events()
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
+
+    def __setstate__(self, state):
+        vars(self).update(state)
+        self._plan_list = stages.plan(self._effects, self._solver)     # a copy's stages keep rows of their own
 
     # --- the step ------------------------------------------------------------------------------------------------
 

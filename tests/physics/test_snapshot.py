@@ -236,3 +236,24 @@ def test_a_copy_of_a_world_shares_the_values_and_goes_its_own_way():
     for _ in range(40):
         copied.step()
     assert len(copied.library.rasters.rows) == len(world.library.rasters.rows)
+
+
+def test_neither_a_copy_nor_what_was_copied_disturbs_the_other():
+    """Stages keep rows from step to step: a copy that shared them wrote its contacts over those of the first."""
+    world = World()
+    world.add_body(Polygon.box(400, 20), kind="static", position=(0, 100))
+    for number in range(12):
+        world.add_body(Polygon.box(16, 16), position=(18.0 * number - 90.0, 40.0 - 20.0 * (number % 3)))
+    alone = copy.deepcopy(world)
+    for _ in range(60):
+        alone.step()
+    copies = []
+    for step in range(60):
+        if step % 7 == 0:
+            copies.append(copy.deepcopy(world))
+        before = world.digest()
+        for each in copies:
+            each.step()
+        assert world.digest() == before, f"a copy's step changed the original at step {step}"
+        world.step()
+    assert world.digest() == alone.digest()
