@@ -1,6 +1,6 @@
-"""The sheet "planes": the player, the enemies, the power-up and the two large planes of the lab."""
+"""The sheet "planes": the player, the enemies and bosses, what is picked up, and the two large planes of the lab."""
 
-from assets import enemies, large_planes, planes
+from assets import bosses, enemies, large_planes, pickups, planes, raiders
 from assets.atlas import Sheet
 from assets.shading import flashed
 
@@ -14,9 +14,17 @@ def planes_files():
     sheet.add_sequence("dart", [enemies.dart(i) for i in range(2)], 16)
     sheet.add_sequence("saucer", [enemies.saucer(i) for i in range(4)], 10)
     sheet.add_sequence("gunship", [enemies.gunship(i) for i in range(4)], 24)
-    sheet.add_sequence("powerup", [planes.powerup(i) for i in range(4)], 8)
+    sheet.add_sequence("powerup", [pickups.powerup(i) for i in range(4)], 8)
     for name in ("player", "dart_0", "saucer_0", "gunship_0"):
         sheet.add(f"{name.removesuffix('_0')}_flash", flashed(sheet.frames[name]))
     sheet.add("large_plane_a", large_planes.jet())
     sheet.add("large_plane_b", large_planes.bomber())
+    sheet.add_sequence("hornet", [raiders.hornet(i) for i in range(2)], 16)
+    sheet.add_sequence("turret", [raiders.gun_platform(i) for i in range(2)], 3)
+    sheet.add_sequence("midboss", [bosses.midboss(i) for i in range(2)], 12)
+    for look in bosses.LOOKS:
+        sheet.add_sequence(f"boss_{look}", [bosses.boss(look, i) for i in range(2)], 8)
+    sheet.add_sequence("core", [planes.marked_core(i) for i in range(2)], 8)
+    sheet.add_sequence("bomb_item", [pickups.bomb_item(i) for i in range(4)], 8)
+    sheet.add_sequence("life_item", [pickups.life_item(i) for i in range(4)], 8)
     return sheet.files()

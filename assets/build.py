@@ -9,19 +9,14 @@ import argparse
 import importlib
 import sys
 
-from assets import FOLDER, png
+from assets import FOLDER, music, png, sounds
 
 # name of the product -> (module, function, arguments); imported when built, so a part can be built by itself.
 PRODUCTS = {
     "font/font5x7": ("assets.font", "font_files", ("font5x7",)),
     "font/font3x5": ("assets.font", "font_files", ("font3x5",)),
-    **{
-        f"sounds/{name}": ("assets.sounds", "sound_files", (name,))
-        for name in (
-            "laser", "enemy_shot", "hit", "explosion", "coin", "powerup", "jump", "hurt",
-            "big_explosion", "spring", "land", "stomp", "blip", "confirm", "goal",
-        )
-    },
+    **sounds.PRODUCTS,
+    **music.PRODUCTS,
     "images/planes": ("assets.aircraft", "planes_files", ()),
     "images/effects": ("assets.effects", "effects_files", ()),
     "images/hero": ("assets.hero", "hero_files", ()),
@@ -31,6 +26,7 @@ PRODUCTS = {
     "images/ui": ("assets.ui", "ui_files", ()),
     "images/backdrops_shooter": ("assets.backdrops", "backdrop_files", ("shooter",)),
     "images/backdrops_platformer": ("assets.backdrops", "backdrop_files", ("platformer",)),
+    "images/pictures": ("assets.filming", "picture_files", ()),
     "levels/platformer": ("assets.levels", "level_files", ()),
 }
 

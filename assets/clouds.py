@@ -13,6 +13,9 @@ def _tones(values):
 HIGH = _tones(((0.52, 0.040, 262), (0.60, 0.034, 255), (0.68, 0.026, 245), (0.75, 0.018, 235)))
 
 
+STORM = _tones(((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0.39, 0.026, 262)))
+
+
 def cover(width, height, cells_x, cells_y, seed, threshold):
     """Return (thickness 0.., solid) of a seamless cloud field; the denser the lower the threshold."""
     field = layered_noise(width, height, cells_x, cells_y, 5, seed, 0.55)
@@ -21,12 +24,12 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
     return thickness, thickness > 0
 
 
-def from_above(seed, threshold, alpha, cells_x, cells_y):
-    """Clouds over the sea, (540, 480, 4) uint8, seamless in both directions. alpha: 0..255 of a thick part."""
+def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
+    """Clouds over the ground, (540, 480, 4) uint8, seamless in both directions. alpha: 0..255 of a thick part."""
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness   # thicker towards the bottom right: faces the light
     level = 1.6 - lit * 26 + thickness * 3 + dither(540, 480) * 0.9
-    tone = HIGH[np.clip(np.floor(np.round(level, 6)), 0, 3).astype(int)]
+    tone = tones[np.clip(np.floor(np.round(level, 6)), 0, 3).astype(int)]
     out = np.zeros((540, 480, 4), np.uint8)
     out[..., :3] = tone
     # Thin edges are half clear and dithered away, so that no hard contour is taken for an island's.

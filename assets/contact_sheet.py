@@ -1,6 +1,7 @@
-"""Writes docs/sprites.png: every sprite sheet of the game on one picture, three times as large.
+"""Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of both games.
 
-    python -m assets.contact_sheet
+    python -m assets.contact_sheet            both; the games are played by their bots for some minutes of game time
+    python -m assets.contact_sheet sprites    only that one
 """
 
 import json
@@ -8,13 +9,16 @@ import sys
 
 import numpy as np
 
-from assets import FOLDER, png
+from assets import FOLDER, moments, png
 from assets.palette import OUTLINE, RAMPS, oklch
 
 SCALE = 3
 WIDTH = 496   # [px] before scaling: the widest frame and its gaps
 GAP = 4   # [px] around a frame
 SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lab")
+BACKDROPS = ("sea", "coast", "storm", "clouds_low", "clouds_high", "clouds_storm", "sky_dusk", "clouds", "mountains_far",
+             "mountains_mid", "keep_far", "mountains_near", "cave_far", "cave_near")
+SHRUNK = 3   # a backdrop is shown at a third of its size, so at its own after scaling
 BACKGROUND = np.array(oklch(0.36, 0.045, 285), np.uint8)
 PAPER = np.array(oklch(0.27, 0.045, 285), np.uint8)
 
@@ -68,18 +72,36 @@ def section(name, frames):
     return out
 
 
-def contact_sheet():
-    """Return the whole picture, (h, w, 3) uint8."""
+def shrunk(name):
+    """A backdrop at a third of its size, (h, w, 4) uint8: every third pixel, clear where it is half clear."""
+    picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())[::SHRUNK, ::SHRUNK]
+    if picture.shape[2] == 4:
+        return picture
+    return np.concatenate([picture, np.full(picture.shape[:2] + (1,), 255, np.uint8)], axis=2)
+
+
+def sprites():
+    """Return the picture of all sprites and backdrops, (h, w, 3) uint8."""
     sections = [section(name, load_frames(name)) for name in SHEETS]
+    sections.append(section("backdrops", {name: shrunk(name) for name in BACKDROPS}))
     return np.concatenate(sections).repeat(SCALE, 0).repeat(SCALE, 1)
 
 
-def main():
-    """Write the picture. Returns the exit code."""
-    target = FOLDER.parent / "docs" / "sprites.png"
-    target.parent.mkdir(exist_ok=True)
-    target.write_bytes(png.encode(np.ascontiguousarray(contact_sheet())))
-    sys.stdout.write(f"{target.relative_to(FOLDER.parent)}\n")
+PICTURES = {"sprites": sprites, "moments": lambda: moments.sheet(write_text)}
+
+
+def main(arguments=None):
+    """Write the pictures. Returns the exit code: 0 fine, 2 for a picture that does not exist."""
+    names = (sys.argv[1:] if arguments is None else arguments) or list(PICTURES)
+    for name in names:
+        if name not in PICTURES:
+            sys.stderr.write(f"no picture {name!r}; choose from {', '.join(PICTURES)}\n")
+            return 2
+    for name in names:
+        target = FOLDER.parent / "docs" / f"{name}.png"
+        target.parent.mkdir(exist_ok=True)
+        target.write_bytes(png.encode(np.ascontiguousarray(PICTURES[name]())))
+        sys.stdout.write(f"{target.relative_to(FOLDER.parent)}\n")
     return 0
 
 

@@ -1,15 +1,17 @@
-"""Bullets, flashes, sparks, smoke, debris and light: the small pictures that make hits felt.
+"""The player's bullets, flashes, sparks, smoke, debris and light: the small pictures that make hits felt.
 
-The player's bullets are cool and long, the enemies' warm and round with a dark ring, so they read on any background
-and apart from each other without colour. Light discs are opaque on black: they are drawn with additive blending.
+The player's bullets are cool and long, the enemies' (enemy_bullets.py) round with a dark ring, so they read on any
+background and apart from each other without colour. Light discs are opaque on black: they are drawn with additive blending.
 """
 
 import numpy as np
 
 from assets.atlas import Sheet
+from assets.blasts import add_blasts
+from assets.enemy_bullets import add_enemy_bullets
 from assets.explosions import explosion
 from assets.fields import capsule, circle, dither, grid, length, noise, polygon
-from assets.palette import FIRE, OUTLINE, RAMPS, WHITE, mix
+from assets.palette import FIRE, RAMPS, WHITE, mix
 from assets.shading import Sprite
 
 
@@ -30,30 +32,6 @@ def side_bullet():
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (2, 2), (2, 8), 1.7, 0.8), RAMPS["blue"][3])
     sprite.flat(capsule(x, y, (2, 2), (2, 5), 0.9, 0.6), WHITE)
-    return sprite.pixels()
-
-
-def round_bullet(ramp, radius, frame):
-    """An enemy's ball, frame 0..1 (its ring breathes): dark ring, saturated ring, white core."""
-    size = int(2 * radius + 4)
-    sprite = Sprite(size, size)
-    distance = length(sprite.x - size / 2, sprite.y - size / 2)
-    swell = (0.0, 0.45)[frame]
-    sprite.flat(distance - (radius + 0.9), mix(OUTLINE, RAMPS[ramp][0], 0.6))
-    sprite.flat(distance - (radius - 0.1), RAMPS[ramp][2])
-    sprite.flat(distance - (radius - 1.0 + swell * 0.5), RAMPS[ramp][3])
-    sprite.flat(distance - (radius - 1.7 + swell), RAMPS[ramp][4])
-    sprite.flat(distance - (radius - 2.3 + swell * 0.6), WHITE)
-    return sprite.pixels()
-
-
-def needle():
-    """An aimed enemy shot, drawn pointing down: 7 x 14 px."""
-    sprite = Sprite(7, 14)
-    x, y = sprite.x, sprite.y
-    sprite.flat(capsule(x, y, (3.5, 3.4), (3.5, 10), 1.5, 3.0), mix(OUTLINE, RAMPS["orange"][0], 0.6))
-    sprite.flat(capsule(x, y, (3.5, 3.8), (3.5, 10), 0.8, 2.2), RAMPS["orange"][3])
-    sprite.flat(capsule(x, y, (3.5, 6), (3.5, 10), 0.6, 1.3), WHITE)
     return sprite.pixels()
 
 
@@ -90,17 +68,20 @@ def spark(frame):
 
 
 def smoke(frame):
-    """A puff that swells and thins, frame 0..5: 20 x 20 px."""
+    """A puff of rolling lobes that swells, rises, tears and thins, frame 0..5: 20 x 20 px."""
     sprite = Sprite(20, 20)
     t = frame / 5
     x, y = sprite.x, sprite.y
-    field = np.full(x.shape, 1e9)
-    for dx, dy, size in ((0, 0, 1.0), (-3, 1.5, 0.7), (3, 1, 0.75), (-1, -3, 0.7), (2, -2.4, 0.6), (-2.4, 3, 0.5)):
-        spread = 0.55 + 0.7 * t
-        field = np.minimum(field, circle(x, y, 10 + dx * spread, 10 + dy * spread, size * (4.0 + 1.8 * t)))
-    field = field + (noise(20, 20, 5, 5, 50 + frame) - 0.5) * (1.5 + 3 * t) + t * t * 3.2
-    tones = np.array([mix(RAMPS["gunmetal"][i], RAMPS["stone"][i], 0.5) for i in range(1, 6)])
-    sprite.part(field, tones, bulge=5, base=0.72 - 0.22 * t, shadow=1)
+    tones = [mix(RAMPS["gunmetal"][i], RAMPS["stone"][i], 0.5) for i in range(1, 6)]
+    grain = (noise(20, 20, 5, 5, 50 + frame) - 0.5) * (0.4 + 2.6 * t)
+    spread = 1.0 + 0.45 * t
+    lobes = ((0, 1.4, 4.3), (-3.2, 2.0, 3.0), (3.4, 1.8, 3.0), (-2.2, -2.0, 3.2), (2.4, -1.8, 3.0), (0.2, -3.8, 2.6))
+    for i, (shift, share) in enumerate(((0.0, 1.0), (0.5, 0.74), (0.9, 0.36))):   # dark, body, light: upper left
+        for dx, dy, size in lobes:
+            middle_x, middle_y = 10 + dx * spread, 10.6 + dy * spread - t * 1.6
+            radius = size * (0.86 + 0.42 * t) - t * t * 3.3
+            field = circle(x, y, middle_x - shift, middle_y - shift * 1.3, radius * share) + grain
+            sprite.flat(field, tones[min(4, i + 1 + (frame < 2))])
     return sprite.pixels()
 
 
@@ -120,12 +101,13 @@ def debris(kind):
     return sprite.pixels()
 
 
-def glow(size, ramp):
-    """A disc of light for additive blending: opaque, black outside, dithered falloff."""
+def glow(size, ramp, brightest=0.70):
+    """A disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its middle."""
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)
     level = np.clip(np.floor(fall * fall * 6 + 0.5 + dither(size, size) * 0.7), 0, 5).astype(int)
-    tones = np.array([mix((0, 0, 0), RAMPS[ramp][3], share) for share in (0, 0.10, 0.22, 0.36, 0.52, 0.70)])
+    tones = np.array([mix((0, 0, 0), RAMPS[ramp][3], share * brightest / 0.70)
+                      for share in (0, 0.10, 0.22, 0.36, 0.52, 0.70)])
     out = np.full((size, size, 4), 255, np.uint8)
     out[..., :3] = tones[level]
     return out
@@ -144,10 +126,7 @@ def effects_files():
     sheet = Sheet("effects")
     sheet.add_sequence("player_bullet", [player_bullet(i) for i in range(2)], 20)
     sheet.add("side_bullet", side_bullet())
-    sheet.add_sequence("bullet_red", [round_bullet("red", 4, i) for i in range(2)], 12)
-    sheet.add_sequence("bullet_purple", [round_bullet("purple", 3, i) for i in range(2)], 12)
-    sheet.add_sequence("bullet_orange", [round_bullet("orange", 5, i) for i in range(2)], 12)
-    sheet.add("bullet_needle", needle())
+    add_enemy_bullets(sheet)
     sheet.add_sequence("muzzle_flash", [muzzle_flash(i) for i in range(3)], 40)
     sheet.add_sequence("explosion_small", explosion(12, 36, 5), 26)
     sheet.add_sequence("explosion_large", explosion(16, 72, 9), 24)
@@ -158,4 +137,5 @@ def effects_files():
     sheet.add("glow_large", glow(96, "orange"))
     sheet.add("glow_blue", glow(32, "blue"))
     sheet.add("hitbox_dot", hitbox_dot())
+    add_blasts(sheet)
     return sheet.files()

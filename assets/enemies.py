@@ -1,4 +1,4 @@
-"""The shooter's three enemy kinds, seen from above and facing down. Each has its own colour and outline.
+"""The shooter's first three enemy kinds, seen from above and facing down. Each has its own colour and outline.
 
 dart: a red diver, all edges. saucer: a round weaver in violet. gunship: a large olive gun platform with rotors.
 Wings stand away from the bodies, so that a box overlap is often not a hit of the masks.

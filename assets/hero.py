@@ -13,7 +13,6 @@ from assets.palette import OUTLINE, RAMPS, oklch, ramp
 from assets.shading import flashed
 
 SIZE = 24   # [px] width and height of a frame
-BODY_X, BODY_Y = 4, 12   # where a body part lies in its frame
 HEAD_X, HEAD_Y = 6, 2
 
 SKIN = ramp(55, 0.10, 0.42, 0.95)
@@ -50,6 +49,16 @@ FRAMES = {
     "hurt_0": ("hurt_0", ("head_hurt", 0, 0), ("scarf_up_1", 2, 6)),
     "win_0": ("win_0", ("head", 0, 0), ("scarf_hang_0", 2, 13)),
     "win_1": ("win_0", ("head_blink", 0, 1), ("scarf_hang_1", 2, 13)),
+    "climb_0": ("climb_0", ("head_back", -1, 0), ("scarf_hang_0", 4, 13)),
+    "climb_1": ("climb_1", ("head_back", 0, 1), ("scarf_hang_1", 4, 13)),
+    "climb_2": ("climb_2", ("head_back", 1, 0), ("scarf_hang_0", 6, 13)),
+    "climb_3": ("climb_1", ("head_back", 0, 1), ("scarf_hang_0", 4, 13)),
+    "push_0": ("push_0", ("head", 2, 1), ("scarf_hang_0", 3, 12)),
+    "push_1": ("push_1", ("head", 2, 2), ("scarf_hang_1", 3, 13)),
+    "push_2": ("push_2", ("head", 2, 1), ("scarf_hang_0", 3, 12)),
+    "push_3": ("push_3", ("head", 2, 2), ("scarf_hang_1", 3, 13)),
+    "look_up_0": ("idle_0", ("head_up", 0, 0), ("scarf_hang_0", 2, 12)),
+    "duck_0": ("duck_0", ("head", 0, 5), ("scarf_hang_1", 1, 15)),
 }
 ANIMATIONS = {
     # name: (frames, frames per second)
@@ -60,6 +69,10 @@ ANIMATIONS = {
     "slide": (("slide_0", "slide_0", "slide_0", "slide_1"), 6),
     "hurt": (("hurt_0",), 1),
     "win": (("win_0", "win_1"), 4),
+    "climb": (("climb_0", "climb_1", "climb_2", "climb_3"), 8),
+    "push": (("push_0", "push_1", "push_2", "push_3"), 8),
+    "look_up": (("look_up_0",), 1),
+    "duck": (("duck_0",), 1),
 }
 
 
@@ -68,7 +81,8 @@ def compose(frame, parts):
     body, (head, dx, dy), (scarf, scarf_x, scarf_y) = FRAMES[frame]
     out = np.zeros((SIZE, SIZE, 4), np.uint8)
     lay(out, parts[scarf], scarf_x, scarf_y)
-    lay(out, parts[body], BODY_X, BODY_Y)
+    height, width = parts[body].shape[:2]
+    lay(out, parts[body], (SIZE - width) // 2, SIZE - height)   # feet on the bottom row, in the middle
     lay(out, parts[head], HEAD_X + dx, HEAD_Y + dy)
     return out
 

@@ -1,31 +1,35 @@
 """Turns assets/levels/platformer.txt, one letter per tile, into a Tiled map (.tmj) with the tileset embedded.
 
-Layers, back to front: "decor" and "solid" (tiles), "things" (objects). Objects are rectangles in px, x and y the top
-left corner; moving platforms carry to_x, to_y (px, of that corner at the far end) and period (s, there and back).
+Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until somebody is inside), "things" and
+"bot hints" (objects). Objects are rectangles in px, x and y the top left corner; moving platforms carry to_x, to_y (px, of
+that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act whose look they have.
 """
 
 import json
 
 from assets import FOLDER
 from assets.decoration import SCENERY
+from assets.level_things import HANGING, STANDING, hints, objects
 from assets.tiles import DEPTHS, NE, NW, SE, SW, TILE, E, N, S, W, reduced, tile_table
 
 SHEET_WIDTH = 256   # [px] as assets/atlas.py packs the sheet "tiles", without gaps
-GROUND, STONE = "#", "B"
+GROUND = "#"
+SOLIDS = {"#": "ground", "B": "stone", "R": "rock"}
 DEEP = 4   # [tiles] below the surface the ground is dark
 SLOPE_LETTERS = {
     "/": "slope_up", "\\": "slope_down", "1": "slope_up_low", "2": "slope_up_high", "3": "slope_down_high",
     "4": "slope_down_low",
 }
 SCENERY_LETTERS = {"T": "tree_green", "A": "tree_autumn", "Y": "tree_small", "b": "bush"}
-DECOR_LETTERS = {"f": "fence", "m": "mushroom", "k": "rock", "*": "flower_1", "v": "vine", "!": "torch"}
-# letter: (type, width, height) of objects that stand on the tile's bottom, centred on the tile
-STANDING = {
-    "H": ("hero_start", 10, 20), "s": ("spring", 16, 16), "w": ("walker", 20, 16), "K": ("checkpoint", 16, 32),
-    "?": ("sign", 20, 17), "o": ("coin", 14, 14), "c": ("crate", 16, 16),
+DECOR_LETTERS = {
+    "f": "fence", "m": "mushroom", "k": "rock", "*": "flower_1", "v": "vine", "!": "torch", "i": "stalactite",
+    "j": "stalagmite", "x": "crystal_0", "g": "glowcap", "n": "banner", "L": "ladder",
 }
+WALLS = {",": "back_wall", ":": "back_cave"}    # behind these letters, and behind what stands or hangs among them
+THINGS = "".join(STANDING) + "".join(HANGING) + "!ijxgnLCP-"
 AROUND = ((N, 0, -1), (NE, 1, -1), (E, 1, 0), (SE, 1, 1), (S, 0, 1), (SW, -1, 1), (W, -1, 0), (NW, -1, -1))
 GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))   # running percent of free grass tiles
+ACTS = ("meadow", "cave", "keep")
 
 
 class Map:
@@ -36,6 +40,9 @@ class Map:
         self.rows = sections.get("map", [])
         self.platforms = [_platform(line, source) for line in sections.get("platforms", [])]
         self.signs = sections.get("signs", [])
+        self.zones = [_zone(line, source) for line in sections.get("zones", [])]
+        self.covers = [_numbers(line, 4, source, "a cover is 'x y width height'") for line in sections.get("covers", [])]
+        self.hints = [_hint(line, source) for line in sections.get("hints", [])]
         self.width, self.height = len(self.rows[0]) if self.rows else 0, len(self.rows)
         for number, row in enumerate(self.rows, 1):
             if len(row) != self.width:
@@ -43,10 +50,16 @@ class Map:
         for letter, given, name in (("P", self.platforms, "[platforms]"), ("?", self.signs, "[signs]")):
             if len(self.places(letter)) != len(given):
                 raise ValueError(f"{source}: {len(self.places(letter))} {letter!r} on the map, {len(given)} in {name}")
+        self.rooms = {(x, y) for left, top, width, height in self.covers for x in range(left, left + width)
+                      for y in range(top, top + height) if self.at(x, y) not in SOLIDS}   # open tiles under covers
 
     def at(self, x, y):
         """The letter at a tile; outside counts as ground, so that edges of the map are drawn as inside."""
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
+
+    def buried(self, x, y):
+        """The letter at a tile, covered rooms being filled."""
+        return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
         """Tiles (x, y) of a letter, left to right, top to bottom within a column."""
@@ -67,12 +80,39 @@ def _sections(text, source):
     return sections
 
 
+def _numbers(line, count, source, rule):
+    """So many whole numbers of a line, as a tuple."""
+    try:
+        values = tuple(int(word) for word in line.split())
+    except ValueError:
+        values = ()
+    if len(values) != count:
+        raise ValueError(f"{source}: {rule} (got {line!r})")
+    return values
+
+
 def _platform(line, source):
     try:
-        to_x, to_y, period = line.split()
-        return int(to_x) * TILE, int(to_y) * TILE, float(period)
+        to_x, to_y, period, width = line.split()
+        return int(to_x) * TILE, int(to_y) * TILE, float(period), int(width) * TILE
     except ValueError:
-        raise ValueError(f"{source}: a platform is 'x y seconds' (got {line!r})") from None
+        raise ValueError(f"{source}: a platform is 'x y seconds width' (got {line!r})") from None
+
+
+def _zone(line, source):
+    """(act, rectangle, rows that the camera may show or None), tiles."""
+    act, _, rest = line.partition(" ")
+    if act not in ACTS:
+        raise ValueError(f"{source}: a zone is one of {', '.join(ACTS)} (got {line!r})")
+    count = 6 if len(rest.split()) > 4 else 4
+    values = _numbers(rest, count, source, "a zone is 'act x y width height', and 'top bottom' of the view")
+    return act, values[:4], values[4:]
+
+
+def _hint(line, source):
+    x, _, rest = line.partition(" ")
+    y, _, act = rest.partition(" ")
+    return *_numbers(f"{x} {y}", 2, source, "a hint is 'x y act'"), act or "run"
 
 
 def tile_name(level, x, y):
@@ -80,37 +120,69 @@ def tile_name(level, x, y):
     letter = level.at(x, y)
     if letter in SLOPE_LETTERS:
         return SLOPE_LETTERS[letter]
+    if letter == "L" and level.at(x, y - 1) != "L":
+        return "ladder_top"
     if letter == "-":
         before, after = level.at(x - 1, y) == "-", level.at(x + 1, y) == "-"
         return "plank_" + {(0, 0): "single", (0, 1): "left", (1, 0): "right", (1, 1): "middle"}[(before, after)]
-    if letter not in (GROUND, STONE):
-        return None
+    return solid_name(level, x, y) if letter in SOLIDS else None
+
+
+def solid_name(level, x, y):
+    """The name of the ground, rock or stone tile at (x, y), by its neighbours."""
+    letter = level.at(x, y)
     if level.at(x, y - 1) in SLOPE_LETTERS:
         return f"under_{SLOPE_LETTERS[level.at(x, y - 1)]}"
-    depth = _depth(level, x, y) if letter == GROUND else 0
-    if depth >= DEEP:
-        roll = _scatter(x, y)
-        return f"ground_deep_{4 if roll < 2 else 3 if roll < 5 else roll % 3}"
-    if depth == DEEP - 1:
-        return f"ground_fading_{_scatter(x, y) % 2}"
+    material = SOLIDS[letter]
     mask = sum(bit for bit, dx, dy in AROUND if _joins(level, x + dx, y + dy))
-    name = f"{'ground' if letter == GROUND else 'stone'}_{reduced(mask)}"
-    variant = _scatter(x, y) % (DEPTHS + 3)
+    depth = _depth(level, x, y) if mask == 255 else 0
+    roll = _scatter(x, y)
+    if depth >= DEEP and letter == GROUND:
+        return f"ground_deep_{4 if roll < 2 else 3 if roll < 5 else roll % 3}"
+    if depth >= DEEP - 1:
+        return f"{material}_{'deep' if depth >= DEEP else 'fading'}_{roll % 2}"
+    name = f"{material}_{reduced(mask)}"
+    variant = roll % (DEPTHS + 3)
     return f"{name}_{variant}" if mask == 255 and 0 < variant < DEPTHS else name
 
 
+def cover_names(level):
+    """Return {(x, y): tile name} of the layer that makes covered rooms, and the walls around them, look like solid ground."""
+    rooms = level.rooms
+    if not rooms:
+        return {}
+    filled = Filled(level, rooms)
+    around = {(x + dx, y + dy) for x, y in rooms for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
+    return {place: solid_name(filled, *place) for place in around if filled.at(*place) in SOLIDS}
+
+
+class Filled:
+    """A level whose rooms are filled with what is above them."""
+
+    def __init__(self, level, rooms):
+        self.level, self.rooms = level, rooms
+
+    def at(self, x, y):
+        """The letter at a tile."""
+        while (x, y) in self.rooms:
+            y -= 1
+        return self.level.at(x, y)
+
+    buried = at
+
+
 def _depth(level, x, y):
-    """Tiles from here to the nearest open one, at most DEEP."""
+    """Tiles from here to the nearest open one, at most DEEP. A covered room is not open: nothing may tell where it is."""
     for reach in range(1, DEEP + 1):
         ring = [(dx, dy) for dx in range(-reach, reach + 1) for dy in range(-reach, reach + 1)
                 if max(abs(dx), abs(dy)) == reach and abs(dx) + abs(dy) < 2 * reach]   # without its corners: rounder
-        if any(level.at(x + dx, y + dy) not in (GROUND, STONE) for dx, dy in ring):
+        if any(level.buried(x + dx, y + dy) not in SOLIDS for dx, dy in ring):
             return reach - 1
     return DEEP
 
 
 def _joins(level, x, y):
-    return level.at(x, y) in (GROUND, STONE) or level.at(x, y) in SLOPE_LETTERS
+    return level.at(x, y) in SOLIDS or level.at(x, y) in SLOPE_LETTERS
 
 
 def _scatter(x, y):
@@ -119,18 +191,21 @@ def _scatter(x, y):
 
 
 def decor_names(level):
-    """Return {(x, y): tile name} of the decoration layer."""
-    out = {}
+    """Return ({(x, y): tile name} of the decoration layer, the same of the walls behind it)."""
+    out, walls = {}, {}
     for y in range(level.height):
         for x in range(level.width):
             letter = level.at(x, y)
-            if letter in ",!" or _in_front_of_wall(level, x, y):
-                out[x, y] = f"back_wall_{_scatter(x, y) % 2}"
+            wall = _wall_behind(level, x, y)
+            if wall:
+                walls[x, y] = f"{wall}_{_scatter(x, y) % 2}"
             if letter == "^":
                 out[x, y] = "spikes"
+            elif letter == "x":
+                out[x, y] = f"crystal_{_scatter(x, y) % 2}"
             elif letter in DECOR_LETTERS:
                 out[x, y] = DECOR_LETTERS[letter]
-            elif letter == "." and level.at(x, y + 1) == GROUND and (x, y) not in out:
+            elif letter == "." and level.at(x, y + 1) == GROUND:
                 grown = [name for name, percent in GROWTH if _scatter(x, y) < percent]
                 out.update({(x, y): grown[0]} if grown else {})
     for letter, name in SCENERY_LETTERS.items():
@@ -141,61 +216,23 @@ def decor_names(level):
                     place = (foot_x - columns // 2 + column, foot_y - rows + 1 + row)
                     if level.at(*place) not in SLOPE_LETTERS:
                         out[place] = f"{name}_{column}_{row}"
-    return out
+    return out, walls
 
 
-def _in_front_of_wall(level, x, y):
-    """Whether a thing or plank hangs before a back wall: its own letter hides the wall's, its row tells."""
-    if level.at(x, y) == "-":
-        return level.at(x, y + 1) in ",!" or _in_front_of_wall(level, x, y + 1)
-    if level.at(x, y) not in STANDING:
-        return False
+def _wall_behind(level, x, y):
+    """The wall behind a tile: its own letter's, or of the nearest tile in its row that is not another thing. Or None."""
+    if level.at(x, y) in WALLS:
+        return WALLS[level.at(x, y)]
+    if level.at(x, y) not in THINGS:
+        return None
     for step in (-1, 1):
         beside = x
-        while level.at(beside, y) in STANDING:
+        while level.at(beside, y) in THINGS:
             beside += step
-        if level.at(beside, y) in ",!":
-            return True
-    return False
-
-
-def objects(level):
-    """Return the object rows in reading order: (type, x, y, width, height, properties), px."""
-    out, signs, platforms = [], iter(level.signs), iter(level.platforms)
-    for x in range(level.width):
-        for y in range(level.height):
-            letter = level.at(x, y)
-            if letter in STANDING:
-                kind, width, height = STANDING[letter]
-                bottom = (y + 1) * TILE - (1 if kind == "coin" else 0)
-                properties = {}
-                if kind == "sign":
-                    properties["text"] = next(signs)
-                elif kind == "walker":
-                    properties["range"] = walking_range(level, x, y)
-                out.append((kind, x * TILE + (TILE - width) // 2, bottom - height, width, height, properties))
-            elif letter == "C":
-                out.append(("crate", x * TILE, (y - 1) * TILE, 2 * TILE, 2 * TILE, {}))
-            elif letter == "P":
-                to_x, to_y, period = next(platforms)
-                properties = {"to_x": to_x, "to_y": to_y, "period": period}
-                out.append(("platform", x * TILE, y * TILE, 3 * TILE, TILE, properties))
-            elif letter == "G":
-                out.append(("goal", x * TILE, (y - 2) * TILE, 2 * TILE, 3 * TILE, {}))
-            elif letter == "^" and level.at(x - 1, y) != "^":
-                run = next(i for i in range(1, level.width) if level.at(x + i, y) != "^")
-                # Kinder than it looks: the points' outer pixels do not hurt.
-                out.append(("spikes", x * TILE + 3, y * TILE + 7, run * TILE - 6, TILE - 7, {}))
-    return out
-
-
-def walking_range(level, x, y, most=4):
-    """How far in px a walker may go to either side: flat free ground, at most `most` tiles."""
-    for step in range(1, most + 1):
-        for side in (-1, 1):
-            if level.at(x + side * step, y) in "#B^/\\1234" or level.at(x + side * step, y + 1) not in "#B":
-                return (step - 1) * TILE
-    return most * TILE
+        if level.at(beside, y) in WALLS:
+            return WALLS[level.at(beside, y)]
+    below = level.at(x, y + 1)
+    return WALLS[below] if level.at(x, y) == "-" and below in WALLS else None
 
 
 def _properties(values):
@@ -221,29 +258,33 @@ def tiled_map(level):
     """Return the whole map as Tiled's JSON structure."""
     table = tile_table()
     gids = {name: i + 1 for i, name in enumerate(table)}
-    decor = decor_names(level)
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
-    solid = [gids.get(tile_name(level, x, y), 0) for x, y in cells]
+    decor, walls = decor_names(level)
     # A tree may reach past the map or have clear corners that are no tiles: both are 0.
-    behind = [gids.get(decor.get((x, y)), 0) for x, y in cells]
+    pictures = {
+        "wall": walls, "decor": decor, "solid": {place: tile_name(level, *place) for place in cells},
+        "cover": cover_names(level),
+    }
     size = {"width": level.width, "height": level.height, "x": 0, "y": 0, "opacity": 1, "visible": True}
-    things = [
-        {"id": i, "name": "", "type": kind, "x": x, "y": y, "width": width, "height": height, "rotation": 0,
-         "visible": True, "properties": _properties(properties)}
-        for i, (kind, x, y, width, height, properties) in enumerate(objects(level), 1)
-    ]
+    layers = [{"name": name, "type": "tilelayer", **size, "data": [gids.get(names.get(place), 0) for place in cells]}
+              for name, names in pictures.items()]
+    number = 0
+    for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
+        things = [
+            {"id": number + i, "name": "", "type": kind, "x": x, "y": y, "width": width, "height": height, "rotation": 0,
+             "visible": True, "properties": _properties(properties)}
+            for i, (kind, x, y, width, height, properties) in enumerate(rows, 1)
+        ]
+        number += len(things)
+        layers.append({"name": name, "type": "objectgroup", "draworder": "index", "opacity": 1, "visible": True,
+                       "x": 0, "y": 0, "objects": things})
     return {
         "type": "map", "version": "1.10", "tiledversion": "1.10.2", "orientation": "orthogonal",
         "renderorder": "right-down", "infinite": False, "compressionlevel": -1, "width": level.width,
-        "height": level.height, "tilewidth": TILE, "tileheight": TILE, "nextlayerid": 4,
-        "nextobjectid": len(things) + 1,
+        "height": level.height, "tilewidth": TILE, "tileheight": TILE, "nextlayerid": len(layers) + 1,
+        "nextobjectid": number + 1,
         "tilesets": [tileset(table)],
-        "layers": [
-            {"id": 1, "name": "decor", "type": "tilelayer", **size, "data": behind},
-            {"id": 2, "name": "solid", "type": "tilelayer", **size, "data": solid},
-            {"id": 3, "name": "things", "type": "objectgroup", "draworder": "index", "opacity": 1, "visible": True,
-             "x": 0, "y": 0, "objects": things},
-        ],
+        "layers": [{"id": i, **layer} for i, layer in enumerate(layers, 1)],
     }
 
 

@@ -67,10 +67,12 @@ RAMPS = {
     "teal": ramp(195, 0.11),
     "wood": ramp(58, 0.09, 0.20, 0.86),
     "dirt": ramp(45, 0.060, 0.17, 0.70),
-    "stone": ramp(280, 0.030, 0.20, 0.86),
+    "stone": ramp(285, 0.042, 0.20, 0.86),
     "grass": ramp(138, 0.135, 0.24, 0.90),
     "glass": ramp(205, 0.10, 0.30, 0.98),
     "gunmetal": ramp(265, 0.030, 0.15, 0.72),
+    "rock": ramp(232, 0.054, 0.20, 0.82),
+    "armour": ramp(262, 0.062, 0.16, 0.84),
 }
 OUTLINE = np.array(oklch(0.16, 0.03, 285), np.uint8)
 WHITE = np.array((255, 255, 255), np.uint8)

@@ -1,7 +1,7 @@
-"""The player's plane, seen from above and flying up, with four banking frames, and its power-up capsule."""
+"""The player's plane, seen from above and flying up, with four banking frames, its exhaust and its marked core."""
 
 from assets.fields import box, capsule, circle, ellipse, polygon
-from assets.palette import RAMPS, WHITE, mix
+from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite
 
 SIZE = 32   # [px] square frame; the plane's centre is the frame's centre
@@ -73,18 +73,16 @@ def exhaust(frame):
     return sprite.pixels()
 
 
-def powerup(frame):
-    """A capsule with a glowing core that pulses, frame 0..3: 18 x 18 px."""
-    sprite = Sprite(18, 18)
-    x, y = sprite.x, sprite.y
-    glow = (0.22, 0.34, 0.46, 0.34)[frame]
-    sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)
-    sprite.part(box(x, y, 4.5, 1.5, 13.5, 16.5, 3), RAMPS["gold"], bulge=3, base=0.5)
-    sprite.part(circle(x, y, 9, 9, 5.2), RAMPS["red"], bulge=6, base=glow, gain=0.3, grain=0)
-    letter = ("####.", "##.##", "##.##", "####.", "##...", "##...")   # P for power, in the glass
-    for row, cells in enumerate(letter):
+def marked_core(frame):
+    """The player's true hit area, 6 x 6 px, frame 0..1: a lit jewel in a dark setting that glows in turn."""
+    rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
+    tones = {
+        "d": OUTLINE, "r": (RAMPS["red"][3], RAMPS["pink"][4])[frame], "w": (RAMPS["pink"][4], RAMPS["pink"][5])[frame],
+        "W": WHITE,
+    }
+    sprite = Sprite(6, 6)
+    for row, cells in enumerate(rows):
         for column, cell in enumerate(cells):
-            if cell == "#":
-                sprite.dot(7 + column, 6 + row, WHITE)
-    sprite.rim(share=0.55).outline()
+            if cell != ".":
+                sprite.dot(column, row, tones[cell])
     return sprite.pixels()

@@ -6,13 +6,20 @@ Far layers are lighter and paler (the air between), near ones dark and rich, so 
 import numpy as np
 
 from assets.clouds import bank
-from assets.fields import circle, dither, grid, layered_noise, length, noise
+from assets.fields import circle, dither, grid, layered_noise, length
 from assets.palette import mix, oklch
 
 WIDTH = 480   # [px] one screen; scenes repeat the layers
 SKY_HEIGHT = 270
 SKY = ((0.22, 0.075, 282), (0.30, 0.095, 290), (0.42, 0.115, 310), (0.56, 0.125, 350), (0.70, 0.125, 35),
        (0.82, 0.110, 65))
+# Rows of firs, far to near: px below the crest, height of its tallest [px], (body, mist or light, lit edge)
+FIR_ROWS = (
+    (0, 30, ((0.285, 0.062, 292), (0.330, 0.072, 300), (0.400, 0.082, 318))),
+    (13, 26, ((0.245, 0.054, 288), (0.280, 0.060, 293), (0.335, 0.066, 302))),
+    (26, 24, ((0.205, 0.044, 286), (0.235, 0.050, 288), (0.280, 0.056, 292))),
+    (38, 22, ((0.225, 0.045, 285), (0.225, 0.045, 285), (0.248, 0.048, 286))),
+)
 BANDS = 26   # colour bands of the sky, dithered into each other
 SUN = (338, 196, 21)   # [px] x, y, radius
 
@@ -98,28 +105,32 @@ def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
 
 
 def pines(height, seed):
-    """The nearest range: dark hills with fir trees along the crest, (height, 480, 4) uint8."""
+    """The nearest range: wooded hills in four rows of firs, each nearer and darker, (height, 480, 4) uint8."""
     line = ridge_line(3, 4, seed, 0.2)
-    top = height - (26 + 30 * line)
-    body, light, edge = _tones((0.225, 0.045, 285), (0.262, 0.050, 284), (0.325, 0.060, 290))
     out = np.zeros((height, WIDTH, 4), np.uint8)
     y = np.mgrid[0:height, 0:WIDTH][0]
-    speck = noise(WIDTH, height, 96, max(2, height // 4), seed + 3)
-    hill = y >= top[None, :]
-    out[hill] = (*body, 255)
-    out[hill & (speck > 0.70) & (y < top[None, :] + 26)] = (*light, 255)
     random = np.random.default_rng(seed)
-    column = 0
-    while column < WIDTH:
-        gap, tall, lean = random.random(3)
-        size = int(12 + tall * tall * 22)
-        _pine(out, column, int(top[column % WIDTH]) + 3, size, (body, light, edge))
-        column += 5 + int(gap * gap * 26) + int(lean * 3)
+    for row, (drop, tall, tones) in enumerate(FIR_ROWS):
+        body, light, edge = _tones(*tones)
+        # Every row's ground rolls on its own, so that the rows do not look like one moved down.
+        ground = height - (26 + 30 * np.roll(line, row * 61)) * (1 - 0.16 * row) + drop
+        fog = (y - ground[None, :]) / 16 + dither(height, WIDTH) * 0.8   # mist between the rows, thinner down the hill
+        hill = y >= ground[None, :]
+        out[hill] = (*body, 255)
+        if row < len(FIR_ROWS) - 1:
+            out[hill & (fog > 0.55)] = (*light, 255)
+        column = 0
+        while column < WIDTH:
+            gap, size, lean = random.random(3)
+            _pine(out, column, int(ground[column % WIDTH]) + 3, int(tall * (0.55 + 0.75 * size * size)),
+                  (body, light, edge))
+            column += 4 + int(gap * gap * (20 - 3 * row)) + int(lean * 3)
+    out[y + dither(height, WIDTH) * 8 > height - 9] = (*body, 255)   # the foot is one dark, for a scene to go on with
     return out
 
 
 def _pine(out, column, foot, size, tones):
-    """One fir: jagged tiers that widen downwards, lit along its right edge, where the sun stands."""
+    """One fir: jagged tiers that widen downwards, lit along its left edge."""
     body, light, edge = tones
     for i in range(size):
         row = foot - size + i
@@ -128,7 +139,7 @@ def _pine(out, column, foot, size, tones):
         tier = i % 5
         half = int(i * 0.20 + tier * 0.55)
         for dx in range(-half, half + 1):
-            tone = edge if dx == half and i > 1 else light if dx > half - 2 and tier > 1 else body
+            tone = edge if dx == -half and i > 1 else light if dx < -half + 2 and tier > 1 else body
             out[row, (column + dx) % WIDTH] = (*tone, 255)
 
 

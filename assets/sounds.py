@@ -68,7 +68,7 @@ def hurt():
     """A buzzing fall with a thud."""
     buzz = voice("saw", 430, 85, envelope(0.001, 0.06, 0.20, 0.3), vibrato=(0.05, 28))
     thud = voice("noise", 60, 18, envelope(0, 0.02, 0.10, 0.3), seed=31)
-    return low_pass(mixed((0, 0.9, buzz), (0, 0.7, thud)), 5_000, 1_200)
+    return soft_clip(low_pass(mixed((0, 0.9, buzz), (0, 0.7, thud)), 5_000, 1_200), 2.5)
 
 
 def spring():
@@ -110,13 +110,113 @@ def goal():
     return low_pass(mixed((0, 0.7, lead), (0, 0.8, low), (0.36, 0.35, high)), 7_000, 3_500)
 
 
+def heavy_laser():
+    """The player's strongest shot, and a boss's beam: a saw that sinks, with weight under it."""
+    body = voice("saw", 620, 90, envelope(0.001, 0.05, 0.20, 0.3))
+    under = voice("pulse", 310, 45, envelope(0.001, 0.05, 0.18), duty=(0.5, 0.3))
+    spit = voice("noise", 300, 90, envelope(0, 0.006, 0.04), seed=5)
+    return low_pass(mixed((0, 0.7, body), (0, 0.6, under), (0, 0.4, spit)), 6_500, 1_000)
+
+
+def bomb():
+    """The player's bomb: a breath drawn in, a blast deeper than any other, and a tone that sinks through its wind."""
+    swell = low_pass(voice("noise", 14, 70, envelope(0.12, 0.01, 0.03), seed=51), 700, 4_500)
+    roar = low_pass(voice("noise", 58, 6, envelope(0, 0.18, 1.05, 0.8, 1.5), seed=52), 2_400, 140)
+    wind = low_pass(voice("noise", 30, 10, envelope(0.10, 0.20, 1.05), vibrato=(0.15, 5), seed=53), 1_200, 300)
+    boom = voice("sine", 105, 27, envelope(0.002, 0.30, 0.85, 0.3))
+    sink = voice("triangle", 520, 45, envelope(0.01, 0.30, 0.70), vibrato=(0.03, 11))
+    return soft_clip(mixed((0, 0.35, swell), (0.12, 1.5, roar), (0.12, 0.5, wind), (0.12, 1.3, boom), (0.10, 0.5, sink)), 1.5)
+
+
+def graze():
+    """A bullet that just missed: a glint, high but soft, for many in a row."""
+    glint = voice("triangle", 1_760, 2_350, envelope(0.002, 0.008, 0.055))
+    air = voice("noise", 260, 420, envelope(0.004, 0.006, 0.035), seed=61)
+    return low_pass(mixed((0, 1.0, glint), (0, 0.22, air)), 6_000, 3_000)
+
+
+def warning():
+    """The boss comes: a horn of two tones, three times, each call under a lid that opens."""
+    call = voice("pulse", 220, 220, envelope(0.02, 0.22, 0.14), duty=(0.5, 0.25), steps=((0.17, 1.4142),))
+    low = voice("saw", 110, 110, envelope(0.02, 0.22, 0.14), steps=((0.17, 1.4142),))
+    horn = low_pass(mixed((0, 0.8, call), (0, 0.6, low)), 900, 3_200)
+    return mixed((0, 0.8, horn), (0.42, 0.9, horn), (0.84, 1.0, horn))
+
+
+def crumble():
+    """A stone block breaks: grains, then pieces, then dust."""
+    crack = low_pass(voice("noise", 85, 30, envelope(0, 0.012, 0.06, 0.5), seed=71), 4_200, 1_200)
+    pieces = [low_pass(voice("noise", 36 - 4 * i, 12, envelope(0, 0.012, 0.075, 0.4), seed=72 + i), 2_200, 500)
+              for i in range(4)]
+    falls = [(0.07 + 0.075 * i, 0.75 - 0.12 * i, piece) for i, piece in enumerate(pieces)]
+    thud = voice("sine", 120, 55, envelope(0.001, 0.02, 0.12))
+    return soft_clip(mixed((0, 1.0, crack), (0, 0.6, thud), *falls), 2.0)
+
+
+def checkpoint():
+    """A flag goes up: a fourth, then the octave, held."""
+    steps = ((0.09, 1.3348), (0.18, 1.4983))
+    lead = voice("pulse", 440, 440, envelope(0.002, 0.20, 0.34), duty=(0.25, 0.4), vibrato=(0.005, 6), steps=steps)
+    under = voice("triangle", 220, 220, envelope(0.002, 0.20, 0.34), steps=steps)
+    return low_pass(mixed((0, 0.7, lead), (0, 0.8, under)), 6_000, 3_000)
+
+
+def secret():
+    """Something found: six quick notes up a whole-tone stair, like a lid that opens, with an echo."""
+    steps = tuple((0.06 * i, 1.122462) for i in range(1, 6))
+    lead = voice("triangle", 587, 587, envelope(0.002, 0.34, 0.24), steps=steps)
+    glint = voice("pulse", 1_174, 1_174, envelope(0.002, 0.34, 0.16), duty=(0.25, 0.25), steps=steps)
+    stair = low_pass(mixed((0, 1.0, lead), (0, 0.22, glint)), 6_500, 4_000)
+    return mixed((0, 1.0, stair), (0.16, 0.32, stair), (0.32, 0.10, stair))
+
+
+def crate():
+    """Wood knocks on wood or stone: a hollow double tone with a dry tick."""
+    knock = voice("sine", 240, 175, envelope(0, 0.006, 0.075, 0.4))
+    hollow = voice("triangle", 610, 520, envelope(0, 0.003, 0.035))
+    tick = low_pass(voice("noise", 110, 40, envelope(0, 0.004, 0.03), seed=81), 3_500, 1_200)
+    return mixed((0, 1.0, knock), (0, 0.35, hollow), (0, 0.6, tick))
+
+
+def ladder():
+    """One rung: a small wooden tap, to be heard every quarter second without a thought."""
+    tap = voice("triangle", 430, 360, envelope(0, 0.004, 0.045))
+    scuff = low_pass(voice("noise", 60, 40, envelope(0.002, 0.006, 0.03), seed=83), 2_600, 1_000)
+    return mixed((0, 0.8, tap), (0, 0.5, scuff))
+
+
+def back():
+    """The menu's no: the yes turned round, softer."""
+    body = voice("pulse", 523, 523, envelope(0.001, 0.06, 0.13), duty=(0.25, 0.25), steps=((0.06, 0.6674),))
+    return low_pass(body, 4_200, 2_200)
+
+
+def chain_break():
+    """The score chain is lost: a soft sigh down a minor third."""
+    body = voice("triangle", 494, 494, envelope(0.006, 0.09, 0.20), steps=((0.09, 0.8409),))
+    air = voice("sine", 247, 200, envelope(0.006, 0.08, 0.18))
+    return low_pass(mixed((0, 0.9, body), (0, 0.5, air)), 3_000, 1_500)
+
+
+def life():
+    """One more life: a rising run that lands on the octave."""
+    steps = ((0.08, 1.2599), (0.16, 1.18921), (0.24, 1.33484), (0.32, 1.2599), (0.40, 0.89090), (0.48, 1.33484))
+    lead = voice("pulse", 330, 330, envelope(0.002, 0.50, 0.36), duty=(0.5, 0.25), vibrato=(0.006, 7), steps=steps)
+    under = voice("triangle", 165, 165, envelope(0.002, 0.50, 0.36), steps=steps)
+    return low_pass(mixed((0, 0.7, lead), (0, 0.8, under)), 6_500, 3_200)
+
+
 SOUNDS = {
     function.__name__: function
     for function in (
         laser, enemy_shot, hit, explosion, coin, powerup, jump, hurt,
-        big_explosion, spring, land, stomp, blip, confirm, goal,
+        big_explosion, spring, land, stomp, blip, confirm, goal, heavy_laser, bomb, graze, warning, crumble,
+        checkpoint, secret, crate, ladder, back, chain_break, life,
     )
 }
+
+
+PRODUCTS = {f"sounds/{name}": ("assets.sounds", "sound_files", (name,)) for name in SOUNDS}
 
 
 def sound_files(name):

@@ -27,10 +27,10 @@ SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765   # heights where one gro
 GLINT_CUT = 0.80   # share of the water without glints
 
 
-def height_map():
-    """Return heights 0..1, (HEIGHT, WIDTH), stretched so that about a quarter is land."""
-    rough = layered_noise(WIDTH, HEIGHT, 4, 4, 6, 2024, 0.52)
-    ridges = 1 - abs(layered_noise(WIDTH, HEIGHT, 3, 4, 4, 77) * 2 - 1)
+def height_map(seed=2024, ridge_seed=77):
+    """Return heights 0..1, (HEIGHT, WIDTH), stretched so that about a quarter is above SHORE."""
+    rough = layered_noise(WIDTH, HEIGHT, 4, 4, 6, seed, 0.52)
+    ridges = 1 - abs(layered_noise(WIDTH, HEIGHT, 3, 4, 4, ridge_seed) * 2 - 1)
     height = rough * 0.78 + ridges * 0.22
     low, high = height.min(), height.max()
     return (height - low) / (high - low)
@@ -41,6 +41,14 @@ def hill_light(height):
     slope_x = np.roll(height, -1, 1) - np.roll(height, 1, 1)
     slope_y = np.roll(height, -1, 0) - np.roll(height, 1, 0)
     return np.clip((slope_x * 0.55 + slope_y * 0.8) * 28, -1, 1)
+
+
+def border(land):
+    """The pixels just outside of an area that wraps."""
+    around = np.zeros_like(land)
+    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        around |= np.roll(land, (dy, dx), (0, 1))
+    return around & ~land
 
 
 def pick(ramp, level, grain=0.8):
@@ -55,12 +63,9 @@ def ground():
     height = height_map()
     light = hill_light(height)
     picture = pick(SEA, np.clip((height - 0.12) / (SHORE - 0.12), 0, 1) ** 2)
-    _glints(picture, height)
+    glints(picture, height < SHORE - 0.03)
     land = height > SHORE
-    coast = np.zeros_like(land)
-    for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        coast |= np.roll(land, (dy, dx), (0, 1))
-    picture[coast & ~land] = FOAM
+    picture[border(land)] = FOAM
     surf = (height > SHORE - 0.022) & (height < SHORE - 0.016) & (noise(WIDTH, HEIGHT, 60, 68, 9) > 0.42)
     picture[surf] = FOAM
     sand = pick(SAND, 0.5 + light * 0.6)
@@ -72,35 +77,35 @@ def ground():
     rock = pick(ROCK, 0.42 + light * 0.7)
     crags = height > CRAGS + (noise(WIDTH, HEIGHT, 60, 68, 6) - 0.5) * 0.05
     picture[crags] = rock[crags]
-    _forest(picture, height, crags)
+    thick = layered_noise(WIDTH, HEIGHT, 10, 11, 3, 61)
+    plant(picture, (height >= WOODS - 0.06) & ~crags & (thick >= 0.46), 515)
     return picture
 
 
-def _glints(picture, height):
-    """Short horizontal wave crests, denser towards the shore."""
-    crest = noise(WIDTH, HEIGHT, 40, 270, 31)
-    group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, 41)
-    glint = (crest > GLINT_CUT) & (group > 0.5) & (height < SHORE - 0.03)
+def glints(picture, water, seed=31, cut=GLINT_CUT):
+    """Short horizontal wave crests in patches of the water (h, w) bool."""
+    crest = noise(WIDTH, HEIGHT, 40, 270, seed)
+    group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
+    glint = (crest > cut) & (group > 0.5) & water
     picture[glint] = np.minimum(picture[glint].astype(int) + (14, 17, 18), 255).astype(np.uint8)
     trough = np.roll(glint, 1, 0) & ~glint
     picture[trough] = (picture[trough] * 0.88).astype(np.uint8)
 
 
-def _forest(picture, height, crags):
-    """Tree crowns on a jittered grid, back to front, each with its shadow."""
-    random = np.random.default_rng(515)
-    thick = layered_noise(WIDTH, HEIGHT, 10, 11, 3, 61)
-    for row in range(0, HEIGHT, 4):
-        for column in range(0, WIDTH, 5):
+def plant(picture, where, seed, trees=TREES, spacing=(5, 4)):
+    """Tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows."""
+    random = np.random.default_rng(seed)
+    across, down = spacing
+    for row in range(0, HEIGHT, down):
+        for column in range(0, WIDTH, across):
             jitter_x, jitter_y, size, lean = random.random(4)
-            x = (column + int(jitter_x * 5)) % WIDTH
-            y = (row + int(jitter_y * 4)) % HEIGHT
-            if height[y, x] < WOODS - 0.06 or crags[y, x] or thick[y, x] < 0.46:
-                continue
-            _crown(picture, x, y, 1.7 + size * 1.5, lean)
+            x = (column + int(jitter_x * across)) % WIDTH
+            y = (row + int(jitter_y * down)) % HEIGHT
+            if where[y, x]:
+                _crown(picture, x, y, 1.7 + size * 1.5, lean, trees)
 
 
-def _crown(picture, x, y, radius, lean):
+def _crown(picture, x, y, radius, lean, trees):
     """One tree: a lit disc, wrapped round the edges of the picture."""
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
@@ -109,6 +114,6 @@ def _crown(picture, x, y, radius, lean):
     disc = length(dx, dy) < radius
     shade = shifted(disc, 1, 2) & ~disc
     column_index, row_index = np.meshgrid(columns % WIDTH, rows % HEIGHT)
-    picture[row_index[shade], column_index[shade]] = TREES[0]
+    picture[row_index[shade], column_index[shade]] = trees[0]
     tone = np.clip(np.floor((-(dx * 0.5 + dy * 0.8) / radius) * 1.3 + 1.7 + lean * 0.8), 0, 3).astype(int)
-    picture[row_index[disc], column_index[disc]] = TREES[tone[disc]]
+    picture[row_index[disc], column_index[disc]] = trees[tone[disc]]

@@ -6,9 +6,11 @@ Things that stand on the ground touch it with their bottom row. The walker is dr
 from assets import FOLDER
 from assets.atlas import Sheet
 from assets.drawn import read_parts
-from assets.fields import box, capsule, circle, ellipse, length, polygon
+from assets.effects import glow
+from assets.fields import box, capsule, circle, ellipse, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE
 from assets.shading import Sprite, flashed
+from assets.stonework import add_stonework
 
 LETTERS = {
     "O": OUTLINE, "E": OUTLINE, "W": WHITE,
@@ -18,6 +20,7 @@ LETTERS = {
     "G": RAMPS["gold"][4], "g": RAMPS["gold"][2],
     "A": RAMPS["steel"][4], "a": RAMPS["steel"][3], "m": RAMPS["steel"][1],
     "D": RAMPS["wood"][1], "K": RAMPS["wood"][3], "n": RAMPS["wood"][2],
+    "B": RAMPS["blue"][4], "b": RAMPS["blue"][3], "z": RAMPS["blue"][2],                               # bat
 }
 COIN_WIDTHS = (5.0, 4.2, 2.6, 1.2, 2.6, 4.2)   # [px] half widths over a turn
 FLAG_WAVE = (   # [px] how far the cloth hangs, along it, per frame
@@ -56,14 +59,18 @@ def sparkle(frame):
 
 
 def dust(frame):
-    """A puff at the feet, frame 0..4: 16 x 10 px."""
+    """A puff at the feet, frame 0..4: 16 x 10 px: two rolling clouds that part, rise and thin."""
     sprite = Sprite(16, 10)
+    x, y = sprite.x, sprite.y
+    tones = (RAMPS["dirt"][4], RAMPS["dirt"][5], RAMPS["stone"][5])
     for side in (-1, 1):
-        away = 1.5 + frame * 1.1
-        radius = max(0.6, 2.7 - frame * 0.45)
-        sprite.flat(circle(sprite.x, sprite.y, 8 + side * away, 8 - frame * 0.5, radius), RAMPS["dirt"][5])
-        sprite.flat(circle(sprite.x, sprite.y, 8 + side * (away - 0.6), 7.2 - frame * 0.5, radius * 0.55),
-                    RAMPS["stone"][5])
+        away, radius = 1.4 + frame * 1.15, (2.8, 2.9, 2.5, 1.8, 1.1)[frame]
+        middle, height = 8 + side * away, 9.4 - radius - frame * 0.55
+        sprite.flat(circle(x, y, middle, height + radius * 0.2, radius), tones[0])
+        sprite.flat(circle(x, y, middle + side * radius * 0.9, height + radius * 0.5, radius * 0.6), tones[0])
+        sprite.flat(circle(x, y, middle - 0.3, height - 0.3, radius * 0.75), tones[1])
+        if frame < 3:
+            sprite.flat(circle(x, y, middle - 0.7, height - 0.8, radius * 0.36), tones[2])
     return sprite.pixels()
 
 
@@ -147,13 +154,28 @@ def arrow(frame):
     return sprite.outline().pixels()
 
 
-def lantern_light():
-    """Warm light around a lit lamp for additive blending, 64 x 64 px, opaque on black."""
-    sprite = Sprite(64, 64)
-    distance = length(sprite.x - 32, sprite.y - 32)
-    for radius, share in ((30, 10), (22, 18), (14, 28), (8, 44)):
-        sprite.flat(distance - radius, (share * 255 // 100, share * 190 // 100, share * 90 // 100))
-    sprite.solid[:] = True
+def hedgehog(frame):
+    """A walker full of spines, frame 0..3, facing left: 20 x 14 px. Nobody jumps on that."""
+    sprite = Sprite(20, 14)
+    x, y = sprite.x, sprite.y
+    for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):   # near and far feet in turn
+        step = ((-0.8, 0.0), (0.0, -1.0), (0.8, 0.0), (0.0, 0.0))[(frame + 2 * i) % 4]
+        sprite.flat(box(x, y, foot - 1.4 + step[0], 10.6 + step[1], foot + 1.2 + step[0], 13 + step[1], 0.6),
+                    RAMPS["wood"][2 if i % 2 else 3])
+    sprite.part(ellipse(x, y, 11.4, 8.4, 7.4, 4.2), RAMPS["wood"], bulge=4, base=0.40, gain=0.4, grain=0)
+    spines = ((5.4, 7.4, 3.8, 3.6), (8.0, 5.8, 6.8, 1.6), (11.0, 5.2, 10.8, 1.2), (14.0, 5.8, 15.0, 1.7),
+              (16.2, 7.4, 18.0, 3.9), (17.0, 9.4, 18.4, 7.4))
+    for root_x, root_y, tip_x, tip_y in spines[::-1]:
+        across_x, across_y = (root_y - tip_y) * 0.34, (tip_x - root_x) * 0.34
+        corners = [(root_x - across_x, root_y - across_y), (tip_x, tip_y), (root_x + across_x, root_y + across_y),
+                   (11.4, 9.6)]
+        sprite.flat(polygon(x, y, corners) - 0.7, OUTLINE)
+        sprite.flat(polygon(x, y, corners), RAMPS["steel"][2])
+        sprite.paint(polygon(x, y, [corners[0], corners[1], (root_x, root_y)]), RAMPS["steel"][5])
+    sprite.part(ellipse(x, y, 4.6, 9.6, 3.6, 2.7), RAMPS["gold"], bulge=3, base=0.60, gain=0.4, grain=0)
+    sprite.part(ellipse(x, y, 11.0, 10.8, 6.4, 1.7), RAMPS["gold"], bulge=2, base=0.44, gain=0.3, grain=0, shadow=1)
+    sprite.outline()
+    sprite.dot(1, 9, OUTLINE).dot(1, 10, OUTLINE).dot(4, 8, OUTLINE).dot(4, 9, OUTLINE).dot(3, 8, WHITE)
     return sprite.pixels()
 
 
@@ -180,5 +202,8 @@ def things_files():
     sheet.add_sequence("checkpoint", [checkpoint(True, i) for i in range(2)], 5)
     sheet.add_sequence("goal", [goal(i) for i in range(4)], 8)
     sheet.add_sequence("arrow", [arrow(i) for i in range(2)], 3)
-    sheet.add("lantern_light", lantern_light())
+    sheet.add("lantern_light", glow(64, "gold", 0.60))
+    sheet.add_sequence("bat", [drawn[f"bat_{i}"] for i in (0, 1, 2, 1)], 10)
+    sheet.add_sequence("hedgehog", [hedgehog(i) for i in range(4)], 8)
+    add_stonework(sheet)
     return sheet.files()

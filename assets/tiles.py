@@ -1,6 +1,6 @@
-"""The sheet "tiles": 16 px ground, stone, slopes, planks, spikes and decoration, each with its collision kind.
+"""The sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, each with its collision kind.
 
-Ground and stone are drawn from which of the eight neighbours are of the same kind, so a map made of one letter gets its
+Ground, stone and rock are drawn from which of the eight neighbours are of the same kind, so a map made of one letter gets its
 grass, edges and corners by itself. A blob name is `ground_<mask>`, the mask being the sum of the neighbours present:
 N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47 cases).
 """
@@ -8,6 +8,7 @@ N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if b
 import numpy as np
 
 from assets.atlas import Sheet
+from assets.cave import boulders, cave_tiles, clods
 from assets.decoration import decoration_tiles
 from assets.fields import dither, grid, noise
 from assets.palette import OUTLINE, RAMPS, mix
@@ -20,7 +21,9 @@ MATERIALS = {
     # name: (body ramp, cap ramp, grain seed)
     "ground": ("dirt", "grass", 300),
     "stone": ("stone", "stone", 400),
+    "rock": ("rock", "rock", 500),
 }
+LATER = ("rock",)   # materials whose tiles stand behind all others, so that the older numbers stay
 # name: (surface height at the left edge, at the right edge), as fractions of the tile above its bottom
 SLOPES = {
     "slope_up": (0.0, 1.0), "slope_down": (1.0, 0.0),
@@ -31,6 +34,9 @@ DEEP_FINDS = {
     3: (("44.....", "4444...", ".34444.", "...3444", ".....33"), RAMPS["stone"]),
     4: (("..5....", ".454.4.", ".344.43", ".343243", "2332332"), RAMPS["teal"]),
 }   # variant of deep ground: (rows of ramp indices, ramp)
+BLEMISHES = (((9, 3), (13, 4)), ((3, 3), (7, 2)))   # column and row of pits in each course of worn stone
+DEEP_SHADE = np.array((14, 11, 28), np.uint8)
+DARKER = {"fading": 0.30, "deep": 0.56}   # shares of shade in stone and rock far from any surface
 FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])   # [px] depth of the grass per column
 
 
@@ -46,14 +52,16 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """The inside of a material, (16, 16, 3) uint8: quiet, with a few stones or cracks, seamless with itself."""
+    """The inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks; any variants join."""
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
-    grain = noise(TILE, TILE, 8, 8, seed) * 0.6 + noise(TILE, TILE, 4, 4, seed + variant) * 0.4
-    tones = np.array([ramp[1], mix(ramp[1], ramp[2], 0.35), mix(ramp[1], ramp[2], 0.7)])
-    picture = tones[(grain > 0.48).astype(int) + (grain > 0.66)]
+    if material == "rock":
+        return boulders(variant)
     if material == "stone":
-        return _bricks(picture, ramp, variant)
+        grain = noise(TILE, TILE, 8, 8, seed) * 0.6 + noise(TILE, TILE, 4, 4, seed + variant) * 0.4
+        tones = np.array([ramp[1], mix(ramp[1], ramp[2], 0.35), mix(ramp[1], ramp[2], 0.7)])
+        return _bricks(tones[(grain > 0.48).astype(int) + (grain > 0.66)], ramp, variant)
+    picture = clods(ramp, seed + variant)
     random = np.random.default_rng(seed + 10 + variant)
     for _ in range((0, 1, 2, 1)[variant]):   # pebbles: light on top, dark below
         column, row = (int(value) for value in random.integers(2, 12, 2))
@@ -94,7 +102,13 @@ def _bricks(picture, ramp, variant):
         picture[row + 7] = ramp[0]
         picture[row : row + 8, offset] = ramp[0]
         picture[row : row + 7, (offset + 1) % TILE] = ramp[3]
+        picture[row + 6] = mix(picture[row + 6], ramp[1], 0.55)   # the blocks' lower and right edges turn from the light
+        picture[row + 1 : row + 7, offset - 1] = mix(picture[row + 1 : row + 7, offset - 1], ramp[1], 0.45)
+        picture[row + 6 : row + 8, offset] = picture[row + 7] = ramp[0]
         picture[row, offset] = ramp[1]
+        for column, drop in BLEMISHES[row // 8] if variant == 2 else ():   # worn by weather
+            picture[row + drop, column] = ramp[1]
+            picture[row + drop + 1, column] = ramp[3]
     if variant in (1, 3):   # a crack
         for step, (column, row) in enumerate(((8, 9), (9, 10), (9, 11), (10, 12), (11, 12))):
             picture[row, column - variant] = ramp[0 if step % 2 else 1]
@@ -114,7 +128,7 @@ def blob(material, mask, variant=0):
         picture[15] = OUTLINE
         picture[13:15] = mix(picture[13:15], ramp[0], 0.65)
     if not mask & N:
-        _top(picture, cap, grass)
+        _top(picture, cap, material)
     for corner, first, second in CORNERS:
         if mask & first and mask & second and not mask & corner:
             _inner_corner(picture, corner, cap, grass)
@@ -130,12 +144,16 @@ def _side(picture, ramp, column, inward, light):
     picture[::3, column + 2 * inward] = ramp[light]
 
 
-def _top(picture, cap, grass):
-    """Outline, lit blades and a ragged fringe of grass, or a worn stone lip."""
+def _top(picture, cap, material):
+    """Outline, lit blades and a ragged fringe of grass, or a worn lip of stone or rock."""
     picture[0] = OUTLINE
-    if not grass:
+    if material != "ground":
         picture[1] = cap[5]
         picture[2] = cap[4]
+        if material == "rock":   # chipped: no lip is as deep as its neighbour
+            for column in range(TILE):
+                picture[3 : int(FRINGE[column]), column] = cap[3]
+                picture[int(FRINGE[column]), column] = cap[1]
         return
     for column in range(TILE):
         deep = int(FRINGE[column])
@@ -217,18 +235,47 @@ def _bracket(picture, column, inward):
     picture[11, column] = picture[11, column + inward] = (*OUTLINE, 255)
 
 
+def ladder(top):
+    """A wooden ladder, 16 x 16, repeating downwards; its top piece has a landing of planks to stand on."""
+    wood = RAMPS["wood"]
+    picture = np.zeros((TILE, TILE, 4), np.uint8)
+    for left in (2, 11):
+        for column, colour in enumerate((OUTLINE, wood[4], wood[2], OUTLINE)):
+            picture[:, left - 1 + column] = (*colour, 255)
+    for row in (2, 10):
+        picture[row - 1, 5:10] = picture[row + 3, 5:10] = (*OUTLINE, 255)
+        for step, colour in enumerate((wood[5], wood[3], wood[1])):
+            picture[row + step, 4:11] = (*colour, 255)
+        picture[row + 1, 2] = picture[row + 1, 12] = (*wood[0], 255)   # pegs
+    if top:
+        picture[:5] = 0
+        for row, colour in enumerate((OUTLINE, wood[5], wood[3], OUTLINE)):
+            picture[row] = (*colour, 255)
+        picture[1:3, [0, 15]] = (*OUTLINE, 255)
+        picture[1:3, 8] = (*wood[1], 255)
+        picture[4, [1, 4, 10, 13]] = (*OUTLINE, 255)
+        picture[4, [2, 3, 11, 12]] = (*wood[1], 255)
+    return picture
+
+
 def _opaque(picture):
     return np.concatenate([picture, np.full(picture.shape[:2] + (1,), 255, np.uint8)], axis=2)
+
+
+def material_tiles(material):
+    """Return {name: (pixels, properties)} of one material: every blob, then the variations of its inside."""
+    table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
+    for variant in range(1, DEPTHS):
+        table[f"{material}_255_{variant}"] = (blob(material, 255, variant), {"kind": "solid"})
+    return table
 
 
 def tile_table():
     """Return {name: (pixels, properties)} of every tile, in the order of the tileset; properties as in the .tmj."""
     table = {}
     for material in MATERIALS:
-        for mask in BLOBS:
-            table[f"{material}_{mask}"] = (blob(material, mask), {"kind": "solid"})
-        for variant in range(1, DEPTHS):
-            table[f"{material}_255_{variant}"] = (blob(material, 255, variant), {"kind": "solid"})
+        if material not in LATER:
+            table.update(material_tiles(material))
     for variant in range(2):
         table[f"ground_fading_{variant}"] = (fading(variant), {"kind": "solid"})
     for variant in range(5):
@@ -239,6 +286,17 @@ def tile_table():
     for part in ("left", "middle", "right", "single"):
         table[f"plank_{part}"] = (plank(part), {"kind": "one_way"})
     table.update(decoration_tiles())
+    # What came later is appended, so that the numbers of the tiles above stay theirs.
+    table["ladder"] = (ladder(False), {"kind": "decor"})
+    table["ladder_top"] = (ladder(True), {"kind": "one_way"})
+    for material in LATER:
+        table.update(material_tiles(material))
+    table.update(cave_tiles())
+    for material in ("stone", "rock"):
+        for name, share in DARKER.items():
+            for variant in range(2):
+                picture = mix(texture(material, variant * 2), DEEP_SHADE, share)
+                table[f"{material}_{name}_{variant}"] = (_opaque(picture), {"kind": "solid"})
     return table
 
 

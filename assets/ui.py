@@ -108,6 +108,48 @@ OwwwkwwsO
 ..OwOwO..
 ..OwOwO..
 ..OOOOO..
+= bomb
+....OO...
+...OwOyO.
+...OmO.O.
+..OOOOO..
+.OcccbbO.
+OcWccbbBO
+OyyyyyyYO
+OcccbbbBO
+.ObbbBBO.
+..OOOOO..
+= core
+....O....
+...OrO...
+..OrwrO..
+.OrwWwRO.
+OrwWWWwRO
+.OrwWwRO.
+..OrwRO..
+...ORO...
+....O....
+= hull
+....O....
+...OwO...
+...OwO...
+.O.OwO.O.
+OwOOwOOsO
+OwwwwwssO
+OwwwwsssO
+.OOOsOOO.
+..OsssO..
+...OOO...
+= gem
+..OOOOO..
+.OtttuuO.
+OtWtttuuO
+OttttuuvO
+OOOOOOOOO
+.OttuvvO.
+..OtuvO..
+...OuO...
+....O....
 = cursor
 OO.....
 OyO....
@@ -185,6 +227,7 @@ LETTERS = {
     "O": OUTLINE, "k": OUTLINE, "W": WHITE, "w": RAMPS["steel"][5], "s": RAMPS["steel"][3], "m": RAMPS["gunmetal"][2],
     "r": RAMPS["red"][3], "R": RAMPS["red"][2], "y": RAMPS["gold"][4], "Y": RAMPS["gold"][3], "G": RAMPS["gold"][2],
     "b": RAMPS["blue"][4], "B": RAMPS["blue"][2], "c": RAMPS["glass"][3], "g": RAMPS["green"][4],
+    "t": RAMPS["teal"][4], "u": RAMPS["teal"][3], "v": RAMPS["teal"][1],
 }
 
 

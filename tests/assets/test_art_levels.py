@@ -5,11 +5,14 @@ import json
 import pytest
 
 from assets import FOLDER, png
-from assets.levels import Map, walking_range
+from assets.level_things import walking_range
+from assets.levels import Map, cover_names
 from assets.tiles import TILE
 
 KINDS = {"solid", "one_way", "slope", "spikes", "decor"}
-TYPES = {"hero_start", "coin", "spring", "crate", "walker", "platform", "spikes", "goal", "sign", "checkpoint"}
+TYPES = {"hero_start", "coin", "secret", "spring", "crate", "walker", "hedgehog", "bat", "platform", "belt", "crumble",
+         "ladder", "spikes", "goal", "sign", "checkpoint", "zone", "cover"}
+SOLID, THINGS, HINTS = 2, 4, 5                  # which layers hold objects
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +21,7 @@ def tmj():
 
 
 def things(tmj, kind):
-    return [thing for thing in tmj["layers"][2]["objects"] if thing["type"] == kind]
+    return [thing for thing in tmj["layers"][THINGS]["objects"] if thing["type"] == kind]
 
 
 def properties(entry):
@@ -26,15 +29,15 @@ def properties(entry):
 
 
 def kind_at(tmj, x, y):
-    gid = tmj["layers"][1]["data"][y * tmj["width"] + x]
+    gid = tmj["layers"][SOLID]["data"][y * tmj["width"] + x]
     return properties(tmj["tilesets"][0]["tiles"][gid - 1])["kind"] if gid else None
 
 
 def test_level_is_large_and_every_gid_exists(tmj):
-    assert tmj["width"] >= 100 and tmj["height"] >= 20
-    assert [layer["name"] for layer in tmj["layers"]] == ["decor", "solid", "things"]
+    assert tmj["width"] >= 240 and tmj["height"] >= 40
+    assert [layer["name"] for layer in tmj["layers"]] == ["wall", "decor", "solid", "cover", "things", "bot hints"]
     count = tmj["tilesets"][0]["tilecount"]
-    for layer in tmj["layers"][:2]:
+    for layer in tmj["layers"][:THINGS]:
         assert len(layer["data"]) == tmj["width"] * tmj["height"]
         assert all(0 <= gid <= count for gid in layer["data"])
 
@@ -57,43 +60,83 @@ def test_tileset_fits_its_picture_and_names_its_kinds(tmj):
 
 def test_level_uses_every_kind_of_ground(tmj):
     tiles = tmj["tilesets"][0]["tiles"]
-    used = {properties(tiles[gid - 1])["name"] for gid in tmj["layers"][1]["data"] if gid}
-    slopes = {name for name in used if name.startswith("slope_")}
-    assert {"slope_up", "slope_down", "slope_down_high", "slope_down_low"} <= slopes
-    assert any(name.startswith("plank_") for name in used) and any(name.startswith("stone_") for name in used)
+    used = {properties(tiles[gid - 1])["name"] for gid in tmj["layers"][SOLID]["data"] if gid}
+    assert {"slope_down", "slope_up_low", "slope_up_high", "ladder_top"} <= used
+    assert all(any(name.startswith(kind) for name in used) for kind in ("plank_", "stone_", "ground_", "rock_"))
 
 
 def test_objects_are_known_and_inside(tmj):
-    assert {thing["type"] for thing in tmj["layers"][2]["objects"]} == TYPES
-    for thing in tmj["layers"][2]["objects"]:
+    assert {thing["type"] for thing in tmj["layers"][THINGS]["objects"]} == TYPES
+    ids = [thing["id"] for layer in tmj["layers"][THINGS:] for thing in layer["objects"]]
+    assert len(set(ids)) == len(ids) and max(ids) < tmj["nextobjectid"]
+    for thing in tmj["layers"][THINGS]["objects"]:
         assert 0 <= thing["x"] and thing["x"] + thing["width"] <= tmj["width"] * TILE
         assert 0 <= thing["y"] and thing["y"] + thing["height"] <= tmj["height"] * TILE
     assert len(things(tmj, "hero_start")) == 1 and len(things(tmj, "goal")) == 1
-    assert things(tmj, "hero_start")[0]["x"] < things(tmj, "goal")[0]["x"]
-    assert len(things(tmj, "coin")) >= 40
+    assert len(things(tmj, "coin")) >= 60 and len(things(tmj, "secret")) == 3 and 6 <= len(things(tmj, "checkpoint")) <= 9
 
 
-@pytest.mark.parametrize("kind", ["hero_start", "spring", "walker", "crate", "goal", "checkpoint"])
+def decks(tmj):
+    """(left, top, right) of what carries and is no tile [px]."""
+    return [(thing["x"], thing["y"], thing["x"] + thing["width"]) for kind in ("platform", "crate", "belt")
+            for thing in things(tmj, kind)]
+
+
+@pytest.mark.parametrize("kind", ["hero_start", "spring", "walker", "hedgehog", "crate", "goal", "checkpoint"])
 def test_what_stands_has_ground_under_it(tmj, kind):
     for thing in things(tmj, kind):
         bottom = thing["y"] + thing["height"]
         assert bottom % TILE == 0
-        middle = int(thing["x"] + thing["width"] / 2) // TILE
-        stacked = kind == "crate" and any(other["y"] == bottom and other["x"] <= middle * TILE < other["x"] + other["width"]
-                                          for other in things(tmj, "crate"))
-        assert stacked or kind_at(tmj, middle, bottom // TILE) == "solid", f"{kind} {thing['id']} hangs in the air"
-        assert kind_at(tmj, middle, bottom // TILE - 1) is None, f"{kind} {thing['id']} is in the ground"
+        middle = int(thing["x"] + thing["width"] / 2)
+        carried = any(top == bottom and left <= middle < right for left, top, right in decks(tmj))
+        assert carried or kind_at(tmj, middle // TILE, bottom // TILE) == "solid", f"{kind} {thing['id']} hangs in the air"
+        assert kind_at(tmj, middle // TILE, bottom // TILE - 1) is None, f"{kind} {thing['id']} is in the ground"
+
+
+def test_bats_hang_from_a_ceiling_and_ladders_lead_from_a_floor_to_a_plank(tmj):
+    for bat in things(tmj, "bat"):
+        assert kind_at(tmj, (bat["x"] + 10) // TILE, bat["y"] // TILE - 1) == "solid"
+    for ladder in things(tmj, "ladder"):
+        column, top = ladder["x"] // TILE, ladder["y"] // TILE
+        assert kind_at(tmj, column, top) == "one_way"
+        assert kind_at(tmj, column, top + ladder["height"] // TILE) == "solid"
+
+
+def test_every_coin_and_gem_is_in_the_open(tmj):
+    for kind in ("coin", "secret"):
+        for thing in things(tmj, kind):
+            assert kind_at(tmj, (thing["x"] + 7) // TILE, (thing["y"] + 7) // TILE) != "solid", thing
 
 
 def test_platforms_dock_flush_and_walkers_have_room(tmj):
     for platform in things(tmj, "platform"):
         values = properties(platform)
         assert values["period"] > 0
-        left = kind_at(tmj, platform["x"] // TILE - 1, platform["y"] // TILE)
-        right = kind_at(tmj, (values["to_x"] + platform["width"]) // TILE, values["to_y"] // TILE)
-        assert left == right == "solid"
-    assert all(properties(walker)["range"] >= TILE for walker in things(tmj, "walker"))
+        start, end = (platform["x"], platform["y"]), (values["to_x"], values["to_y"])
+        docks = ["solid" in (kind_at(tmj, x // TILE - 1, y // TILE), kind_at(tmj, (x + platform["width"]) // TILE, y // TILE))
+                 for x, y in (start, end)]
+        assert docks == [True, True]
+    for kind in ("walker", "hedgehog"):
+        assert all(properties(walker)["range"] >= TILE for walker in things(tmj, kind))
     assert all(properties(sign)["text"] for sign in things(tmj, "sign"))
+
+
+def test_each_secret_is_under_a_cover_that_looks_like_solid_ground(tmj):
+    covers = things(tmj, "cover")
+    cells = tmj["layers"][3]["data"]
+    for gem in things(tmj, "secret"):
+        assert any(c["x"] <= gem["x"] and gem["x"] + gem["width"] <= c["x"] + c["width"]
+                   and c["y"] <= gem["y"] <= c["y"] + c["height"] for c in covers)
+        assert cells[(gem["y"] + 7) // TILE * tmj["width"] + (gem["x"] + 7) // TILE]
+
+
+def test_the_hints_lead_from_the_start_to_the_goal_by_all_secrets(tmj):
+    hints = tmj["layers"][HINTS]["objects"]
+    assert [properties(hint)["order"] for hint in hints] == list(range(len(hints)))
+    goal, = things(tmj, "goal")
+    assert abs(hints[-1]["x"] - goal["x"]) < 3 * TILE
+    for gem in things(tmj, "secret"):
+        assert any(abs(hint["x"] - gem["x"]) < 3 * TILE and abs(hint["y"] - gem["y"]) < 4 * TILE for hint in hints)
 
 
 def test_level_text_is_checked():
@@ -101,8 +144,14 @@ def test_level_text_is_checked():
         Map("[map]\n...\n..\n", "x.txt")
     with pytest.raises(ValueError, match=r"1 'P' on the map, 0 in \[platforms\]"):
         Map("[map]\nP\n", "x.txt")
-    with pytest.raises(ValueError, match="x y seconds"):
-        Map("[map]\nP\n[platforms]\n3 four 5\n", "x.txt")
+    with pytest.raises(ValueError, match="x y seconds width"):
+        Map("[map]\nP\n[platforms]\n3 four 5 3\n", "x.txt")
+    with pytest.raises(ValueError, match="a zone is one of meadow, cave, keep"):
+        Map("[map]\n..\n[zones]\nbeach 0 0 9 9\n", "x.txt")
+    with pytest.raises(ValueError, match="a cover is"):
+        Map("[map]\n..\n[covers]\n1 2 3\n", "x.txt")
+    with pytest.raises(ValueError, match="a hint is"):
+        Map("[map]\n..\n[hints]\n1 up\n", "x.txt")
     with pytest.raises(ValueError, match="before the first"):
         Map("...\n", "x.txt")
 
@@ -112,3 +161,17 @@ def test_walkers_stop_before_edges_and_walls():
     assert walking_range(level, 2, 1) == 2 * TILE   # outside the map counts as ground
     level = Map("[map]\n#..w....\n####.###\n", "x.txt")
     assert walking_range(level, 3, 0) == 0
+
+
+def test_a_walker_on_a_deck_stays_on_it_and_one_beside_does_not_step_onto_it():
+    level = Map("[map]\n..w........\n###P...####\n[platforms]\n0 3 4.0 4\n", "x.txt")
+    assert walking_range(level, 2, 0) == 0
+    level = Map("[map]\n....w......\n###P...####\n[platforms]\n0 3 4.0 4\n", "x.txt")
+    assert walking_range(level, 4, 0) == TILE
+
+
+def test_a_cover_is_the_ground_that_would_be_there():
+    level = Map("[map]\n#####\n#...#\n#####\n#####\n[covers]\n1 1 3 1\n", "x.txt")
+    names = cover_names(level)
+    assert {(1, 1), (2, 1), (3, 1)} <= names.keys() and all(name.startswith("ground_") for name in names.values())
+    assert cover_names(Map("[map]\n#.#\n", "x.txt")) == {}

@@ -1,0 +1,188 @@
+"""The tunes: in harmony, alive for ten minutes, alike in loudness, and looping without a seam."""
+
+import wave
+
+import numpy as np
+import pytest
+
+from assets import FOLDER, build
+from assets.music import JINGLES, LOUDNESS, PRODUCTS, TUNES, render, tune_of
+from assets.music_harmony import complaints
+from assets.music_notation import parse_tune
+from assets.music_voices import OVERSAMPLING, RATE, decimated, drum, low_pass, tone
+from assets.synth import PEAK
+
+ALL = (*TUNES, *JINGLES)
+
+
+def samples_of(name):
+    with wave.open(str(FOLDER / "music" / f"{name}.wav")) as file:
+        assert (file.getnchannels(), file.getsampwidth(), file.getframerate()) == (1, 2, RATE)
+        return np.frombuffer(file.readframes(file.getnframes()), "<i2") / 32767
+
+
+def decibels(samples):
+    return 20 * np.log10(max(1e-9, float(np.sqrt(np.mean(samples * samples)))))
+
+
+def shares(samples, *edges):
+    """Shares of the power between neighbouring edges [Hz]."""
+    power = np.abs(np.fft.rfft(samples)) ** 2
+    hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
+    return [power[(hertz >= low) & (hertz < high)].sum() / power.sum() for low, high in zip(edges, edges[1:], strict=False)]
+
+
+def test_every_tune_is_a_product_and_every_page_a_tune():
+    assert {path.stem for path in (FOLDER / "tunes").glob("*")} == set(ALL)
+    assert set(PRODUCTS) == {f"music/{name}" for name in ALL} <= set(build.PRODUCTS)
+    assert {path.stem for path in (FOLDER / "music").glob("*")} == set(ALL)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_note_fits_its_chord(name):
+    assert complaints(tune_of(name)) == []
+
+
+@pytest.mark.parametrize("name", TUNES)
+def test_a_tune_has_a_shape(name):
+    tune = tune_of(name)
+    parts = [part for part, _, _ in tune.parts]
+    assert len(set(parts)) >= 5 and all(a != b for a, b in zip(parts, parts[1:], strict=False))
+    assert max(parts.count(part) for part in parts) <= 2
+    bar = tune.beats * 4
+    sung = [sum(note.steps for note in tune.notes["lead"] if first <= note.start < first + steps) / steps
+            for _, first, steps in tune.parts]
+    assert max(sung) > 0.7 and min(sung) < 0.5, "the lead comes and goes"
+    starts = {note.start // bar for note in tune.notes["lead"]}
+    rests = [number for number in range(tune.steps // bar) if number not in starts]
+    assert len(rests) >= 2, "it breathes for whole bars"
+    chords = {symbol.name for symbol in tune.chords}
+    assert len(chords) >= 8
+    for voice, notes in tune.notes.items():
+        ends = [note.start + note.steps for note in notes]
+        assert all(end <= after.start for end, after in zip(ends, notes[1:], strict=False)), f"{voice} sings over itself"
+    lead = [note.pitches[0] for note in tune.notes["lead"]]
+    assert 60 <= min(lead) and max(lead) <= 90 and max(lead) - min(lead) >= 12
+
+
+def test_two_voices_call_and_answer():
+    for name in ("title", "shooter", "boss"):
+        tune = tune_of(name)
+        bars = {voice: {note.start // 16 for note in tune.notes[voice]} for voice in ("lead", "second")}
+        assert len(bars["second"] - bars["lead"]) >= 4, "the second answers where the lead rests"
+
+
+def test_the_boss_has_the_shooters_motif_in_minor_and_faster():
+    shooter, boss = tune_of("shooter"), tune_of("boss")
+    assert boss.tempo == shooter.tempo + 15
+    motif = [[note for note in tune.notes["lead"] if note.start < 20] for tune in (shooter, boss)]
+    assert [(a.start, a.steps) for a in motif[0]] == [(a.start, a.steps) for a in motif[1]]
+    moved = [b.pitches[0] - a.pitches[0] for a, b in zip(*motif, strict=True)]
+    assert set(moved) == {0, -1}, "only the thirds are lowered"
+
+
+@pytest.mark.parametrize("name", TUNES)
+def test_the_file_is_as_long_as_the_tune_and_never_silent(name):
+    samples, tune = samples_of(name), tune_of(name)
+    assert len(samples) == round(tune.seconds(tune.steps) * RATE) and 80 <= len(samples) / RATE <= 100
+    assert len(samples) * 2 < 4.5e6
+    tenth = RATE // 10
+    quiet = [decibels(samples[i : i + tenth]) < -45 for i in range(0, len(samples) - tenth, tenth)]
+    assert not any(all(quiet[i : i + 5]) for i in range(len(quiet))), "half a second of nothing"
+
+
+@pytest.mark.parametrize("name", TUNES)
+def test_sections_differ_in_loudness_but_none_jumps_out(name):
+    samples, tune = samples_of(name), tune_of(name)
+    levels = [decibels(samples[int(tune.seconds(first) * RATE) : int(tune.seconds(first + steps) * RATE)])
+              for _, first, steps in tune.parts]
+    assert 0.7 < max(levels) - min(levels) < 6.0
+
+
+def test_tunes_are_alike_in_loudness_and_below_the_effects():
+    levels = {}
+    for name in ALL:
+        samples = samples_of(name)
+        levels[name] = decibels(samples - low_pass(samples, 100.0, RATE))
+        assert abs(samples).max() < PEAK, name
+        assert abs(samples.mean()) < 1e-4
+    assert max(levels[name] for name in TUNES) - min(levels[name] for name in TUNES) < 1.5
+    assert all(abs(level - LOUDNESS) < 1.5 for level in levels.values()), levels
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_spectrum_is_warm(name):
+    rumble, low, middle, high, harsh = shares(samples_of(name), 0, 45, 300, 2000, 6000, RATE / 2)
+    assert harsh < 0.01 and rumble < 0.05
+    assert 0.2 < low < 0.7 and 0.2 < middle < 0.75 and high < 0.2
+
+
+@pytest.mark.parametrize("name", TUNES)
+def test_the_seam_of_the_loop_has_no_click(name):
+    samples = samples_of(name)
+    steps = np.abs(np.diff(samples))
+    assert abs(samples[0] - samples[-1]) <= np.percentile(steps, 99.5)
+    edge = np.abs(np.diff(np.roll(samples, RATE // 10)[: RATE // 5], 2))     # a click is a corner
+    usual = np.abs(np.diff(samples, 2))
+    assert edge[RATE // 10 - 20 : RATE // 10].max() <= np.percentile(usual, 99.9)
+
+
+@pytest.mark.parametrize("name", JINGLES)
+def test_a_jingle_is_short_and_ends_in_silence(name):
+    samples = samples_of(name)
+    assert 3.5 <= len(samples) / RATE <= 5.0
+    assert abs(samples[:3]).max() < 0.01 and abs(samples[-40:]).max() < 0.002
+
+
+RING = """tempo 150
+key C major
+voice lead wave=pulse25 volume=0.5 release=0.4 vibrato=20 echo=0.5 delay=3
+voice bass wave=triangle from=C2 gate=1
+voice drums wave=noise
+section one
+  chords C
+  lead C5 - E5 G5
+  bass 1 1 5 8
+  drums kh s k .
+section two
+  chords F
+  lead A5 - F5 C6
+  bass 1 1 5 8
+  drums kh s k s
+order """
+
+
+def test_the_loop_has_no_beginning():
+    """Played from its second half on it is the same music: echoes, releases and filters go around."""
+    text = RING.replace("kh s k .", ". . . .").replace("kh s k s", "k s k s")
+    forth, back = render(parse_tune(text + "one two")), render(parse_tune(text + "two one"))
+    half = len(forth) // 2
+    assert len(forth) == 2 * half and np.abs(np.roll(forth, half).astype(int) - back).max() <= 2
+    assert np.abs(forth[:8]).max() > 5, "what rings at the end is heard at the start"
+
+
+def test_rendering_is_the_same_twice_and_a_jingle_regenerates():
+    tune = parse_tune(RING + "one two")
+    assert (render(tune) == render(tune)).all()
+    assert build.differences("music/victory") == []
+
+
+def test_no_aliases_among_the_harmonics():
+    """A high pulse keeps its harmonics; what folds back from above the band is 40 dB below them."""
+    voice = parse_tune(RING.replace(" echo=0.5 delay=3", " bright=20000").replace("vibrato=20 ", "") + "one").voices["lead"]
+    samples = decimated(tone(voice, (93,), 1.0))[2000:18000]      # A6, 1,760 Hz
+    power = np.abs(np.fft.rfft(samples * np.hanning(len(samples))))
+    hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
+    away = np.abs(hertz / 1760 - np.round(hertz / 1760)) * 1760
+    assert power[(away > 60) & (hertz > 60)].max() < power.max() / 100
+
+
+def test_drums_differ_from_each_other_and_fall_silent():
+    centers = {}
+    for name in "kshotc":
+        stroke = drum(name)
+        power = np.abs(np.fft.rfft(stroke)) ** 2
+        centers[name] = (power * np.fft.rfftfreq(len(stroke), 1 / RATE / OVERSAMPLING)).sum() / power.sum()
+        assert abs(stroke[-1]) < 1e-3 and abs(stroke).max() < 1.6
+    assert centers["k"] < centers["t"] < centers["s"] < centers["c"] < centers["h"]
+    assert (drum("s", 0) != drum("s", 1)).any(), "no stroke is a copy"
