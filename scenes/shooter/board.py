@@ -1,16 +1,18 @@
-"""What is written over the sky: score, chain, lives, power, words that rise, waves, and the end."""
+"""What is written over the sky all the time: score, chain, lives, bombs, power, hits, and the leader's health."""
 
 from game.colors import GOLD, INK, PAPER, RED, SKY
 from game.draw import SMALL, TEXT, whole
-from game.hud import MARGIN, banner, icons, label
+from game.hud import MARGIN, icons
 from game.sprites import load_atlas
-from scenes.shooter.score import CHAIN_STEP, TOP_CHAIN
+from scenes.shooter.boss import ALMOST
+from scenes.shooter.plane import TOP_POWER
+from scenes.shooter.score import HOLD, TOP_CHAIN
 
 HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))      # by how much is left
 FADE = 0.55                  # [s] after which a rising word is written darker
-
-
-HELD = ((0, 0, 112, 32), (396, 0, 84, 34), (180, 0, 120, 28))  # [canvas px] where the fixed words stand
+HELD = ((0, 0, 132, 36), (380, 0, 100, 44), (140, 0, 226, 28), (0, 254, 150, 16))  # [canvas px] where the fixed words stand
+BAR = (148, 17, 184, 7)      # [canvas px] of the leader's health
+CHAIN = (MARGIN, 17, 60, 4)
 
 
 def draw_words(canvas, scene, view):
@@ -18,7 +20,7 @@ def draw_words(canvas, scene, view):
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view
-    for text, x, y, age, color in scene.spectacle.words:
+    for text, x, y, age, color in scene.spectacle.works.words:
         faded = tuple(c * 2 // 3 for c in color) if age > FADE else color
         canvas.text_if_free(text, x - left, y - top, faded, SMALL, align="center", outline=True)
 
@@ -26,56 +28,95 @@ def draw_words(canvas, scene, view):
 def draw_board(canvas, scene):
     """The fixed words."""
     _draw_score(canvas, scene)
-    _draw_lives(canvas, scene)
-    if scene.over:
-        _draw_end(canvas, scene)
-    elif scene.spectacle.news and scene.director.number:
+    _draw_stock(canvas, scene)
+    _draw_hits(canvas, scene)
+    leader = scene.fleet.leader
+    if leader is not None and leader.mode in ("arrive", "fight", "change"):
+        _draw_leader(canvas, scene, leader)
+    elif scene.spectacle.news and scene.director.mode == "run":
         _draw_wave(canvas, scene)
 
 
 def _draw_score(canvas, scene):
-    score = scene.score
-    lift = whole(2 * scene.spectacle.pulse)
-    rect = label(canvas, "SCORE", MARGIN, MARGIN - lift // 2, f"{score.points:07d}",
-                 color=GOLD if scene.spectacle.pulse > 0.4 else PAPER)
-    canvas.text(f"x{score.times}", rect.right + 6, rect.y, SKY if score.times > 1 else PAPER, TEXT, outline=True)
-    if score.times < TOP_CHAIN:
-        share = score.chain % CHAIN_STEP / CHAIN_STEP
-        canvas.surface.fill(INK, (MARGIN, 16, 42, 3))
-        canvas.surface.fill(SKY, (MARGIN + 1, 17, round(40 * share), 1))
-        canvas.reserve((MARGIN, 16, 42, 3))
-    if score.close:
-        canvas.text(f"CLOSE {score.close}", MARGIN, 22, PAPER, SMALL, outline=True)
+    score, pulse = scene.score, scene.spectacle.pulse
+    y = MARGIN - whole(2 * pulse)
+    rect = canvas.text(f"{score.points:08d}", MARGIN, y, GOLD if pulse > 0.4 else PAPER, TEXT, outline=True)
+    canvas.text(f"x{score.times}", rect.right + 6, y, SKY if score.times > 1 else PAPER, TEXT, outline=True)
+    best = max(scene.best, score.points)
+    if scene.best:
+        canvas.text(f"BEST {best:08d}", MARGIN, 30, PAPER, SMALL, outline=True)
+    left, top, width, height = CHAIN
+    canvas.surface.fill(INK, CHAIN)
+    if score.chain:
+        color = GOLD if score.times == TOP_CHAIN else SKY
+        canvas.surface.fill(color, (left + 1, top + 1, round((width - 2) * score.hold / HOLD), height - 2))
+    canvas.reserve(CHAIN)
+    canvas.text(f"CHAIN {score.chain}  GRAZE {score.grazes}", MARGIN, 23, PAPER, SMALL, outline=True)
 
 
-def _draw_lives(canvas, scene):
-    ui, plane = load_atlas("ui"), scene.plane
+def _draw_stock(canvas, scene):
+    """Lives, bombs, power: one row each, from the right."""
+    ui, plane, gain = load_atlas("ui"), scene.plane, scene.spectacle.gain
     right = canvas.rect.right - MARGIN
-    for row, (name, count) in enumerate((("icon_life", plane.lives), ("icon_power", plane.power))):
+    rows = (("icon_life", max(plane.lives - plane.here, 0)), ("icon_bomb", plane.bombs), ("icon_power", plane.power))
+    for row, (name, count) in enumerate(rows):
         image = ui[name]
-        width = count * (image.get_width() + 2) - 2
-        icons(canvas, image, count, right - width, MARGIN + 12 * row)
+        # What was just gained jumps.
+        lift = whole(3 * gain) if row == 2 else 0
+        icons(canvas, image, count, right - count * (image.get_width() + 2) + 2, MARGIN + 12 * row - lift)
+    if plane.power == TOP_POWER:
+        canvas.text("MAX", right - TOP_POWER * 11 - 3, MARGIN + 26, GOLD, SMALL, align="right", outline=True)
+
+
+def _draw_hits(canvas, scene):
+    """How often core, hull and box were met: what hurts is bright."""
+    ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
+    counts = scene.hits.count
+    for part in ("core", "hull"):
+        canvas.surface.blit(ui[f"icon_{part}"], (x, y))
+        color = GOLD if part == scene.hurts else PAPER
+        rect = canvas.text(f"{part} {counts[part]}", x + 12, y + 2, color, SMALL, outline=True)
+        x = rect.right + 7
+    canvas.text(f"box {counts['box']}", x, y + 2, PAPER, SMALL, outline=True)
 
 
 def _draw_wave(canvas, scene):
     director, news = scene.director, scene.spectacle.news
     # It slides in from above and stays clear of the sky where planes fight.
-    y = MARGIN - max(0, news - 118) * 2
-    canvas.text(f"WAVE {director.number}", canvas.rect.centerx, y, GOLD, TEXT, align="center", outline=True)
-    canvas.text(director.wave.title, canvas.rect.centerx, y + 11, PAPER, SMALL, align="center", outline=True)
+    y = MARGIN - max(0, news - 118) - max(0, 10 - news)
+    if y >= 0:
+        canvas.text(director.wave, canvas.rect.centerx, y, GOLD, TEXT, align="center", outline=True)
 
 
-def _draw_end(canvas, scene):
-    score = scene.score
-    lines = [f"{score.points:,} points in {scene.director.number} waves",
-             f"{sum(score.kills.values())} planes shot down   {score.close} near misses"]
-    if scene.over > 72:
-        lines.append("fire or Enter: fly again")
-    banner(canvas, "GAME OVER", lines, RED)
+def _draw_leader(canvas, scene, leader):
+    """Name and timer over a bar with a mark for every phase that is still to come."""
+    left, top, width, height = BAR
+    phases = len(leader.phases)
+    canvas.text(leader.name, left, MARGIN, PAPER, TEXT, outline=True)
+    if leader.mode == "fight":
+        hurry = leader.seconds_left < ALMOST
+        seconds = f"{leader.seconds_left:04.1f}" if hurry else f"{int(leader.seconds_left)}"
+        canvas.text(seconds, left + width, MARGIN, RED if hurry else GOLD, TEXT, align="right", outline=True)
+    canvas.surface.fill(INK, BAR)
+    # The last phase is at the left: the bar empties towards it.
+    part = (width - 2) / phases
+    behind = phases - 1 - leader.number
+    for number in range(behind):
+        canvas.surface.fill(HEALTH[2], (left + 1 + round(part * number), top + 1, round(part) - 1, height - 2))
+    share = max(scene.spectacle.health, 0.0)
+    color = HEALTH[min(int(share * 3), 2)]
+    start = left + 1 + round(part * behind)
+    canvas.surface.fill(color, (start, top + 1, round((part - 1) * share), height - 2))
+    canvas.surface.fill(tuple(min(c + 60, 255) for c in color), (start, top + 1, round((part - 1) * share), 1))
+    for number in range(1, phases):
+        canvas.surface.fill(PAPER, (left + round(part * number), top - 1, 1, height + 2))
+    canvas.reserve(BAR)
+    if leader.mode == "fight" and leader.since < 150:
+        canvas.text(leader.phase.name, left, top + 11, SKY, SMALL, outline=True)
 
 
 def draw_health(surface, place, share):
     """A small bar under a damaged plane's nose."""
-    color = HEALTH[min(int(share * 3), 2)]
+    color = HEALTH[max(0, min(int(share * 3), 2))]
     surface.fill(INK, (*place, 36, 4))
     surface.fill(color, (place[0] + 1, place[1] + 1, max(1, round(34 * share)), 2))

@@ -1,6 +1,6 @@
 """Bullets are rows: fired in volleys, moved by the world, removed in batches. There is no object per bullet."""
 
-from math import atan2, cos, pi, sin
+from math import cos, pi, sin
 
 import numpy as np
 
@@ -13,24 +13,28 @@ DOWN, UP = pi / 2, -pi / 2     # [rad] headings; y points down
 LOOKS = {
     "shot": ("player_bullet_0", UP),
     "side": ("side_bullet", UP),
+    "heavy": ("heavy_shot", UP),
     "red": ("bullet_red_0", None),
     "purple": ("bullet_purple_0", None),
     "orange": ("bullet_orange_0", None),
+    "small": ("bullet_small_0", None),
+    "big": ("bullet_big_0", None),
+    "hollow": ("bullet_ring_0", None),
     "needle": ("bullet_needle", UP),
 }
 NAMES = tuple(LOOKS)
-BULLET = np.dtype([("id", np.int64), ("look", np.int64)])
+HOSTILE_LOOKS = NAMES[3:]
+GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8      # what of the player a bullet has met already: it counts once
+BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of one side. `table.rows` holds id and look of each; where it is, the world knows."""
+    """The bullets of one side. `table.rows` holds id, look and what it met; where it is, the world knows."""
 
     def __init__(self, world, side):
         self.world, self.side = world, side
         self.table = Table(BULLET)
         self.volley = {name: [] for name in NAMES}      # look -> (x, y, vx, vy, angle) fired in this step
-        atlas = load_atlas("effects")
-        self.masks = {name: atlas.mask(frame) for name, (frame, _) in LOOKS.items()}
 
     def __len__(self):
         return self.table.count
@@ -40,51 +44,78 @@ class Bullets:
         """Ids of all, ascending."""
         return self.table.rows["id"]
 
-    def fire(self, look, x, y, headings, speed):
-        """Add one bullet per heading [rad] at (x, y) [px], speed in px/s. They fly from the next step on."""
+    def make_room(self, count):
+        """Let every table grow before the first step, so that no step of the fight has to, and memory stays as it is."""
+        apart = 1000.0 + 20.0 * np.arange(count)       # on a diagonal far away: no two of them are ever a pair
+        ids = self.world.add_bodies(mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side)
+        self.world.step()
+        for part in np.split(ids, (1, 2, 3, 4)):       # most are kept, several times over, as in the fight
+            self.world.remove_bodies(part)
+        self.table.append(count)
+        self.table.keep(np.zeros(count, bool))
+
+    def fire(self, look, x, y, headings, speed, out=0.0):
+        """Add one bullet per heading [rad], `out` [px] along it from (x, y) [px], speed in px/s. They fly from the next
+        step on."""
         painted = LOOKS[look][1]
         for heading in headings:
             angle = 0.0 if painted is None else heading - painted
-            self.volley[look].append((x, y, speed * cos(heading), speed * sin(heading), angle))
+            across, down = cos(heading), sin(heading)
+            self.volley[look].append((x + out * across, y + out * down, speed * across, speed * down, angle))
 
-    def launch(self, tier):
+    def launch(self):
         """Put the volley into the world: one call per look that was fired."""
         for look, fired in self.volley.items():
             if not fired:
                 continue
             rows = np.array(fired)
-            ids = self.world.add_bodies(self.masks[look], rows[:, 0:2], rows[:, 2:4], rows[:, 4], kind="kinematic",
-                                        filter=self.side, tier=tier)
+            ids = self.world.add_bodies(mask_of(look), rows[:, 0:2], rows[:, 2:4], rows[:, 4], kind="kinematic",
+                                        filter=self.side)
             added = self.table.append(len(ids))
-            added["id"], added["look"] = ids, NAMES.index(look)
+            added["id"], added["look"], added["met"] = ids, NAMES.index(look), 0
             fired.clear()
 
     def places(self):
         """Rows of the world's bodies, in the order of the table."""
         return self.world.rows(self.ids)
 
+    def has(self, ids):
+        """Which of some ids are bullets of this side. O(k log n): ids stand in their order."""
+        if not len(self):
+            return np.zeros(len(ids), bool)
+        return self.ids[self._nearest(ids)] == ids
+
+    def meet(self, ids, what):
+        """Note that bullets met a part of the player (GRAZED ...). Returns those that meet it for the first time; ids of
+        others are ignored."""
+        at = self._nearest(ids[self.has(ids)])
+        met = self.table.rows["met"]
+        new = at[(met[at] & what) == 0]
+        met[new] |= what
+        return self.ids[new]
+
     def forget(self, ids):
         """Drop the rows of bullets whose bodies are removed; other ids are ignored."""
-        self.table.keep(~np.isin(self.ids, ids))
+        there = ids[self.has(ids)]
+        if len(there):
+            keep = np.ones(len(self), bool)
+            keep[self._nearest(there)] = False
+            self.table.keep(keep)
+
+    def _nearest(self, ids):
+        """The row where each id stands, or would: always a row there is."""
+        return np.minimum(np.searchsorted(np.ascontiguousarray(self.ids), ids), max(len(self) - 1, 0))
+
+    def state(self):
+        """For the digest: the whole table."""
+        return self.table.rows.tobytes().hex()
+
+
+def mask_of(look):
+    """The pixels of a bullet."""
+    return load_atlas("effects").mask(LOOKS[look][0])
 
 
 def outside(x, y):
     """Which places [px] are farther out than anything can be seen."""
     return (x < -MARGIN) | (x > WIDTH + MARGIN) | (y < -2 * MARGIN) | (y > HEIGHT + MARGIN)
-
-
-def aimed(x, y, target):
-    """One heading, at the target (x, y)."""
-    return [atan2(target[1] - y, target[0] - x)]
-
-
-def fan(heading, count, spread):
-    """`count` headings, `spread` [rad] from first to last, around one."""
-    if count == 1:
-        return [heading]
-    return [heading + spread * (number / (count - 1) - 0.5) for number in range(count)]
-
-
-def ring(count, turn=0.0):
-    """`count` headings all around, the first at `turn` [rad]."""
-    return [turn + 2 * pi * number / count for number in range(count)]

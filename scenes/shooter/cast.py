@@ -1,22 +1,27 @@
 """Who is in the air, and who may meet whom. Sides are filters: what cannot meet never becomes a pair.
 
-A shot never pairs with a shot, a bullet never with a bullet or with the planes that fired it. A plane that
-was just hit is a ghost: for a while it meets pick-ups only, and nothing has to ask whether a hit counts.
+A shot never pairs with a shot, a bullet never with a bullet or with the planes that fired it. A plane that was just lost
+comes back as a ghost: for a while nothing but pick-ups meets it, and nobody has to ask whether a hit counts.
 """
 
 from physics import Filter
 
-PLAYER, ENEMY, SHOT, BULLET, ITEM = (1 << bit for bit in range(5))
+CORE, HULL, RING, ENEMY, SHOT, BULLET, ITEM, BLAST = (1 << bit for bit in range(8))
 
-FLYING = Filter(PLAYER, ENEMY | BULLET | ITEM)      # the player
-GHOST = Filter(PLAYER, ITEM)                        # the player, just after a hit
-HOSTILE = Filter(ENEMY, PLAYER | SHOT)
+# The player: a small core, the hull that is drawn, and a ring that bullets graze and pick-ups are taken by.
+AT_RISK = {"core": Filter(CORE, ENEMY | BULLET), "hull": Filter(HULL, ENEMY | BULLET), "ring": Filter(RING, BULLET | ITEM)}
+GHOST = {"core": Filter(CORE, 0), "hull": Filter(HULL, 0), "ring": Filter(RING, ITEM)}
+HOSTILE = Filter(ENEMY, CORE | HULL | SHOT | BLAST)
+GROUNDED = Filter(ENEMY, SHOT | BLAST)              # what is on the ground: planes fly over it
+FALLING = Filter(ENEMY, 0)                          # a wreck: nothing meets it any more
 FIRED = Filter(SHOT, ENEMY)                         # what the player fires
-INCOMING = Filter(BULLET, PLAYER)                   # what is fired at the player
-LOOT = Filter(ITEM, PLAYER)
+INCOMING = Filter(BULLET, CORE | HULL | RING | BLAST)    # what is fired at the player
+LOOT = Filter(ITEM, RING)
+BLASTING = Filter(BLAST, ENEMY | BULLET)            # a bomb
 
 WIDTH, HEIGHT = 480, 270      # [px] the sky that is seen; nothing scrolls but the ground
 MARGIN = 34                   # [px] outside of it, where bodies are removed: more than half of the largest sprite
+GROUND_SPEED = 30.0           # [px/s] the ground, and what stands on it, moves down
 
 
 def steps(seconds):

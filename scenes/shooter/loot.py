@@ -1,4 +1,4 @@
-"""Power-ups: sensor bodies that drift down and come to you when you are near. They report, and push nothing."""
+"""Pick-ups: power, bombs, lives. They drift down, come to you when you are near, and the ring around the plane takes them."""
 
 from math import cos, hypot, pi
 
@@ -6,43 +6,59 @@ from game.sprites import load_atlas
 from scenes.shooter.cast import LOOT, WIDTH
 
 FALL, SWAY, SWINGS = 34.0, 26.0, 0.5      # [px/s], [px/s], swings per second
-REACH, PULL = 58.0, 150.0                 # [px] from which it comes to you, and how fast [px/s]
+REACH, FAR_REACH, PULL = 58.0, 130.0, 170.0   # [px] from which it comes to you, the same while you focus; how fast [px/s]
+TOSS, TOSS_TIME = 90.0, 34                # [px/s] upwards, and steps: what a lost plane leaves can be caught again
 EDGE = 16.0                               # [px] from the sides that it keeps
+PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
+
+
+class Item:
+    """`born`: the step it appeared in; `tossed`: thrown up by a plane that was lost."""
+
+    def __init__(self, what, born, tossed):
+        self.what, self.born, self.tossed = what, born, tossed
 
 
 class Loot:
-    """`born` maps the body of each power-up to the step it appeared in."""
+    """`items` by the body of each."""
 
     def __init__(self, world):
         self.world = world
-        self.born = {}
+        self.items = {}
 
     def __len__(self):
-        return len(self.born)
+        return len(self.items)
 
-    def drop(self, x, y, now, tier):
+    def drop(self, what, x, y, now, tossed=False):
         """Leave one at a place [px]."""
-        body = self.world.add_body(load_atlas("planes").mask("powerup_0"), kind="kinematic", sensor=True, filter=LOOT,
-                                   position=(min(max(x, EDGE), WIDTH - EDGE), y), tier=tier)
-        self.born[body.id] = now
+        mask = load_atlas("planes").mask(PICTURES[what] + "_0")
+        body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
+        self.items[body.id] = Item(what, now, tossed)
 
     def step(self, now, plane):
         """Choose the velocities of the coming step."""
-        if not self.born:
+        if not self.items:
             return
-        rows, bodies = self.world.rows(list(self.born)), self.world.bodies
-        for row, born in zip(rows.tolist(), self.born.values(), strict=True):
+        rows, bodies = self.world.rows(list(self.items)), self.world.bodies
+        reach = FAR_REACH if plane.focusing else REACH
+        for row, item in zip(rows.tolist(), self.items.values(), strict=True):
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
-            far = hypot(plane.x - x, plane.y - y)
-            if plane.body is not None and far < REACH:
+            age, far = now - item.born, hypot(plane.x - x, plane.y - y)
+            if item.tossed and age < TOSS_TIME:
+                vx, vy = 0.0, -TOSS * (1.0 - age / TOSS_TIME)
+            elif plane.here and far < reach:
                 share = PULL / max(far, 1.0)
                 vx, vy = (plane.x - x) * share, (plane.y - y) * share
             else:
-                vx, vy = SWAY * cos(2 * pi * SWINGS * (now - born) / 60), FALL
+                vx, vy = SWAY * cos(2 * pi * SWINGS * age / 60), FALL
                 vx = max(vx, 0.0) if x < EDGE else min(vx, 0.0) if x > WIDTH - EDGE else vx
             bodies["vx"][row], bodies["vy"][row] = vx, vy
 
     def forget(self, ids):
         """Drop those whose bodies are removed."""
         for identity in ids.tolist():
-            self.born.pop(identity, None)
+            self.items.pop(identity, None)
+
+    def state(self):
+        """For the digest."""
+        return tuple(value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed))

@@ -1,26 +1,30 @@
 """The bot: it looks ahead where bullets will be, tries some ways to fly, and takes the least dangerous.
 
 Each plan is a direction flown for some steps and then rest. All plans, moments and threats are compared in one
-array expression; what is predicted is read from the tables' positions and velocities.
+array expression; what is predicted is read from the tables' positions and velocities. Where every plan ends in a hit,
+it drops a bomb.
 """
 
 import numpy as np
 
-from scenes.shooter.bullets import NAMES
-from scenes.shooter.cast import HEIGHT
-from scenes.shooter.plane import BOTTOM, DIAGONAL, FOCUS, LEFT, RIGHT, SPEED, TOP
+from scenes.shooter.bullets import NAMES, mask_of
+from scenes.shooter.cast import GROUNDED, HEIGHT
+from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, RIGHT, SPEED, TOP
 
 MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)    # steps ahead
+SOON = 5                                    # of these are so near that only a bomb would help
 WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)      # what comes later can still be dodged later
 FLOWN = (5.0, 12.0, 26.0)                   # steps that a direction is held
-HALF_WIDTH, HALF_HEIGHT = 13.0, 15.0        # [px] of the plane, for the prediction
-RADIUS = {"red": 5.0, "purple": 4.0, "orange": 6.0, "needle": 5.0}
-ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0}
-CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}      # factor on sizes: what is tested is larger
-COMFORT = 1.75                              # in sizes: nearer than this is uncomfortable
-DEADLY = 1.08                               # nearer than this is a hit
-NEAR = 190.0                                # [px] farther threats can wait
+SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}      # [px] radius of what must not be met, for the prediction
+ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0, "hornet": 12.0, "midboss": 38.0, "boss": 56.0}
+CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}      # factor on enemies' sizes: what is tested is larger
+COMFORT = 14.0                              # [px] nearer than this is uncomfortable
+DEADLY = 0.8                                # [px] nearer than this is a hit
+HIT = 60.0                                  # the cost of one
+NEAR, MOST = 130.0, 64                      # [px] farther threats can wait, and so can more than so many
+AT_ONCE = 7                                 # plans that are compared at once: arrays stay small
 LINE_Y = 216.0                              # [px] where it likes to fly
+CROWD = 1500                                # bullets in the sky at which it uses its first bomb, come what may
 
 
 def directions():
@@ -47,13 +51,15 @@ class Pilot:
     def keys(self, scene):
         """Fly where it is safest, and among safe ways to where there is something to shoot or to take."""
         plane = scene.plane
-        if plane.body is None:
+        if not plane.here:
             return frozenset()
         x, y = plane.body.position
         place_x = np.clip(x + self.way_x, LEFT, RIGHT)
         place_y = np.clip(y + self.way_y, TOP, BOTTOM)
-        cost = self._danger(scene, x, y, place_x, place_y) + self._distance(scene, x, y, place_x[:, -1], place_y[:, -1])
-        dx, dy, _, focus = self.plans[int(np.argmin(cost))]
+        danger, doomed = self._danger(scene, x, y, place_x, place_y)
+        cost = danger + self._distance(scene, x, y, place_x[:, -1], place_y[:, -1])
+        best = int(np.argmin(cost))
+        dx, dy, _, focus = self.plans[best]
         actions = {"fire"}
         if dx:
             actions.add("right" if dx > 0 else "left")
@@ -61,30 +67,48 @@ class Pilot:
             actions.add("down" if dy > 0 else "up")
         if focus:
             actions.add("focus")
+        if self._bombs(scene, bool(doomed[best])):
+            actions.add("bomb")
         return frozenset(actions)
 
+    def _bombs(self, scene, doomed):
+        """A bomb when it is hit, or is about to be, or when the sky has never been fuller."""
+        if not scene.plane.bombs or scene.bomb.body is not None:
+            return False
+        crowded = not scene.score.bombs and len(scene.incoming) >= CROWD
+        return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
+
     def _danger(self, scene, x, y, place_x, place_y):
-        """Cost of each plan by what comes near."""
-        ahead_x, ahead_y, radius = threats(scene)
-        near = (np.abs(ahead_x[0] - x) < NEAR) & (np.abs(ahead_y[0] - y) < NEAR)
-        if not near.any():
-            return np.zeros(len(place_x))
-        radius, care = radius[near], CAUTION[scene.tier] if scene.narrowphase else CAUTION["aabb"]
-        off_x = place_x[:, :, None] - ahead_x[None, :, near]
-        off_y = place_y[:, :, None] - ahead_y[None, :, near]
-        off = np.sqrt((off_x / (HALF_WIDTH + radius)) ** 2 + (off_y / (HALF_HEIGHT + radius)) ** 2) / care
-        fear = np.maximum(COMFORT - off, 0.0) ** 2 + 60.0 * (off < DEADLY)
-        return (fear.sum(axis=2) * WEIGHTS).sum(axis=1)
+        """Cost of each plan by what comes near, and which plans end in a hit soon."""
+        ahead_x, ahead_y, radius = threats(scene, x, y)
+        if not len(radius):
+            return np.zeros(len(place_x)), np.zeros(len(place_x), bool)
+        radius = radius + SIZE[scene.hurts if scene.narrowphase else "hull"]
+        cost, doomed = np.zeros(len(place_x)), np.zeros(len(place_x), bool)
+        for some in range(0, len(place_x), AT_ONCE):
+            part = slice(some, some + AT_ONCE)
+            gap = (place_x[part, :, None] - ahead_x) ** 2
+            gap += (place_y[part, :, None] - ahead_y) ** 2
+            np.sqrt(gap, out=gap)
+            gap -= radius
+            hit = gap < DEADLY
+            fear = np.maximum(COMFORT - gap, 0.0, out=gap)
+            fear /= COMFORT
+            fear *= fear
+            fear[hit] += HIT
+            cost[part] = (fear.sum(axis=2) * WEIGHTS).sum(axis=1)
+            doomed[part] = hit[:, :SOON].any(axis=(1, 2))
+        return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
         """Cost of each plan by how far it ends from where there is something to do."""
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
-        prey = [e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode != "dive"]
+        prey = [e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")]
         if prey:
             aim = min(prey, key=lambda e: (abs(e.x - x) - 0.4 * e.y, e.id))
             ahead = max(y - aim.y, 0.0) / 540.0
             goal_x, pull = aim.x + aim.vx * ahead, 0.012
-        loot = list(scene.loot.born)
+        loot = list(scene.loot.items)
         if loot:
             bodies, rows = scene.world.bodies, scene.world.rows(loot)
             nearest = int(np.argmin(np.abs(bodies["x"][rows] - x) + np.abs(bodies["y"][rows] - y)))
@@ -94,17 +118,23 @@ class Pilot:
         return pull * np.abs(end_x - goal_x) + 0.6 * pull * np.abs(end_y - goal_y)
 
 
-def threats(scene):
-    """Where all bullets and enemies will be, x and y [moment, threat] in px, and the radius [px] of each."""
+def threats(scene, x, y):
+    """Where bullets and enemies near (x, y) will be, x and y [moment, threat] in px, and the radius [px] of each."""
     bodies, incoming = scene.world.bodies, scene.incoming
-    ahead, rows = MOMENTS[:, None] / 60, incoming.places()
+    rows = incoming.places()
+    sizes = np.array([mask_of(name).size[0] / 2 - 0.5 for name in NAMES])[incoming.table.rows["look"]]
+    off = np.maximum(np.abs(bodies["x"][rows] - x), np.abs(bodies["y"][rows] - y)) - sizes
+    near = np.flatnonzero(off < NEAR)
+    if len(near) > MOST:
+        near = near[np.argsort(off[near], kind="stable")[:MOST]]
+    rows, ahead = rows[near], MOMENTS[:, None] / 60
     columns_x = [bodies["x"][rows] + bodies["vx"][rows] * ahead]
     columns_y = [bodies["y"][rows] + bodies["vy"][rows] * ahead]
-    fleet = list(scene.fleet.planes.values())
+    fleet = [enemy for enemy in scene.fleet.planes.values() if enemy.side is not GROUNDED]
+    care = CAUTION[scene.tier] if scene.narrowphase else CAUTION["aabb"]
     for enemy in fleet:
-        x, y = enemy.ahead(ahead)
-        columns_x.append(x)
-        columns_y.append(y)
-    sizes = np.array([RADIUS.get(name, 5.0) for name in NAMES])
-    radius = np.concatenate([sizes[incoming.table.rows["look"]], [ENEMY_RADIUS[enemy.kind] for enemy in fleet]])
+        ahead_x, ahead_y = enemy.ahead(ahead)
+        columns_x.append(ahead_x)
+        columns_y.append(ahead_y)
+    radius = np.concatenate([sizes[near], [ENEMY_RADIUS[enemy.kind] * care for enemy in fleet]])
     return np.concatenate(columns_x, axis=1), np.concatenate(columns_y, axis=1), radius

@@ -1,98 +1,119 @@
-"""What is only seen and heard: explosions, sparks, debris, flashes, sounds, shake. No rule reads any of it."""
+"""What the scene reports, as pictures, light and sounds: who is hit, who bursts, what was won. No rule reads any of it."""
 
 from math import pi
 
-from game.sprites import load_atlas
 from scenes.shooter.cast import WIDTH
+from scenes.shooter.fireworks import BLUE, DUST, FIRE, GOLD, SPARK, VAPOUR, Fireworks
 
-FIRE = ((255, 255, 240), (255, 226, 130), (255, 160, 50), (216, 78, 40), (120, 40, 52), (60, 34, 50))
-SPARK = ((255, 255, 255), (255, 240, 170), (255, 180, 70), (170, 80, 50))
-BLUE = ((255, 255, 255), (170, 236, 255), (70, 160, 240), (40, 70, 160))
-GOLD = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
-ROSE = ((255, 255, 255), (255, 170, 190), (220, 80, 130), (110, 40, 90))
-SMOKE_EVERY = 5              # steps between puffs of a damaged gunship
+SMOKE_EVERY = 5              # steps between puffs of something large that is damaged
 FLASH = 3                    # steps that a plane stays white when it is hit
-CALM = 0.965                 # of the shock of an explosion that is left a step later
 LEAN_RATE = 0.06             # share of the way to the plane that the parallax goes in a step
+NEWS = 130                   # steps that the name of a wave is shown
+SHOT_SOUND = 6               # steps at least between two sounds of a leader's guns
+GRAZE_WORDS = 45             # steps between two words about grazes
+MOST_EMBERS = 100            # bullets that burn with sparks at once; more would hide the picture
 # kind -> explosion, sound, volume, shake, sparks, pieces of debris
 DEATHS = {"dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
           "saucer": ("explosion_small", "explosion", 0.7, 0.10, 24, 5),
+          "hornet": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
+          "turret": ("explosion_large", "explosion", 0.85, 0.18, 36, 7),
           "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 12)}
-PAINT = {"dart": (1, 0), "saucer": (3, 4), "gunship": (2, 0), "player": (5, 0)}     # frames of the debris
+PAINT = {"dart": (1, 0), "saucer": (3, 4), "gunship": (2, 0), "hornet": (4, 0), "turret": (0, 2),
+         "player": (5, 0), "midboss": (2, 0), "boss": (1, 0)}     # frames of the debris
+WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
 class Spectacle:
-    """Lists of what flies about: each entry ages, and is gone when its time is over."""
+    """`works` flies about; the rest are clocks of what glows, jumps or is announced."""
 
     def __init__(self, scene):
         self.scene = scene
+        self.works = Fireworks(scene.particles)
         self.random = scene.particles.random
-        self.atlas = load_atlas("effects")
         self.time = 0.0
-        self.bursts = []             # [animation, x, y, vx, vy, age s]; before age 0 it waits
-        self.debris = []             # [frame, x, y, vx, vy, age s, life s]
-        self.words = []              # [text, x, y, age s, color]
         self.flashes = {}            # body id -> steps it stays white
         self.muzzle = 9              # steps since the last volley
-        self.shock = 0.0             # light of explosions on the picture, 1..0
+        self.quiet = 0               # steps until a leader's guns are heard again
+        self.hush = 0                # steps until a graze is written again
         self.news = 0                # steps that the name of the wave is still shown
-        self.pulse = 0.0             # the score jumps when it grows, 1..0
+        self.pulse = self.gain = 0.0     # the score, and the weapon's icon, jump when they grow, 1..0
+        self.bonus = ["", 0, 0]      # what a phase gave: title, points, steps it is still shown
+        self.health = 0.0            # of the leader, as its bar shows it: it follows the real one
         self.lean = self.lean_before = 0.0     # [px] off the middle, as the parallax sees it: slower than the plane
 
     def step(self, dt):
         """Everything ages."""
+        scene = self.scene
         self.time += dt
         self.muzzle += 1
+        self.quiet, self.hush = max(0, self.quiet - 1), max(0, self.hush - 1)
         self.lean_before = self.lean
-        self.lean += (self.scene.plane.x - WIDTH / 2 - self.lean) * LEAN_RATE
-        self.shock *= CALM
-        self.pulse = max(0.0, self.pulse - 5.0 * dt)
-        self.news = max(0, self.news - 1)
+        self.lean += (scene.plane.x - WIDTH / 2 - self.lean) * LEAN_RATE
+        self.pulse, self.gain = max(0.0, self.pulse - 5.0 * dt), max(0.0, self.gain - 2.0 * dt)
+        self.news, self.bonus[2] = max(0, self.news - 1), max(0, self.bonus[2] - 1)
         self.flashes = {identity: left - 1 for identity, left in self.flashes.items() if left > 1}
+        leader = scene.fleet.leader
+        share = leader.health / leader.full if leader is not None and leader.mode != "arrive" else 0.0
+        self.health += (share - self.health) * 0.12
+        if not scene.freeze:
+            self._trails()
+        self.works.step(dt, still=scene.freeze > 0)
+
+    def _trails(self):
+        """Smoke of what is damaged, vapour behind what is quick."""
+        particles, plane = self.scene.particles, self.scene.plane
         for enemy in self.scene.fleet.planes.values():
-            if enemy.full > 8 and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
+            if enemy.heavy and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
                 side = -15 if enemy.age % (2 * SMOKE_EVERY) else 15
-                self._burst("smoke", enemy.x + side, enemy.y - 6, self.random.uniform(-8, 8), -26.0)
-        for burst in self.bursts:
-            burst[1] += burst[3] * dt
-            burst[2] += burst[4] * dt
-            burst[5] += dt
-        self.bursts = [b for b in self.bursts if b[5] < self.atlas.animation(b[0]).seconds]
-        for piece in self.debris:
-            piece[1] += piece[3] * dt
-            piece[2] += piece[4] * dt
-            piece[3] *= 0.985
-            piece[4] = piece[4] * 0.985 + 0.8
-            piece[5] += dt
-            if int(piece[5] * 60) % 4 == 0 and piece[5] < 0.7 * piece[6]:
-                self.scene.particles.burst(piece[1], piece[2], 1, FIRE, speed=(0, 10), life=(0.2, 0.5), size=(1, 2))
-        self.debris = [piece for piece in self.debris if piece[5] < piece[6]]
-        for word in self.words:
-            word[2] -= 18.0 * dt
-            word[3] += dt
-        self.words = [word for word in self.words if word[3] < 0.8]
+                self.works.burst("smoke", enemy.x + side * (2 if enemy.leads else 1), enemy.y - 6,
+                                 self.random.uniform(-8, 8), -26.0)
+            elif enemy.kind == "hornet" and enemy.age % 3 == 0:
+                particles.burst(enemy.x, enemy.y, 1, VAPOUR, speed=(0, 6), life=(0.3, 0.6), size=(1, 1))
+            elif enemy.kind == "dart" and enemy.mode == "dive" and enemy.age % 2 == 0:
+                particles.burst(enemy.x, enemy.y, 2, FIRE, speed=(0, 24), life=(0.15, 0.35), size=(1, 2))
+        if plane.here and abs(plane.velocity[0]) > 150.0 and int(self.time * 60) % 2 == 0:
+            for side in (-13, 13):
+                particles.burst(plane.x + side, plane.y + 6, 1, VAPOUR, speed=(0, 4), life=(0.2, 0.4), size=(1, 1))
 
     def lean_at(self, alpha):
         """The parallax' shift between two steps [px]."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
-    # --- what the scene reports --------------------------------------------------------------------------------------
+    # --- the stage -----------------------------------------------------------------------------------------------------
 
-    def wave(self, number):
+    def wave(self, director):
         """A wave begins."""
-        self.news = 130
-        if number > 1:
-            self.scene.play("blip", volume=0.4)
+        self.news = NEWS
+        if director.number > 1:
+            self.scene.play("blip", volume=0.3)
+
+    def wave_done(self, enemy, worth):
+        """All planes of a wave are down."""
+        self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, (150, 226, 255))
+
+    def warning(self, event):
+        """A leader is near."""
+        self.scene.play("warning", volume=0.9)
+        self.scene.camera.shake(0.2)
+
+    # --- shots ---------------------------------------------------------------------------------------------------------
 
     def player_fires(self, plane):
         """Muzzle flash and sound."""
         self.muzzle = 0
-        self.scene.play("laser", plane.x, 0.22)
+        self.scene.play("heavy_laser" if plane.power == 5 else "laser", plane.x, 0.2)
 
     def enemy_fires(self, enemy):
         """A plane opens fire."""
-        self._burst("muzzle_flash", enemy.x, enemy.y + 8, 0.0, 0.0)
-        self.scene.play("enemy_shot", enemy.x, 0.4)
+        self.works.burst("muzzle_flash", enemy.x, enemy.y + 8)
+        self.scene.play("enemy_shot", enemy.x, 0.35)
+
+    def leader_fires(self, leader):
+        """One of a leader's guns fired."""
+        if not self.quiet:
+            self.quiet = SHOT_SOUND
+            self.works.burst("muzzle_flash", leader.x, leader.y + 22)
+            self.scene.play("enemy_shot", leader.x, 0.3)
 
     def dive(self, dart):
         """A dart lights its burner."""
@@ -102,101 +123,165 @@ class Spectacle:
     def struck(self, enemy, x, y, blow):
         """A shot hits a plane and does not bring it down: the harder, the more sparks."""
         self.flashes[enemy.id] = FLASH
-        self._burst("spark", x, y, 0.0, 20.0)
+        self.works.burst("spark", x, y, 0.0, 20.0)
         self.scene.particles.burst(x, y, round(5 * blow.strength), SPARK, speed=(40, 160 * blow.strength), life=(0.1, 0.3),
                                    angle=pi / 2, spread=2.6, size=(1, 1))
-        self.scene.play("hit", x, 0.3 * blow.strength)
+        self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
+
+    def glanced(self, enemy, x, y):
+        """A shot hits what nothing hurts now."""
+        self.scene.particles.burst(x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1))
 
     def destroyed(self, enemy, worth, blow):
         """A plane is brought down. Its pieces go on as it flew, with what the last blow gave them."""
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
-        x, y = enemy.x, enemy.y
-        self._burst(animation, x, y, enemy.vx * 0.2, enemy.vy * 0.2 + 10)
+        x, y, works = enemy.x, enemy.y, self.works
+        works.burst(animation, x, y, enemy.vx * 0.2, enemy.vy * 0.2 + 10)
         if enemy.kind == "gunship":
-            for number in range(6):
-                dx, dy = self.random.uniform(-22, 22), self.random.uniform(-16, 16)
-                self._burst("explosion_small", x + dx, y + dy, dx, dy + 12, -0.09 * number)
-            self.shock = 1.0
-        self._sparks(x, y, sparks, FIRE)
-        self._sparks(x, y, sparks // 3, SPARK, 260)
-        self._pieces(enemy.kind, x, y, enemy.vx * 0.3, enemy.vy * 0.3, pieces, blow)
-        self._puffs(x, y, 2 if enemy.kind != "gunship" else 6)
-        self.word(f"{worth}", x, y - 24, (255, 236, 170))
+            works.chain(x, y, 22, 16, 6, 0.09)
+            works.ring(x, y, 64.0)
+            self.scene.flash.start(0.35, (255, 196, 120))
+        elif enemy.kind == "turret":
+            works.scar(x, y, 15)
+            works.sparks(x, y, 24, DUST, 90)
+            works.ring(x, y, 40.0)
+        works.sparks(x, y, round(sparks * blow.strength), FIRE)
+        works.sparks(x, y, sparks // 3, SPARK, 260)
+        works.pieces(PAINT[enemy.kind], x, y, enemy.vx * 0.3, enemy.vy * 0.3, pieces, blow)
+        works.puffs(x, y, 6 if enemy.heavy else 2)
+        works.word(f"{worth}", x, y - 24, (255, 236, 170))
         self.pulse = 1.0
         self.scene.camera.shake(shake * blow.strength)
-        self.scene.play(sound, x, volume)
+        self.scene.play(sound, x, min(volume * (0.8 + 0.2 * blow.strength), 1.0))
+
+    # --- the player ----------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
-        """Pixels met: plane and bullet stand white for as many steps as all stands still."""
+        """Something met: plane and bullet stand white for as many steps as a bomb would still save it."""
         for identity in (plane.body.id, *hit_by):
             self.flashes[identity] = still + 1
         self.scene.camera.shake(0.35)
         self.scene.play("hurt", plane.x, 0.8)
 
+    def hit_taken(self, plane):
+        """A hit that costs nothing."""
+        self.flashes[plane.body.id] = 4
+        self.works.sparks(plane.x, plane.y, 10, BLUE, 120)
+        self.scene.play("hurt", plane.x, 0.4)
+
     def player_lost(self, plane, blow):
         """The plane bursts."""
-        x, y = plane.x, plane.y
-        self._burst("explosion_large", x, y, 0.0, 12.0)
-        for number in range(4):
-            dx, dy = self.random.uniform(-16, 16), self.random.uniform(-16, 16)
-            self._burst("explosion_small", x + dx, y + dy, dx, dy, -0.12 * (number + 1))
-        self._sparks(x, y, 60, FIRE, 200)
-        self._sparks(x, y, 30, BLUE, 240)
-        self._pieces("player", x, y, 0.0, 0.0, 10, blow)
-        self._puffs(x, y, 6)
-        self.shock = 1.0
+        x, y, works = plane.x, plane.y, self.works
+        works.burst("explosion_large", x, y, 0.0, 12.0)
+        works.chain(x, y, 16, 16, 4, 0.12)
+        works.ring(x, y, 90.0)
+        works.sparks(x, y, 60, FIRE, 200)
+        works.sparks(x, y, 30, BLUE, 240)
+        works.pieces(PAINT["player"], x, y, 0.0, 0.0, 10, blow)
+        works.puffs(x, y, 6)
+        self.scene.flash.start(0.7, (255, 150, 120))
         self.scene.camera.shake(0.5)
         self.scene.play("big_explosion", x, 0.8)
 
-    def bullets_burnt(self, places):
-        """Bullets that vanish with the player's plane turn into sparks."""
-        for x, y in places:
-            self._sparks(x, y, 4, ROSE, 50)
+    def bomb_dropped(self, bomb):
+        """The sky lights up."""
+        self.works.ring(bomb.x, bomb.y, 150.0)
+        self.works.sparks(bomb.x, bomb.y, 60, BLUE, 320)
+        self.works.sparks(bomb.x, bomb.y, 30, GOLD, 220)
+        self.scene.flash.start(0.8, (190, 226, 255))
+        self.scene.camera.shake(0.45)
+        self.scene.play("bomb", bomb.x, 0.9)
 
-    def near_miss(self, x, y, toward_x, toward_y):
-        """Something passed within its box."""
-        mid_x, mid_y = (x + toward_x) / 2, (y + toward_y) / 2
-        self._sparks(mid_x, mid_y, 6, BLUE, 90)
-        self.word("CLOSE", toward_x, toward_y - 20, (150, 226, 255))
-        self.scene.play("blip", x, 0.25)
+    def bullets_burnt(self, xs, ys):
+        """Bullets that vanish turn into sparks; of very many, only some are seen to."""
+        each = -(-len(xs) // MOST_EMBERS)
+        self.works.embers(xs[::each], ys[::each])
+
+    def grazed(self, plane, world, ids, worth):
+        """Bullets passed close by."""
+        bodies = world.bodies
+        for row in world.rows(ids).tolist():
+            x, y = bodies["x"][row].item(), bodies["y"][row].item()
+            self.works.burst("graze_spark", (x + plane.x) / 2, (y + plane.y) / 2)
+            self.works.sparks((x + plane.x) / 2, (y + plane.y) / 2, 3, BLUE, 90)
+        if not self.hush:
+            self.hush = GRAZE_WORDS
+            self.works.word(f"GRAZE +{worth}", plane.x, plane.y + 22, (150, 226, 255))
+        self.scene.play("graze", plane.x, 0.3)
+
+    def chain_broken(self, plane):
+        """Nothing happened for too long."""
+        self.works.word("CHAIN LOST", plane.x, plane.y - 26, (214, 190, 206))
+        self.scene.play("chain_break", plane.x, 0.5)
 
     def loot_left(self, x, y):
-        """A power-up appears."""
-        self._sparks(x, y, 14, GOLD, 90)
+        """A pick-up appears."""
+        self.works.sparks(x, y, 14, GOLD, 90)
 
-    def loot_taken(self, x, y, text):
-        """A power-up is taken."""
-        self._sparks(x, y, 30, GOLD, 150)
-        self.word(text, x, y - 18, (255, 226, 120))
-        self.scene.play("powerup", x, 0.7)
+    def loot_taken(self, plane, what, worth):
+        """A pick-up is taken."""
+        self.gain = 1.0
+        self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
+        self.works.ring(plane.x, plane.y, 30.0)
+        self.works.word(f"+{worth}" if worth else WORDS[what], plane.x, plane.y - 18, (255, 226, 120))
+        self.scene.play("life" if what == "life" and not worth else "powerup", plane.x, 0.7)
 
     def life_won(self, plane):
         """An extra life."""
-        self.word("1UP", plane.x, plane.y - 24, (170, 255, 190))
-        self.scene.play("powerup", plane.x, 0.9)
+        self.works.word("1UP", plane.x, plane.y - 30, (170, 255, 190))
+        self.works.ring(plane.x, plane.y, 44.0)
+        self.scene.play("life", plane.x, 0.9)
 
-    def word(self, text, x, y, color):
-        """A word that rises from a place, unless one was just written there."""
-        if not any(abs(w[1] - x) < 26 and abs(w[2] - y) < 8 and w[3] < 0.3 for w in self.words):
-            self.words.append([text, x, y, 0.0, color])
+    def went_on(self):
+        """The player goes on after the last life."""
+        self.scene.flash.start(0.5)
+        self.scene.play("confirm", volume=0.8)
 
-    # --- pieces --------------------------------------------------------------------------------------------------------
+    # --- leaders -------------------------------------------------------------------------------------------------------
 
-    def _burst(self, name, x, y, vx, vy, age=0.0):
-        self.bursts.append([name, x, y, vx, vy, age])
+    def phase_over(self, leader, last, worth):
+        """The sky is cleared, and the leader shows what it took."""
+        x, y, works = leader.x, leader.y, self.works
+        self.bonus = [("PHASE BONUS" if worth else "TIME OUT"), worth, 120]
+        works.ring(x, y, 220.0)
+        works.chain(x, y, 52, 30, 8, 0.07)
+        works.sparks(x, y, 80, FIRE, 260)
+        works.puffs(x, y, 8)
+        self.pulse = 1.0
+        self.scene.flash.start(1.0 if last else 0.7)
+        self.scene.camera.shake(0.6)
+        self.scene.play("big_explosion", x, 0.9)
 
-    def _sparks(self, x, y, count, ramp, speed=150):
-        self.scene.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
+    def leader_burns(self, leader, whole):
+        """It falls to pieces, one explosion after another, quicker towards the end."""
+        share = leader.since / whole
+        every = 10 if share < 0.5 else 5
+        if leader.since % every == 0:
+            dx, dy = self.random.uniform(-54, 54), self.random.uniform(-30, 30)
+            big = leader.since % (4 * every) == 0
+            self.works.burst("explosion_large" if big else "explosion_small", leader.x + dx, leader.y + dy, 0.0, 16.0)
+            self.works.sparks(leader.x + dx, leader.y + dy, 16, FIRE, 170)
+            frame = f"debris_{PAINT[leader.kind][0]}"
+            self.works.debris.append([frame, leader.x + dx, leader.y + dy, dx * 1.6, -60.0, 0.0, 1.2])
+            self.scene.camera.shake(0.12)
+            self.scene.play("explosion", leader.x + dx, 0.5 + 0.4 * share)
+            self.flashes[leader.id] = 2
 
-    def _puffs(self, x, y, count):
-        for number in range(count):
-            vx, vy = self.random.uniform(-20, 20), self.random.uniform(-14, 26)
-            self._burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
-
-    def _pieces(self, kind, x, y, vx, vy, count, blow):
-        """Debris: the harder the blow, the more pieces, and the faster, along its way."""
-        frames, wild = PAINT[kind], 0.7 + 0.3 * blow.strength
-        vx, vy = vx + blow.kick[0], vy + blow.kick[1]
-        for number in range(max(2, round(count * blow.strength))):
-            self.debris.append([f"debris_{frames[number % 2]}", x, y, vx + wild * self.random.uniform(-90, 90),
-                                vy + wild * self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])
+    def leader_gone(self, leader):
+        """The last and largest explosion."""
+        x, y, works = leader.x, leader.y, self.works
+        works.burst("explosion_large", x, y)
+        for dx, dy in ((-40, -10), (40, -8), (-20, 22), (22, 20), (0, -24)):
+            works.burst("explosion_large", x + dx, y + dy, dx * 0.5, dy * 0.5, -0.04 * (abs(dx) // 20))
+        works.chain(x, y, 70, 44, 14, 0.06)
+        works.ring(x, y, 300.0)
+        works.ring(x, y, 160.0)
+        works.sparks(x, y, 160, FIRE, 380)
+        works.sparks(x, y, 60, GOLD, 300)
+        works.puffs(x, y, 14)
+        for number in range(20):
+            works.debris.append([f"debris_{PAINT[leader.kind][number % 2]}", x, y, self.random.uniform(-190, 190),
+                                 self.random.uniform(-180, 120), 0.0, self.random.uniform(0.8, 1.8)])
+        self.scene.flash.start(1.0)
+        self.scene.camera.shake(0.9)
+        self.scene.play("big_explosion", x, 1.0)

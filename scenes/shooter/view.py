@@ -1,30 +1,37 @@
-"""The picture of the shooter, from the sea up: clouds, shadows, planes, fire, and bullets above everything.
+"""The picture of the shooter, from the ground up: shadows, planes, fire, and bullets above everything.
 
 Everything is read, nothing is changed. Swarms are placed with NumPy and blitted in one call per layer. A sprite
 stands where the physics puts its mask: floor(position - origin + 0.5).
 """
 
 from functools import lru_cache
+from itertools import repeat
+from math import sin
 
 import numpy as np
 import pygame
 
 from game.compat import blit_many
 from game.draw import CANVAS_SIZE
-from game.sprites import TurnedSprites, lit, load_atlas, load_backdrop
-from scenes.shooter import board
+from game.sprites import TurnedSprites, lit, load_atlas
+from scenes.shooter import banners, board, light
 from scenes.shooter.bullets import LOOKS, NAMES
+from scenes.shooter.cast import GROUNDED
+from scenes.shooter.ending import PLAYING
+from scenes.shooter.ground import draw_ground
+from scenes.shooter.loot import PICTURES
 
-# Layer, its way down [px/s], px it shifts for each px that the plane is off the middle, and a fixed shift [px].
-LAYERS = (("sea", 22.0, 0.04, 0), ("cloud_shadows", 36.0, 0.06, 40), ("clouds_low", 36.0, 0.08, 0),
-          ("clouds_high", 74.0, 0.16, 0))
-SHADOW_AT = (15, 24)         # [px] from a plane to its shadow on the sea
+SHADOW_AT = (15, 24)         # [px] from a plane to its shadow on the ground
 SHADOW = (8, 12, 30, 84)
-CYCLES = {"red": "bullet_red", "purple": "bullet_purple", "orange": "bullet_orange"}
-GLOWS = {"shot": "glow_blue", "red": "glow_small", "orange": "glow_small", "purple": "glow_blue"}
+CYCLES = {"red": "bullet_red", "purple": "bullet_purple", "orange": "bullet_orange", "small": "bullet_small",
+          "big": "bullet_big", "hollow": "bullet_ring"}
+GLOWS = {"shot": "glow_blue", "heavy": "glow_blue", "red": "glow_small", "orange": "glow_small", "purple": "glow_blue",
+         "big": "glow_small"}
+MOST_GLOWS = 160             # bullets of a look that glow; more would be one bright fog, and cost time
+OUT = 24                     # [px] outside of the picture, where a bullet's light is no longer seen
 EXHAUST_AT = 21              # [px] from the plane's middle to that of its flames
 WHITE, PALE = 190, 60         # how much a hit brightens a plane; what takes many hits only glimmers
-STREAKS = 16                 # wisps of air that show the speed
+STURDY = 20                  # health from which on it is shown
 BLINK = 8                    # steps of one blink of a ghost
 
 
@@ -33,23 +40,21 @@ class View:
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
-        self.layers = [(load_backdrop(name), *rest) for name, *rest in LAYERS]
-        self.streak = pygame.Surface((1, 14), pygame.SRCALPHA)
-        for row in range(14):
-            self.streak.set_at((0, row), (220, 236, 255, 4 + 4 * row))
-        self.turned = {}             # (atlas, frame) -> TurnedSprites
+        self.turned = {}             # (atlas, shown frame, frame that collides) -> TurnedSprites
         self.shaded, self.whitened = lru_cache(maxsize=512)(shade), lru_cache(maxsize=512)(lit)
         self.outlined = lru_cache(maxsize=16)(outline)
         self.ghostly = lru_cache(maxsize=16)(ghostly)
+        self.stretched = lru_cache(maxsize=64)(stretched)
         self.dimmed = lru_cache(maxsize=64)(dimmed)
 
-    def sprite(self, atlas, frame, angle=0.0):
-        """(image, origin in it) of a frame at an angle: exactly the pixels of its mask."""
+    def sprite(self, atlas, frame, angle=0.0, mask=None):
+        """(image, origin in it) of a frame at an angle: exactly the pixels of the mask of the frame that collides."""
+        mask = mask or frame
         if angle == 0.0:
-            return atlas[frame], atlas.mask(frame).origin
-        key = (atlas is self.planes, frame)
+            return atlas[frame], atlas.mask(mask).origin
+        key = (atlas is self.planes, frame, mask)
         if key not in self.turned:
-            self.turned[key] = TurnedSprites(atlas[frame], atlas.mask(frame))
+            self.turned[key] = TurnedSprites(atlas[frame], atlas.mask(mask))
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
@@ -57,25 +62,28 @@ class View:
         self.canvas, self.surface, self.alpha = canvas, canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
-        self._draw_ground(scene)
-        planes = self._planes(scene)
-        below = [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in planes]
-        blit_many(self.surface, below)
+        works = scene.spectacle.works
+        draw_ground(self.surface, scene, alpha, self.left, self.top)
+        ground, air = self._planes(scene)
+        blit_many(self.surface, ground)
+        blit_many(self.surface, [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in air])
         self._draw_loot(scene)
         self._draw_bullets(scene, scene.shots)
         self._draw_exhaust(scene)
-        shown = [(self.whitened(image, white) if white else image, place) for image, place, white in planes]
-        blit_many(self.surface, shown)
-        self._draw_marks(scene)
-        self._draw_debris(scene)
-        self._draw_bursts(scene)
+        blit_many(self.surface, [(self.whitened(image, white) if white else image, place) for image, place, white in air])
+        self._draw_health(scene)
+        self._draw_debris(works)
+        self._draw_bursts(works)
+        light.draw_rings(self, works)
+        light.draw_bomb(self, scene)
         scene.particles.draw(canvas, scene.camera, alpha)
         board.draw_words(canvas, scene, (self.left, self.top))
         self._draw_bullets(scene, scene.incoming)
-        self._draw_light(scene)
+        self._draw_player_marks(scene)
         board.draw_board(canvas, scene)
+        banners.draw_banners(canvas, scene)
 
-    def _places(self, scene, ids):
+    def places(self, scene, ids):
         """Interpolated x and y of bodies [px], as arrays, and their angles."""
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
@@ -83,159 +91,149 @@ class View:
         return (x - (x - bodies["previous_x"][rows]) * back, y - (y - bodies["previous_y"][rows]) * back,
                 bodies["angle"][rows])
 
-    def _at(self, x, y, origin):
+    def at(self, x, y, origin):
         """Canvas place of a picture whose origin is at a world point."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
-    def _draw_ground(self, scene):
-        time = self.time + (self.alpha - 1.0) / 60
-        off = scene.spectacle.lean_at(self.alpha)
-        for picture, speed, share, shift in self.layers:
-            tile(self.surface, picture, shift - off * share, time * speed + shift)
-        drawn = []
-        for number in range(STREAKS):
-            across = number * 97 % CANVAS_SIZE[0] + off * -0.3
-            down = (time * (260 + 23 * (number % 5)) + number * 61) % (CANVAS_SIZE[1] + 60) - 30
-            drawn.append((self.streak, (int(across) % CANVAS_SIZE[0], int(down))))
-        blit_many(self.surface, drawn)
-
     def _planes(self, scene):
-        """(picture, place, whiteness) of every plane in the air, the player last."""
-        drawn = []
+        """(picture, place, whiteness) of what is in the air, the player last; (picture, place) of what is on the ground."""
+        ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
         if fleet:
-            x, y, angles = self._places(scene, list(fleet))
+            x, y, angles = self.places(scene, list(fleet))
             for plane, px, py, angle in zip(fleet.values(), x.tolist(), y.tolist(), angles.tolist(), strict=True):
-                image, origin = self.sprite(self.planes, self._frame(plane), angle)
-                drawn.append((image, self._at(px, py, origin), flash_of(plane) if plane.id in flashes else 0))
+                image, origin = self.sprite(self.planes, self._frame(plane), angle, plane.frame)
+                white = (PALE if plane.heavy else WHITE) if plane.id in flashes else 0
+                if plane.side is GROUNDED:
+                    ground.append((self.whitened(image, white) if white else image, self.at(px, py, origin)))
+                else:
+                    air.append((image, self.at(px, py, origin), white))
         player = scene.plane
-        if player.body is not None:
+        if player.here:
             image, origin = self.sprite(self.planes, player.frame)
-            if player.safe % BLINK >= BLINK // 2:
+            blinks = scene.comfort.flashing and scene.ending.mode == PLAYING
+            if blinks and player.safe % BLINK >= BLINK // 2:
                 image = self.ghostly(image)
-            x, y, _ = self._places(scene, [player.body.id])
-            drawn.append((image, self._at(x[0], y[0], origin), WHITE if player.body.id in flashes else 0))
-        return drawn
+            x, y, _ = self.places(scene, [player.body.id])
+            air.append((image, self.at(x[0], y[0], origin), WHITE if player.body.id in flashes else 0))
+        return ground, air
 
     def _frame(self, plane):
-        """Saucers and gunships run through pictures that share one mask; a dart's picture is its mode."""
+        """Most run through pictures that share one mask; a dart's picture is its mode."""
         if plane.kind == "dart":
             return plane.frame
-        animation = self.planes.animation(plane.kind)
+        animation = self.planes.animation(plane.frame[:-2])
         return animation.names[animation.index_at(plane.age / 60)]
 
     def _draw_exhaust(self, scene):
         player = scene.plane
-        if player.body is None:
+        if not player.here:
             return
-        x, y, _ = self._places(scene, [player.body.id])
+        x, y, _ = self.places(scene, [player.body.id])
         image = self.planes.animation("exhaust").at(self.time)
-        self.surface.blit(image, self._at(x[0], y[0] + EXHAUST_AT, (image.get_width() / 2, image.get_height() / 2)))
+        width, height = image.get_size()
+        # Longer as it climbs, shorter as it falls back.
+        height = round(height * (1.0 - 0.35 * player.velocity[1] / 168.0))
+        image = pygame.transform.scale(image, (width, height)) if player.velocity[1] else image
+        self.surface.blit(image, self.at(x[0], y[0] + EXHAUST_AT - 6, (width / 2, 0)))
 
     def _draw_loot(self, scene):
-        if not scene.loot.born:
+        if not scene.loot.items:
             return
-        x, y, _ = self._places(scene, list(scene.loot.born))
-        glow, image = self.effects["glow_small"], self.planes.animation("powerup").at(self.time)
-        for px, py in zip(x.tolist(), y.tolist(), strict=True):
-            self.surface.blit(glow, self._at(px, py, (16, 16)), special_flags=pygame.BLEND_RGB_ADD)
-            self.surface.blit(image, self._at(px, py, (9, 9)))
+        x, y, _ = self.places(scene, list(scene.loot.items))
+        for item, px, py in zip(scene.loot.items.values(), x.tolist(), y.tolist(), strict=True):
+            image = self.planes.animation(PICTURES[item.what]).at(self.time)
+            glow = self.effects["glow_blue" if item.what == "bomb" else "glow_small"]
+            self.surface.blit(glow, self.at(px, py, (16, 16)), special_flags=pygame.BLEND_RGB_ADD)
+            # It breathes: wide and low, then narrow and high.
+            image = self.stretched(image, round(2 * sin(6.0 * self.time + 0.1 * px)))
+            self.surface.blit(image, self.at(px, py, (image.get_width() / 2, image.get_height() / 2)))
 
     def _draw_bullets(self, scene, bullets):
         if not len(bullets):
             return
-        x, y, angles = self._places(scene, bullets.ids)
+        x, y, angles = self.places(scene, bullets.ids)
         looks = bullets.table.rows["look"]
+        seen = (x > -OUT) & (x < CANVAS_SIZE[0] + OUT) & (y > -OUT) & (y < CANVAS_SIZE[1] + OUT)
+        x, y, angles, looks = x[seen], y[seen], angles[seen], looks[seen]
+        safe = scene.comfort.palette != "standard" and bullets is scene.incoming
         for number in np.unique(looks).tolist():
             mine, name = looks == number, NAMES[number]
             glow = GLOWS.get(name)
-            if glow is not None:
+            if glow is not None and np.count_nonzero(mine) <= MOST_GLOWS:
                 self._stamp(self.effects[glow], (16.0, 16.0), x[mine], y[mine], pygame.BLEND_RGB_ADD)
             frame, painted = LOOKS[name]
+            shown = f"safe_{frame}" if safe else frame
             if painted is None:
-                image = self.effects.animation(CYCLES[name]).at(self.time)
+                image = self.effects.animation(("safe_" if safe else "") + CYCLES[name]).at(self.time)
                 self._stamp(image, self.effects.mask(frame).origin, x[mine], y[mine])
             else:
-                self._stamp_turned(frame, x[mine], y[mine], angles[mine])
+                self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
         """One picture at many places."""
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
-        blit_many(self.surface, [(image, place) for place in zip(across, down, strict=True)], flags)
+        blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)
 
-    def _stamp_turned(self, frame, x, y, angles):
+    def _stamp_turned(self, shown, frame, x, y, angles):
         """One picture at many places, each at its own angle."""
         pairs = []
         for px, py, angle in zip(x.tolist(), y.tolist(), angles.tolist(), strict=True):
-            image, origin = self.sprite(self.effects, frame, angle)
-            pairs.append((image, self._at(px, py, origin)))
+            image, origin = self.sprite(self.effects, shown, angle, frame)
+            pairs.append((image, self.at(px, py, origin)))
         blit_many(self.surface, pairs)
 
-    def _draw_marks(self, scene):
-        """Muzzle flash, the outline that collides while focusing, and the health of damaged gunships."""
+    def _draw_player_marks(self, scene):
+        """Muzzle flash, the core, clear while focusing, and the hull's outline where that is what hurts."""
         player = scene.plane
-        if player.body is not None:
-            x, y, _ = self._places(scene, [player.body.id])
-            if scene.spectacle.muzzle < 4:
-                image = self.effects[f"muzzle_flash_{min(scene.spectacle.muzzle, 2)}"]
-                self.surface.blit(image, self._at(x[0], y[0] - 16, (7, 7)))
-            if player.focusing:
-                image, origin = self.sprite(self.planes, player.frame)
-                self.surface.blit(self.outlined(image), self._at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
-        for plane in scene.fleet.planes.values():
-            if plane.full > 8 and plane.health < plane.full:
-                x, y, _ = self._places(scene, [plane.id])
-                board.draw_health(self.surface, self._at(x[0], y[0] - 26, (18, 0)), plane.health / plane.full)
+        if not player.here:
+            return
+        x, y, _ = self.places(scene, [player.body.id])
+        if scene.spectacle.muzzle < 4:
+            image = self.effects[f"muzzle_flash_{min(scene.spectacle.muzzle, 2)}"]
+            self.surface.blit(image, self.at(x[0], y[0] - 16, (7, 7)))
+        image, origin = self.sprite(self.planes, player.frame)
+        # Where nothing may blink, a steady line says that the plane is a ghost.
+        steady = player.safe and not scene.comfort.flashing and scene.ending.mode == PLAYING
+        if steady or scene.hurts == "hull":
+            self.surface.blit(self.outlined(image), self.at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
+        core = self.planes.animation("core").at(self.time)
+        if player.focusing:
+            self.surface.blit(self.effects["glow_blue"], self.at(x[0], y[0], (16, 16)), special_flags=pygame.BLEND_RGB_ADD)
+            self.surface.blit(light.circle_line(16), self.at(x[0], y[0], (17, 17)))
+        self.surface.blit(core if player.focusing else light.faint(core), self.at(x[0], y[0], (3, 3)))
 
-    def _draw_debris(self, scene):
+    def _draw_health(self, scene):
+        for plane in scene.fleet.planes.values():
+            if plane.full > STURDY and not plane.leads and plane.health < plane.full:
+                x, y, _ = self.places(scene, [plane.id])
+                board.draw_health(self.surface, self.at(x[0], y[0] - 26, (18, 0)), plane.health / plane.full)
+
+    def _draw_debris(self, works):
         pairs = []
-        for frame, x, y, _, _, age, life in scene.spectacle.debris:
-            image = self.effects[frame]
-            quarter = int(age * 14) % 4
-            image = self.dimmed(image, quarter, age > 0.7 * life)
-            pairs.append((image, self._at(x, y, (image.get_width() / 2, image.get_height() / 2))))
+        for frame, x, y, _, _, age, life in works.debris:
+            image = self.dimmed(self.effects[frame], int(age * 14) % 4, age > 0.7 * life)
+            pairs.append((image, self.at(x, y, (image.get_width() / 2, image.get_height() / 2))))
         blit_many(self.surface, pairs)
 
-    def _draw_bursts(self, scene):
+    def _draw_bursts(self, works):
         # Smoke lies under fire, whatever came first.
-        for name, x, y, _, _, age in sorted(scene.spectacle.bursts, key=lambda burst: burst[0] != "smoke"):
+        for name, x, y, _, _, age in sorted(works.bursts, key=lambda burst: burst[0] != "smoke"):
             if age < 0.0:
                 continue
             image = self.effects.animation(name).at(age, loop=False)
             half = image.get_width() / 2
             if name.startswith("explosion") and age < 0.25:
                 glow = self.effects["glow_large"]
-                self.surface.blit(glow, self._at(x, y, (48, 48)), special_flags=pygame.BLEND_RGB_ADD)
-            self.surface.blit(image, self._at(x, y, (half, half)))
-
-    def _draw_light(self, scene):
-        """A large explosion lights the picture for a moment; never more than a tenth of white."""
-        light = int(26 * scene.spectacle.shock)
-        if light > 1:
-            self.surface.fill((light, light * 2 // 3, light // 3), special_flags=pygame.BLEND_RGB_ADD)
+                self.surface.blit(glow, self.at(x, y, (48, 48)), special_flags=pygame.BLEND_RGB_ADD)
+            self.surface.blit(image, self.at(x, y, (half, half)))
 
 
 @lru_cache(maxsize=1)
 def the_view():
     """The one View, made when the first picture is wanted."""
     return View()
-
-
-def flash_of(plane):
-    """How white a plane turns when it is hit."""
-    return PALE if plane.full > 8 else WHITE
-
-
-def tile(surface, picture, x, y):
-    """Cover the surface with a picture that repeats both ways, its corner at (x, y)."""
-    width, height = picture.get_size()
-    start = int(np.floor(y + 0.5)) % height - height
-    left = int(np.floor(x + 0.5)) % width - width
-    for top in range(start, CANVAS_SIZE[1], height):
-        for side in range(left, CANVAS_SIZE[0], width):
-            if top + height > 0 and side + width > 0:
-                surface.blit(picture, (side, top))
 
 
 def shade(image):
@@ -261,6 +259,12 @@ def outline(image):
         mask.draw(solid, (dx, dy))
     mask.erase(solid, (1, 1))
     return mask.to_surface(setcolor=(170, 255, 240, 230), unsetcolor=(0, 0, 0, 0))
+
+
+def stretched(image, more):
+    """A picture some pixels wider, and as much less high."""
+    width, height = image.get_size()
+    return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
 def dimmed(image, quarter, small):

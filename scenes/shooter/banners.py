@@ -1,0 +1,134 @@
+"""Banners across the picture: the stage's title, the warning, bonuses, continue, and the end."""
+
+from functools import lru_cache
+
+import pygame
+
+from game.colors import GOLD, INK, PAPER, RED, SKY
+from game.draw import TEXT, whole
+from game.hud import banner
+from scenes.shooter.director import READY, WARNING
+from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
+
+SLIDE = 24                   # steps that a banner takes to come in, and to go
+STRIPE = 16                  # [px] of the warning's slanted stripes
+SMOKE = 50                   # steps that the boss's end is left to be seen
+BLINK = 20                   # steps: WARNING is bright and dark by turns, three times in two seconds
+
+
+def draw_banners(canvas, scene):
+    """At most one of them at a time."""
+    director, ending = scene.director, scene.ending
+    if ending.mode == ASKING:
+        _draw_continue(canvas, scene)
+    elif ending.mode == LOST:
+        banner(canvas, "GAME OVER", _summary(scene), RED)
+    elif ending.mode == WON:
+        banner(canvas, "STAGE CLEAR", _summary(scene), GOLD)
+    elif ending.mode == CLEARED:
+        _draw_bonuses(canvas, scene)
+    elif director.mode == "ready":
+        _draw_title(canvas, director)
+    elif director.mode == "warning":
+        _draw_warning(canvas, scene)
+    elif scene.spectacle.bonus[2]:
+        _draw_bonus(canvas, scene.spectacle.bonus)
+
+
+def eased(step, whole_time):
+    """0..1..0: quickly in, slowly to rest; the same way out at the end."""
+    share = min(step / SLIDE, (whole_time - step) / SLIDE, 1.0)
+    return 1.0 - (1.0 - max(share, 0.0)) ** 3
+
+
+def _draw_title(canvas, director):
+    """STAGE 1 slides in from the left, its name from the right, and both out again."""
+    share = eased(director.since, READY)
+    middle, width = canvas.rect.centerx, canvas.rect.width
+    _band(canvas, 92, whole(58 * share))
+    if share < 0.4:
+        return
+    off = (1.0 - share) * width
+    _text_inside(canvas, director.stage.title, middle - off, 104, GOLD, 3)
+    _text_inside(canvas, director.stage.name, middle + off, 134, PAPER, 1)
+
+
+def _draw_warning(canvas, scene):
+    """Stripes run past above and below the word."""
+    since = scene.director.since
+    share = eased(since, WARNING)
+    high = whole(56 * share)
+    _band(canvas, 100, high)
+    shift = since * 2 % (2 * STRIPE)
+    for y in (100 + 28 - high // 2 - 8, 100 + 28 + high // 2):
+        canvas.surface.blit(stripes(canvas.rect.width + 2 * STRIPE), (shift - 2 * STRIPE, y))
+    if share < 0.6:
+        return
+    bright = not scene.comfort.flashing or since % (2 * BLINK) < BLINK
+    canvas.text("WARNING", canvas.rect.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True)
+    canvas.text(scene.director.announced.name, canvas.rect.centerx, 136, PAPER, TEXT, 1, "center", True)
+
+
+def _draw_bonus(canvas, bonus):
+    title, points, left = bonus
+    y = 134 - whole(6 * eased(120 - left, 121))
+    canvas.text(title, canvas.rect.centerx, y, GOLD if points else PAPER, TEXT, 2, "center", True)
+    if points:
+        canvas.text(f"+{points:,}", canvas.rect.centerx, y + 20, PAPER, TEXT, 1, "center", True)
+
+
+def _draw_bonuses(canvas, scene):
+    """The end of the stage: one line after another."""
+    ending = scene.ending
+    share = eased(min(max(ending.since - SMOKE, 0), SLIDE), 10_000)
+    _band(canvas, 70, whole(112 * share))
+    if share < 0.9:
+        return
+    canvas.text("STAGE CLEAR", canvas.rect.centerx, 82, GOLD, TEXT, 3, "center", True)
+    for number, (name, points) in enumerate(ending.counted):
+        y = 114 + 14 * number
+        canvas.text(name, 150, y, PAPER, TEXT, outline=True)
+        canvas.text(f"+{points:,}", 330, y, SKY if points else PAPER, TEXT, align="right", outline=True)
+
+
+def _draw_continue(canvas, scene):
+    digit = scene.ending.digit
+    banner(canvas, f"CONTINUE? {digit}", ("fire: go on, with the points begun anew", "bomb: hurry"),
+           RED if digit < 4 else GOLD)
+
+
+def _summary(scene):
+    score = scene.score
+    kills = sum(score.kills.values())
+    return [f"{score.points:,} points", f"{kills} planes shot down   {score.grazes} grazes   best chain {score.best_chain}",
+            "fire: go on"]
+
+
+def _band(canvas, top, high):
+    """A dark band of a height, growing from its middle line."""
+    if high > 0:
+        canvas.surface.blit(_shade(canvas.rect.width, high), (0, top + 28 - high // 2 if high <= 58 else top))
+
+
+def _text_inside(canvas, text, x, y, color, scale):
+    """Text that slides: written only while it is all inside of the picture."""
+    rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
+    if canvas.rect.contains(rect):
+        canvas.text(text, x, y, color, TEXT, scale, "center", True)
+
+
+@lru_cache(maxsize=128)
+def _shade(width, high):
+    shade = pygame.Surface((width, high), pygame.SRCALPHA)
+    shade.fill((20, 16, 32, 165))
+    return shade
+
+
+@lru_cache(maxsize=2)
+def stripes(width):
+    """Slanted stripes of the warning."""
+    image = pygame.Surface((width, 8))
+    image.fill(INK)
+    for x in range(-STRIPE, width, 2 * STRIPE):
+        pygame.draw.polygon(image, (226, 70, 76), [(x, 8), (x + 8, 0), (x + 8 + STRIPE, 0), (x + STRIPE, 8)])
+    return image

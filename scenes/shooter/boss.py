@@ -1,0 +1,107 @@
+"""Leaders: the mid-boss and the boss. A leader fights in phases, each with its own health, timer, way and patterns.
+
+Between two phases it cannot be hurt and does not fire: the sky is cleared, and everybody takes a breath.
+"""
+
+from math import pi, sin
+
+from scenes.shooter.cast import FALLING, WIDTH, steps
+from scenes.shooter.enemies import Enemy
+from scenes.shooter.patterns import Gun
+from scenes.shooter.stage import Group
+
+LOOKS = ("midboss_0", "boss_a_0", "boss_b_0", "boss_c_0")
+ENTRY_Y, HOME_Y = -60.0, 70.0     # [px]
+ARRIVE_SPEED, SWING_SPEED = 95.0, 130.0   # [px/s]
+CHANGE = steps(1.6)          # steps between two phases
+DRESSED = steps(0.5)         # steps into them, when the next look shows behind the smoke
+FALL = steps(2.6)            # steps that it burns before it is gone
+SINK = 14.0                  # [px/s] while it burns
+ALMOST = 5.0                 # [s] before the end of a phase, when its timer is counted aloud
+
+
+class Leader(Enemy):
+    """`phase` is the number of the one that runs; `clock` the steps left of it; `beaten` tells of the last."""
+
+    heavy = leads = True
+
+    def __init__(self, event):
+        group = Group("", (0.5,), 1.0, 0.0, "", HOME_Y)
+        super().__init__(WIDTH / 2, ENTRY_Y, group, event)     # an event has the factors of a pace
+        self.kind, self.name, self.phases = event.event, event.name, event.phases
+        self.number = 0
+        self.beaten = False
+        self._take_up()
+
+    @property
+    def phase(self):
+        """The phase that runs."""
+        return self.phases[self.number]
+
+    @property
+    def last(self):
+        """True in the last phase."""
+        return self.number + 1 == len(self.phases)
+
+    @property
+    def sheltered(self):
+        """True while nothing hurts it."""
+        return self.mode != "fight"
+
+    @property
+    def seconds_left(self):
+        """Of the phase's timer."""
+        return self.clock / 60
+
+    def _take_up(self):
+        """Begin the phase that `number` says."""
+        self.health = self.full = float(self.phase.health)
+        self.clock = steps(self.phase.seconds)
+        self.guns = [Gun(pattern) for pattern in self.phase.patterns]
+        self.frame = "midboss_0" if self.kind == "midboss" else f"boss_{'abc'[self.number]}_0"
+
+    def think(self, sky):
+        """What a mode is, in one place: arrive, fight, change, fall, leave."""
+        if self.mode == "arrive":
+            if self.approach(self.home_x, self.home_y, ARRIVE_SPEED) < 3.0:
+                self.begin("fight")
+        elif self.mode == "fight":
+            self._swing()
+            fired = [gun.step(sky, self.x, self.y) for gun in self.guns]
+            if any(fired):
+                sky.spectacle.leader_fires(self)
+            self.clock -= 1
+            if self.clock <= 0:
+                sky.end_phase(self, beaten=False)
+        elif self.mode == "change":
+            self.approach(self.home_x, self.home_y, SWING_SPEED)
+            if self.since == DRESSED:
+                self.number += 1
+                self._take_up()
+            if self.since >= CHANGE:
+                self.begin("fight")
+        elif self.mode == "fall":
+            self.vx, self.vy = self.vx * 0.94, SINK
+            sky.spectacle.leader_burns(self, FALL)
+            if self.since >= FALL:
+                sky.bury(self)
+        else:
+            self.vx, self.vy = self.vx * 0.96, max(self.vy - 2.0, -110.0)
+
+    def _swing(self):
+        """A slow figure of eight about its place."""
+        move, turn = self.phase.move, 2 * pi * self.since / 60 / self.phase.move.seconds
+        self.approach(self.home_x + move.across * sin(turn), self.home_y + move.down * sin(2 * turn), SWING_SPEED)
+
+    def end_phase(self, beaten):
+        """The phase is over. After the last one it falls, or flies away if only its time ran out."""
+        self.beaten = beaten
+        if not self.last:
+            self.begin("change")
+        else:
+            self.begin("fall" if beaten else "leave")
+            self.side = FALLING
+
+    def state(self):
+        """For the digest."""
+        return (*super().state(), self.number, self.clock, self.beaten, *(value for gun in self.guns for value in gun.state()))

@@ -1,0 +1,132 @@
+"""Plays a stage: sends what is due, and stops its clock while a leader is announced, fights and falls."""
+
+from dataclasses import replace
+
+from scenes.shooter.cast import WIDTH, steps
+from scenes.shooter.pace import Pace
+
+SCATTER = 0.03               # of the side that a plane may enter beside its place
+WARNING = steps(3.0)         # steps between the warning and its leader
+CLEARING = steps(8.0)        # steps that a warning waits for the last planes of the waves before it
+REST = steps(1.5)            # steps of peace when a leader is gone
+READY = steps(3.0)           # steps of the stage's title, before its clock begins
+
+
+class Director:
+    """`clock` counts the steps of the stage; `wave` is the name and `number` the number of the wave that came last.
+
+    `mode`: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over".
+    """
+
+    def __init__(self, stage):
+        self.stage = stage
+        self.clock = self.next = 0       # steps; the event that comes next
+        self.mode, self.since = "ready", 0
+        self.number, self.wave = 0, ""
+        self.grounds = [(-1e9, stage.events[0].ground)]      # (px that the ground had moved when it came, name)
+        self.pace = Pace()
+        self.due = []                    # (step, group, number in the group, wave), earliest first
+        self.left = {}                   # wave -> its planes that are not shot down yet
+        self.mirrored = False
+
+    @property
+    def ground(self):
+        """The name of the stretch that came last."""
+        return self.grounds[-1][1]
+
+    @property
+    def announced(self):
+        """The event of the leader that comes or fights, or None."""
+        return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
+
+    def step(self, sky):
+        """Launch what is due; `sky` is the scene."""
+        self.since += 1
+        if self.mode == "run":
+            self.clock += 1
+            while self.mode == "run" and self.next < len(self.stage.events) \
+                    and steps(self.stage.events[self.next].at) <= self.clock:
+                self.next += 1
+                self._begin(self.stage.events[self.next - 1], sky)
+        elif self.mode == "ready":
+            self._go_on(READY, "run")
+        elif self.mode == "clearing":
+            if not len(sky.fleet) and not self.due:
+                self.since = CLEARING
+            if self._go_on(CLEARING, "warning"):
+                sky.warn(self.announced)
+        elif self.mode == "warning":
+            if self._go_on(WARNING, "leader"):
+                sky.fleet.launch_leader(self.announced)
+        elif self.mode == "leader":
+            if sky.fleet.leader is None:
+                sky.leader_gone(self.announced)
+                self._enter("over" if self.announced.event == "boss" else "rest")
+        elif self.mode == "rest":
+            self._go_on(REST, "run")
+        self._launch(sky)
+
+    def _enter(self, mode):
+        self.mode, self.since = mode, 0
+
+    def _go_on(self, wait, mode):
+        if self.since < wait:
+            return False
+        self._enter(mode)
+        return True
+
+    def _begin(self, event, sky):
+        if event.event == "backdrop":
+            if event.ground != self.ground:
+                self.grounds.append((sky.scrolled, event.ground))
+        elif event.event == "pace":
+            self.pace = Pace(event.speed, event.patience, event.armour, event.extra)
+        elif event.event == "item":
+            sky.loot.drop(event.item, WIDTH * event.across, -12.0, sky.frame)
+        elif event.event == "wave":
+            self._begin_wave(event, sky)
+        else:
+            self._enter("clearing")
+
+    def _begin_wave(self, event, sky):
+        self.number += 1
+        self.wave = event.name
+        self.left[self.number] = sum(len(group.places) for group in event.groups)
+        self.mirrored = sky.random.random() < 0.5
+        found = [(self.clock + steps(group.after + group.every * number), order, number, group)
+                 for order, group in enumerate(event.groups) for number in range(len(group.places))]
+        self.due += [(when, group, number, self.number) for when, _, number, group in sorted(found, key=lambda f: f[:3])]
+        self.due.sort(key=lambda each: each[0])
+        sky.spectacle.wave(self)
+
+    def _launch(self, sky):
+        # The clock may stand still for a leader while a wave is not all there: what is due then comes anyway.
+        now = self.clock + (self.since if self.mode == "clearing" else 0)
+        while self.due and self.due[0][0] <= now:
+            _, group, number, wave = self.due.pop(0)
+            share = group.places[number]
+            if group.side not in ("left", "right"):
+                share = 1.0 - share if self.mirrored else share
+            share += sky.random.uniform(-SCATTER, SCATTER)
+            carries = group.carries if number + 1 == len(group.places) else ""
+            sky.fleet.launch(self._turned(group), share, carries, self.pace, wave, sky.scrolled)
+
+    def _turned(self, group):
+        """A group as the wave is flown: by chance the other way around."""
+        if not self.mirrored:
+            return group
+        other = {"left": "right", "right": "left"}.get(group.side, group.side)
+        bend = -group.bend if group.side == "below" else group.bend
+        return replace(group, sway=-group.sway, side=other, bend=bend)
+
+    def shot_down(self, enemy):
+        """Count a plane of a wave. True if it was the last: all of them were shot down."""
+        if enemy.wave not in self.left:
+            return False
+        self.left[enemy.wave] -= 1
+        return self.left[enemy.wave] == 0
+
+    def state(self):
+        """For the digest."""
+        return (self.clock, self.next, self.mode, self.since, self.number, self.wave, self.ground, self.mirrored,
+                len(self.due), *self.left.values(), *(since for since, _ in self.grounds))

@@ -1,0 +1,101 @@
+"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and its bonuses are counted.
+
+`scene.result` is set once, at the very end; then the picture stands and keys do nothing.
+"""
+
+from game.scene import Result
+from scenes.shooter.cast import steps
+
+COUNTDOWN = 10               # seconds, shown as 9..0
+GRACE = steps(0.7)           # steps in which a key still held from the fight says nothing
+MOST_CONTINUES = 3
+FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)     # after the boss is gone, and between two bonuses
+SHOWN = steps(2.0)           # steps that all bonuses stand before the result
+
+PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lost"
+
+
+class Ending:
+    """`mode` is one of the five above; `since` counts its steps; `left` those of the countdown."""
+
+    def __init__(self):
+        self.mode, self.since, self.left = PLAYING, 0, 0
+        self.counted = []            # (what for, points) of the bonuses so far
+
+    @property
+    def digit(self):
+        """What the countdown shows."""
+        return self.left // 60
+
+    def step(self, scene, inputs):
+        """Returns True while time stands still."""
+        self.since += 1
+        if self.mode == PLAYING:
+            if scene.plane.lives == 0 and scene.plane.away == 0:
+                self._ask(scene)
+        elif self.mode == ASKING:
+            self._count_down(scene, inputs)
+        elif self.mode == CLEARED:
+            self._count_bonuses(scene)
+        return self.mode not in (PLAYING, CLEARED)
+
+    def _enter(self, mode):
+        self.mode, self.since = mode, 0
+
+    def _ask(self, scene):
+        if scene.score.continues < MOST_CONTINUES:
+            self._enter(ASKING)
+            self.left = COUNTDOWN * 60 - 1
+        else:
+            self._lose(scene)
+
+    def _count_down(self, scene, inputs):
+        before = self.digit
+        self.left -= 1
+        if self.since > GRACE:
+            if inputs.pressed("fire") or inputs.pressed("confirm"):
+                self._enter(PLAYING)
+                scene.score.go_on()
+                scene.plane.go_on()
+                scene.clear_bullets()
+                scene.spectacle.went_on()
+                return
+            if inputs.pressed("bomb") or inputs.pressed("cancel"):
+                self.left = self.digit * 60 - 1        # hurry
+        if self.left <= 0:
+            self._lose(scene)
+        elif self.digit != before:
+            scene.play("blip", volume=0.5)
+
+    def _lose(self, scene):
+        self._enter(LOST)
+        scene.result = self._result(scene, won=False)
+
+    def clear(self, scene):
+        """The boss is gone."""
+        self._enter(CLEARED)
+        scene.clear_bullets()
+        scene.plane.shelter(steps(60))
+
+    def _count_bonuses(self, scene):
+        bonuses = scene.score.final(scene.plane.lives, scene.plane.bombs)
+        number = len(self.counted)
+        if number < len(bonuses):
+            if self.since == FIRST_BONUS + NEXT_BONUS * number:
+                self.counted.append(bonuses[number])
+                scene.score.add_bonus(bonuses[number][1])
+                scene.play("coin", volume=0.6)
+        elif self.since >= FIRST_BONUS + NEXT_BONUS * number + SHOWN:
+            self._enter(WON)
+            scene.result = self._result(scene, won=True)
+
+    def _result(self, scene, won):
+        score = scene.score
+        lines = (f"{sum(score.kills.values())} planes, {score.waves} whole waves",
+                 f"{score.grazes} grazes, best chain {score.best_chain}",
+                 f"{score.hits} hits, {score.bombs} bombs, {score.continues} continues")
+        return Result(won, score.points, (scene.frame + 1) / 60, lines)
+
+    def state(self):
+        """For the digest."""
+        return (self.mode, self.since, self.left, len(self.counted))

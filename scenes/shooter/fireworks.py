@@ -1,0 +1,104 @@
+"""What flies about and is only seen: explosions, sparks, debris, smoke, rings, words. No rule reads any of it."""
+
+import numpy as np
+
+from game.sprites import load_atlas
+from scenes.shooter.cast import GROUND_SPEED, HEIGHT
+
+FIRE = ((255, 255, 240), (255, 226, 130), (255, 160, 50), (216, 78, 40), (120, 40, 52), (60, 34, 50))
+SPARK = ((255, 255, 255), (255, 240, 170), (255, 180, 70), (170, 80, 50))
+BLUE = ((255, 255, 255), (170, 236, 255), (70, 160, 240), (40, 70, 160))
+GOLD = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
+ROSE = ((255, 255, 255), (255, 170, 190), (220, 80, 130), (110, 40, 90))
+DUST = ((226, 210, 180), (170, 150, 124), (110, 96, 90), (66, 60, 66))
+VAPOUR = ((214, 232, 255), (150, 178, 214), (92, 116, 156))
+WORD_LIFE = 0.8              # [s]
+RING_LIFE = 0.45             # [s] of a shock wave
+MOST_SCARS = 24              # scorched places on the ground that are remembered
+
+
+class Fireworks:
+    """Lists of plain rows: each entry ages, and is gone when its time is over."""
+
+    def __init__(self, particles):
+        self.particles, self.random = particles, particles.random
+        self.bursts = []             # [animation, x, y, vx, vy, age s]; before age 0 it waits
+        self.debris = []             # [frame, x, y, vx, vy, age s, life s]
+        self.words = []              # [text, x, y, age s, color]
+        self.rings = []              # [x, y, radius px, age s]: shock waves
+        self.scars = []              # [x, y, size px] of what burnt on the ground
+
+    def step(self, dt, still=False):
+        """Everything ages; the ground moves on unless it stands still."""
+        effects = load_atlas("effects")
+        for burst in self.bursts:
+            burst[1] += burst[3] * dt
+            burst[2] += burst[4] * dt
+            burst[5] += dt
+        self.bursts = [b for b in self.bursts if b[5] < effects.animation(b[0]).seconds]
+        for piece in self.debris:
+            piece[1] += piece[3] * dt
+            piece[2] += piece[4] * dt
+            piece[3] *= 0.985
+            piece[4] = piece[4] * 0.985 + 0.8
+            piece[5] += dt
+            if int(piece[5] * 60) % 4 == 0 and piece[5] < 0.7 * piece[6]:
+                self.particles.burst(piece[1], piece[2], 1, FIRE, speed=(0, 10), life=(0.2, 0.5), size=(1, 2))
+        self.debris = [piece for piece in self.debris if piece[5] < piece[6]]
+        for word in self.words:
+            word[2] -= 18.0 * dt
+            word[3] += dt
+        self.words = [word for word in self.words if word[3] < WORD_LIFE]
+        for ring in self.rings:
+            ring[3] += dt
+        self.rings = [ring for ring in self.rings if ring[3] < RING_LIFE]
+        if not still:
+            for scar in self.scars:
+                scar[1] += GROUND_SPEED * dt
+            self.scars = [scar for scar in self.scars if scar[1] < HEIGHT + 40]
+
+    def burst(self, name, x, y, vx=0.0, vy=0.0, age=0.0):
+        """An animation that plays once."""
+        self.bursts.append([name, x, y, vx, vy, age])
+
+    def chain(self, x, y, wide, high, count, apart):
+        """Small explosions around a place, one after another, `apart` [s]."""
+        for number in range(count):
+            dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
+            self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)
+
+    def sparks(self, x, y, count, ramp, speed=150):
+        """Glowing points all around."""
+        self.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
+
+    def embers(self, xs, ys):
+        """Three sparks at each of many places (arrays, px), in one call."""
+        self.particles.burst(np.repeat(xs, 3), np.repeat(ys, 3), 3 * len(xs), ROSE, speed=(10, 50), life=(0.25, 0.8),
+                             size=(1, 2), drag=2.6)
+
+    def puffs(self, x, y, count):
+        """Smoke that drifts apart."""
+        for number in range(count):
+            vx, vy = self.random.uniform(-20, 20), self.random.uniform(-14, 26)
+            self.burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
+
+    def pieces(self, frames, x, y, vx, vy, count, blow):
+        """Debris: the harder the blow, the more pieces, and the faster, along its way."""
+        wild = 0.7 + 0.3 * blow.strength
+        vx, vy = vx + blow.kick[0], vy + blow.kick[1]
+        for number in range(max(2, round(count * blow.strength))):
+            self.debris.append([f"debris_{frames[number % 2]}", x, y, vx + wild * self.random.uniform(-90, 90),
+                                vy + wild * self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])
+
+    def ring(self, x, y, radius):
+        """A shock wave."""
+        self.rings.append([x, y, radius, 0.0])
+
+    def scar(self, x, y, size):
+        """A scorched place that stays on the ground."""
+        self.scars = [*self.scars[1 - MOST_SCARS:], [x, y, size]]
+
+    def word(self, text, x, y, color):
+        """A word that rises from a place, unless one was just written there."""
+        if not any(abs(w[1] - x) < 26 and abs(w[2] - y) < 8 and w[3] < 0.3 for w in self.words):
+            self.words.append([text, x, y, 0.0, color])

@@ -1,0 +1,94 @@
+"""Two kinds that do not come from above: the hornet flies in curved files from the sides, the turret stands on the ground.
+
+The hornet fires at where you will be. The turret fires slow walls and fans, and nobody can ram it.
+"""
+
+from math import cos, hypot, pi, radians, sin
+
+from scenes.shooter.bullets import DOWN
+from scenes.shooter.cast import GROUND_SPEED, GROUNDED, HEIGHT, WIDTH, steps
+from scenes.shooter.enemies import Enemy
+from scenes.shooter.patterns import aimed, fan, lead
+
+OUT = 26.0                    # [px] outside of the picture, where a hornet comes in
+
+
+class Hornet(Enemy):
+    """Flies straight, then along an arc of `bend`, then straight again, and fires twice at where you will be."""
+
+    kind, frame, health, points = "hornet", "hornet_0", 3, 150
+    SPEED, TURN = 150.0, radians(75.0)        # [px/s], [rad/s]: an arc of 115 px
+    STRAIGHT = 0.45                           # [s] before the arc begins
+    MOMENTS, BULLET = (0.8, 1.7), 150.0       # [s], [px/s]
+    CLOSE = 80.0                              # [px] nearer than that it does not fire: nobody could dodge
+
+    def __init__(self, x, y, group, pace):
+        super().__init__(x, y, group, pace)
+        headings = {"left": 0.0, "right": pi, "below": -DOWN}
+        self.face(headings[group.side])
+        # A positive bend turns a file from either side downwards; one from below, to the right.
+        self.turn = self.TURN * (-1.0 if group.side == "right" else 1.0) * (1.0 if group.bend >= 0.0 else -1.0)
+        self.left = abs(radians(group.bend))      # [rad] of the arc still to fly
+
+    @staticmethod
+    def entry(group, share):
+        """Through one of the sides; `share` is how far down it, or along the bottom."""
+        if group.side == "below":
+            return WIDTH * share, HEIGHT + OUT
+        return (-OUT if group.side == "left" else WIDTH + OUT), HEIGHT * share
+
+    def think(self, sky):
+        if self.age > steps(self.STRAIGHT) and self.left > 0.0:
+            step = min(abs(self.turn) / 60, self.left)
+            self.left -= step
+            self.face(self.heading + (step if self.turn > 0.0 else -step))
+        self.vx, self.vy = self.SPEED * cos(self.heading), self.SPEED * sin(self.heading)
+        if self.age in [steps(moment * sky.pace.patience) for moment in self.MOMENTS]:
+            self._fire(sky)
+
+    def _fire(self, sky):
+        x, y = sky.target
+        inside = 0.0 < self.x < WIDTH and 0.0 < self.y < HEIGHT
+        if not inside or hypot(x - self.x, y - self.y) < self.CLOSE:
+            return
+        speed = self.BULLET * sky.pace.speed
+        heading = lead(self.x, self.y, (x, y), sky.plane.velocity, speed)
+        count = 1 + sky.pace.extra // 2
+        sky.incoming.fire("hollow", self.x, self.y, fan(heading, count, 0.3 * (count - 1)), speed)
+        sky.spectacle.enemy_fires(self)
+
+    def state(self):
+        """For the digest."""
+        return (*super().state(), self.turn, self.left)
+
+
+class Turret(Enemy):
+    """Moves with the ground; by turns a short wall straight down and a fan at you."""
+
+    kind, frame, health, points = "turret", "turret_0", 24, 400
+    side = GROUNDED
+    BETWEEN, FIRST = 1.5, 0.9                 # [s]
+    WALL, FAN = 70.0, 88.0                    # [px/s]
+    COUNT, SPACING = 5, 13.0                  # of a wall; [px]
+    SPREAD = 0.34                             # [rad] between the bullets of a fan
+
+    def think(self, sky):
+        self.vx, self.vy = 0.0, GROUND_SPEED
+        if self.since > steps((self.FIRST if not self.volleys else self.BETWEEN) * sky.pace.patience):
+            if 6.0 < self.y < sky.target[1] - 50.0:
+                self._fire(sky)
+            self.since = 0
+
+    def _fire(self, sky):
+        muzzle = self.y + 12.0
+        if self.volleys % 2 == 0:
+            for number in range(self.COUNT):
+                x = self.x + self.SPACING * (number - (self.COUNT - 1) / 2)
+                sky.incoming.fire("big", x, muzzle, (DOWN,), self.WALL * sky.pace.speed)
+        else:
+            count = 3 + sky.pace.extra
+            heading = aimed(self.x, muzzle, sky.target)
+            sky.incoming.fire("orange", self.x, muzzle, fan(heading, count, self.SPREAD * (count - 1)),
+                              self.FAN * sky.pace.speed)
+        self.volleys += 1
+        sky.spectacle.enemy_fires(self)

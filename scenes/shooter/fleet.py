@@ -1,0 +1,101 @@
+"""All enemies in the sky: launched, stepped, dressed, forgotten."""
+
+from math import pi
+
+from game.sprites import load_atlas
+from scenes.shooter.boss import LOOKS, Leader
+from scenes.shooter.cast import GROUNDED
+from scenes.shooter.enemies import NOTCH, Dart, Gunship, Saucer
+from scenes.shooter.flankers import Hornet, Turret
+from scenes.shooter.pace import EASY
+
+KINDS = {each.kind: each for each in (Dart, Saucer, Gunship, Hornet, Turret)}
+DIVES = 20               # notches to either side of straight down: darts dive no flatter
+SIDEWAYS = 10            # half notches that side bullets lean at most
+ALL_AROUND = 32          # hornets fly anywhere
+
+
+class Fleet:
+    """Enemies by body id, in the order in which they came."""
+
+    def __init__(self, world, tier):
+        self.world, self.tier = world, tier
+        self.planes = {}
+        self.longest = 0             # steps that any enemy without a timer of its own has been in the sky
+
+    def __len__(self):
+        return len(self.planes)
+
+    @property
+    def leader(self):
+        """The mid-boss or boss that is here, or None."""
+        return next((plane for plane in self.planes.values() if plane.leads), None)
+
+    def launch(self, group, share, carries="", pace=EASY, wave=0, scrolled=0.0):
+        """Send one plane of a group in, over ground that has moved so far [px]. Returns it."""
+        made = KINDS[group.kind]
+        plane = made(*made.entry(group, share), group, pace)
+        if plane.side is GROUNDED:
+            plane.y += scrolled % 1.0        # so that it steps from pixel to pixel together with its ground
+        plane.carries, plane.wave = carries, wave
+        return self._add(plane)
+
+    def launch_leader(self, event):
+        """Send a mid-boss or a boss in. Returns it."""
+        return self._add(Leader(event))
+
+    def _add(self, plane):
+        body = self.world.add_body(load_atlas("planes").mask(plane.frame), position=(plane.x, plane.y), angle=plane.angle,
+                                   kind="kinematic", filter=plane.side, tier=self.tier)
+        plane.id = body.id
+        self.planes[body.id] = plane
+        return plane
+
+    def step(self, sky):
+        """Let every plane think, and write what it wants into the world's columns."""
+        if not self.planes:
+            return
+        planes = list(self.planes.values())
+        rows, bodies = self.world.rows(list(self.planes)), self.world.bodies
+        places = zip(planes, bodies["x"][rows].tolist(), bodies["y"][rows].tolist(), strict=True)
+        for plane, plane.x, plane.y in places:
+            plane.age += 1
+            plane.since += 1
+            before, side = plane.frame, plane.side
+            plane.think(sky)
+            if not plane.leads:
+                self.longest = max(self.longest, plane.age)
+            if plane.frame != before:
+                dress(self.world, plane.id, plane.frame, self.tier)
+            if plane.side != side:
+                self.world.body(plane.id).filter = plane.side
+        bodies = self.world.bodies
+        for column in ("vx", "vy", "angle"):
+            bodies[column][rows] = [getattr(plane, column) for plane in planes]
+
+    def forget(self, ids):
+        """Drop planes whose bodies are removed."""
+        for identity in ids.tolist():
+            self.planes.pop(identity, None)
+
+
+def dress(world, identity, frame, tier):
+    """Let a plane collide as the picture it shows now, at the scene's tier."""
+    body = world.body(identity)
+    body.set_shapes(load_atlas("planes").mask(frame))
+    body.tier = tier
+
+
+def draw_turned():
+    """Turn the masks of what turns before the first step, so that no step of the game has to (1.7 ms each, once)."""
+    planes, effects = load_atlas("planes"), load_atlas("effects")
+    for frames, notches in ((("dart_0", "dart_1"), DIVES), (("hornet_0",), ALL_AROUND)):
+        for notch in range(-notches, notches + 1):
+            for frame in frames:
+                planes.mask(frame).turned(notch * NOTCH)
+    for notch in range(-DIVES, DIVES + 1):
+        effects.mask("bullet_needle").turned(pi + notch * NOTCH)
+    for notch in range(-SIDEWAYS, SIDEWAYS + 1):
+        effects.mask("side_bullet").turned(notch * NOTCH / 2)
+    for frame in (*LOOKS, *(made.frame for made in KINDS.values())):
+        planes.mask(frame).turned(0.0)

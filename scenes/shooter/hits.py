@@ -1,0 +1,65 @@
+"""What met the player in a step, three times over: by its core, by its hull, by its box.
+
+All three are looked at in every step and counted; the scene chooses whether core or hull hurts. So the numbers side by
+side show what exact shapes are worth. A bullet or plane counts once for each.
+"""
+
+import numpy as np
+
+from scenes.shooter.bullets import BOXED, CORED, GRAZED, HULLED
+from scenes.shooter.cast import BULLET, ENEMY
+
+PARTS = {"core": CORED, "hull": HULLED}
+
+
+class Hits:
+    """`count` of what met each part; `now` holds the ids of this step that touched core or hull anew."""
+
+    def __init__(self):
+        self.count = {"core": 0, "hull": 0, "box": 0}
+        self.now = {"core": [], "hull": []}
+
+    def read(self, world, plane, incoming, fleet):
+        """Look at the step just made. Returns the ids of bullets that the ring grazed for the first time."""
+        events = world.events
+        for part, bit in PARTS.items():
+            self.now[part] = partners(events.begin, plane.bodies[part].id)
+            self._count(part, bit, np.array(self.now[part], np.int64), incoming, fleet)
+        self._count("box", BOXED, boxes_met(world, plane.bodies["hull"].id), incoming, fleet)
+        return incoming.meet(np.array(partners(events.sensor_begin, plane.bodies["ring"].id), np.int64), GRAZED)
+
+    def _count(self, part, bit, ids, incoming, fleet):
+        self.count[part] += len(incoming.meet(ids, bit))
+        for identity in ids.tolist():
+            enemy = fleet.planes.get(identity)
+            if enemy is not None and not enemy.met & bit:
+                enemy.met |= bit
+                self.count[part] += 1
+
+    def state(self):
+        """For the digest."""
+        return tuple(self.count.values())
+
+
+def partners(events, identity):
+    """Ids of the bodies that met one body, in some events."""
+    if not len(events):
+        return []
+    a, b = events["body_a"], events["body_b"]
+    return np.concatenate([b[a == identity], a[b == identity]]).tolist()
+
+
+def boxes_met(world, identity):
+    """Ids of the enemies and bullets whose box overlapped that of a body in the last step."""
+    shapes = world.shapes
+    box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]      # whatever the tier, it has one shape
+    a, b = world.candidates[:, 0], world.candidates[:, 1]
+    others = np.concatenate([b[a == box["id"]], a[b == box["id"]]])
+    if not len(others):
+        return others.astype(np.int64)
+    rows = np.searchsorted(np.ascontiguousarray(shapes["id"]), others)
+    other = shapes[rows[(shapes["membership"][rows] & (ENEMY | BULLET)) != 0]]
+    # Open boxes: an edge that only touches an edge is nothing to be proud of.
+    over = ((other["min_x"] < box["max_x"]) & (other["max_x"] > box["min_x"])
+            & (other["min_y"] < box["max_y"]) & (other["max_y"] > box["min_y"]))
+    return np.unique(other["body"][over])

@@ -1,0 +1,16 @@
+"""How hard it is: factors that a stage turns up as it goes on."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Factors on the speed of bullets and dives, on the time between volleys and on health; bullets more in a volley."""
+
+    speed: float = 1.0
+    patience: float = 1.0
+    armour: float = 1.0
+    extra: int = 0
+
+
+EASY = Pace()

@@ -1,0 +1,225 @@
+"""A stage is data: what comes when, and what it fires. This file says what a stage file may hold, and reads one.
+
+Events stand in the order of their times. The clock of the stage [s] stands still while a mid-boss or a boss fights. Lengths
+are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+from game.json_file import read_json
+from game.places import ASSETS
+from scenes.shooter.bullets import HOSTILE_LOOKS
+from scenes.shooter.stage_fields import Choice, List, Number, Reader, Record, Text, Variant
+
+STAGE = ASSETS / "stages" / "shooter.json"
+FORMAT, VERSION = "hitbox stage", 1
+GROUNDS = ("sea", "coast", "storm")
+KIND_NAMES = ("dart", "saucer", "gunship", "hornet", "turret")
+ITEMS = ("power", "bomb", "life")
+SIDES = ("left", "right", "below")
+LONGEST = 600                # [s] of a stage's clock
+MOST_PLANES = 80             # of one wave
+SLOWEST = 20.0               # [px/s] a bullet that hardly moves would stay for ever
+MOST_FIRE = 1000             # bullets that a phase may fire per second, by all its patterns
+
+
+@dataclass(frozen=True)
+class Group:
+    """Planes of one kind, one after another. `places`: shares 0..1 of the side by which each enters; `every` and `after`
+    [s]; `carries`: what the last one leaves. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see the kinds."""
+
+    kind: str
+    places: tuple
+    every: float
+    after: float
+    carries: str
+    hover: float = 56.0
+    sway: float = 40.0
+    side: str = ""
+    bend: float = 0.0
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them it rests `rest` [s] more; the
+    first comes after `after` [s]; each shot of such a burst is `faster` [px/s]; `muzzles`: places [px] off the middle, and
+    `out` how far from them [px] bullets begin."""
+
+    shoot: str
+    bullet: str
+    speed: float
+    every: float
+    after: float
+    shots: int
+    rest: float
+    faster: float
+    muzzles: tuple
+    out: float = 0.0
+    count: int = 1
+    spread: float = 0.0
+    heading: float | None = None
+    turn: float = 0.0
+    sway: float = 0.0
+    period: float = 1.0
+    spacing: float = 0.0
+    gap: float = 0.0
+    shift: float = 0.0
+
+    @property
+    def per_second(self):
+        """Bullets that it fires in a second, on average."""
+        each = WALL_WIDTH / self.spacing if self.shoot == "wall" else self.count
+        return each * len(self.muzzles) * self.shots / (self.shots * self.every + self.rest)
+
+
+@dataclass(frozen=True)
+class Move:
+    """A leader's way: it swings `across` and `down` [px] about its place, once in `seconds`."""
+
+    across: float
+    down: float
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A part of a fight: so much `health` to shoot away, or `seconds` to live through; `bonus` points for the first."""
+
+    name: str
+    health: float
+    seconds: float
+    bonus: int
+    move: Move
+    patterns: tuple
+
+
+@dataclass(frozen=True)
+class Event:
+    """`event` says which of the others count: a wave has groups, a leader phases."""
+
+    event: str
+    at: float
+    name: str = ""
+    groups: tuple = ()
+    phases: tuple = ()
+    ground: str = ""
+    item: str = ""
+    across: float = 0.5
+    speed: float = 1.0
+    patience: float = 1.0
+    armour: float = 1.0
+    extra: int = 0
+
+
+@dataclass(frozen=True)
+class Stage:
+    """`title` and `name` stand on its first picture."""
+
+    title: str
+    name: str
+    events: tuple
+
+
+def _group(**fields):
+    return Record(Group, places=List(Number(0, 1), 1, 30), every=Number(0.05, 10), after=Number(0, 30, 0.0),
+                  carries=Choice(ITEMS, ""), **fields)
+
+
+def _pattern(**fields):
+    return Record(Pattern, **fields)
+
+
+WALL_WIDTH = 480.0           # [px] a wall reaches across the sky
+HOVER = Number(24, 120, 56.0)
+GROUPS = {
+    "dart": _group(hover=HOVER), "gunship": _group(hover=HOVER), "saucer": _group(sway=Number(-220, 220, 40.0)),
+    "hornet": _group(side=Choice(SIDES), bend=Number(-360, 360, 0.0)), "turret": _group(),
+}
+COUNT, TURN = Number(1, 64, whole=True), Number(-360, 360, 0.0)
+PATTERNS = {
+    "aimed": _pattern(),
+    "fan": _pattern(count=COUNT, spread=Number(0, 360), heading=Number(-360, 360, None)),
+    "ring": _pattern(count=COUNT, turn=TURN),
+    "spiral": _pattern(count=COUNT, turn=TURN, sway=Number(0, 360, 0.0), period=Number(0.2, 60, 1.0)),
+    "wall": _pattern(spacing=Number(6, 120), gap=Number(24, 300), shift=Number(0, 400, 120.0)),
+    "lead": _pattern(count=Number(1, 64, 1, whole=True), spread=Number(0, 360, 0.0)),
+    "stream": _pattern(turn=TURN),
+}
+MUZZLE = List(Number(-80, 80), 2, 2)
+PATTERN = Variant("shoot", PATTERNS, bullet=Choice(HOSTILE_LOOKS), speed=Number(SLOWEST, 400), every=Number(0.03, 30),
+                  after=Number(0, 30, 0.0), shots=Number(1, 200, 1, whole=True), rest=Number(0, 30, 0.0),
+                  faster=Number(-100, 100, 0.0), muzzles=List(MUZZLE, 1, 8, ((0.0, 0.0),)),
+                  out=Number(0, 80, 0.0))
+MOVE = Record(Move, across=Number(0, 180), down=Number(0, 60), seconds=Number(1, 60))
+PHASE = Record(Phase, name=Text(24), health=Number(1, 5000), seconds=Number(5, 120), bonus=Number(0, 1_000_000, whole=True),
+               move=MOVE, patterns=List(PATTERN, 1, 8))
+EVENTS = {
+    "backdrop": Record(Event, ground=Choice(GROUNDS)),
+    "pace": Record(Event, speed=Number(0.5, 2, 1.0), patience=Number(0.3, 3, 1.0), armour=Number(0.5, 4, 1.0),
+                   extra=Number(0, 8, 0, whole=True)),
+    "wave": Record(Event, name=Text(24), groups=List(Variant("kind", GROUPS), 1, 8)),
+    "item": Record(Event, item=Choice(ITEMS), across=Number(0.05, 0.95)),
+    "midboss": Record(Event, name=Text(24), phases=List(PHASE, 1, 1)),
+    "boss": Record(Event, name=Text(24), phases=List(PHASE, 1, 3)),
+}
+FILE = {"format": Choice((FORMAT,)), "version": Number(VERSION, VERSION, whole=True), "title": Text(16), "name": Text(28),
+        "about": List(Text(200), 0, 40, ()), "events": List(Variant("event", EVENTS, at=Number(0, LONGEST)), 2, 400)}
+
+
+def load_stage(path=None):
+    """A stage file, or the game's own. Raises FileError naming the file, the place and the reason."""
+    return _own() if path is None else read_stage(path)
+
+
+@lru_cache(maxsize=1)
+def _own():
+    return read_stage(STAGE)
+
+
+def read_stage(path):
+    """The stage in a file. Raises FileError."""
+    reader, data = Reader(path), read_json(path)
+    _check_version(reader, data)
+    fields = reader.fields("", data, FILE)
+    events = fields["events"]
+    _check_order(reader, events)
+    for number, event in enumerate(events):
+        _check_event(reader, f"events[{number}]", event)
+    return Stage(fields["title"], fields["name"], events)
+
+
+def _check_version(reader, data):
+    # Before all else: a newer file may well have fields that are unknown here.
+    version = data.get("version") if isinstance(data, dict) else None
+    if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
+        reader.fail("version", f"is {version}, newer than this game can read ({VERSION})")
+
+
+def _check_order(reader, events):
+    for number, (before, after) in enumerate(pairwise(events), 1):
+        if after.at < before.at:
+            reader.fail(f"events[{number}].at", f"is {after.at:g}, before that of the event above ({before.at:g})")
+    if events[0].event != "backdrop" or events[0].at != 0.0:
+        reader.fail("events[0]", "must be the first backdrop, at 0")
+    bosses = [number for number, event in enumerate(events) if event.event == "boss"]
+    if not bosses:
+        reader.fail("events", "have no boss: the stage would never end")
+    if bosses[0] != len(events) - 1:
+        reader.fail(f"events[{bosses[0] + 1}]", "comes after the boss, which ends the stage")
+
+
+def _check_event(reader, place, event):
+    planes = sum(len(group.places) for group in event.groups)
+    if planes > MOST_PLANES:
+        reader.fail(f"{place}.groups", f"send {planes} planes; at most {MOST_PLANES} in one wave")
+    for number, phase in enumerate(event.phases):
+        for row, pattern in enumerate(phase.patterns):
+            slowest = pattern.speed + min(pattern.faster, 0.0) * (pattern.shots - 1)
+            if slowest < SLOWEST:
+                reader.fail(f"{place}.phases[{number}].patterns[{row}].faster",
+                            f"leaves the last shot {slowest:g} px/s; at least {SLOWEST:g}")
+        fired = sum(pattern.per_second for pattern in phase.patterns)
+        if fired > MOST_FIRE:
+            reader.fail(f"{place}.phases[{number}].patterns", f"fire {fired:.0f} bullets a second; at most {MOST_FIRE}")

@@ -1,0 +1,91 @@
+"""Short stages for the tests, cut out of the game's own, and a shooter that is played by hand, step by step."""
+
+import copy
+import json
+
+from game.inputs import InputFrame, InputState
+from scenes.shooter.scene import Shooter
+from scenes.shooter.stage import STAGE, Group
+
+
+def own_stage():
+    """The content of the game's own stage file, to be changed."""
+    return json.loads(STAGE.read_text(encoding="utf-8"))
+
+
+def leader_of(data, kind):
+    """The event of the mid-boss or the boss."""
+    return next(event for event in data["events"] if event["event"] == kind)
+
+
+def write(path, data):
+    """Save a stage; returns its path."""
+    path.write_text(json.dumps(data), encoding="utf-8")
+    return path
+
+
+def boss_stage(path, phases=(0, 1, 2), **changes):
+    """A stage that is nothing but its boss, with some of its phases, each with some fields changed."""
+    data = own_stage()
+    boss = copy.deepcopy(leader_of(data, "boss"))
+    boss["at"] = 0.1
+    boss["phases"] = [dict(boss["phases"][number], **changes) for number in phases]
+    data["events"] = [data["events"][0], boss]
+    return write(path, data)
+
+
+def midboss_stage(path, **changes):
+    """A mid-boss, then the boss."""
+    data = own_stage()
+    midboss, boss = (copy.deepcopy(leader_of(data, kind)) for kind in ("midboss", "boss"))
+    midboss["at"], boss["at"] = 0.1, 0.5
+    midboss["phases"][0].update(changes)
+    data["events"] = [data["events"][0], midboss, boss]
+    return write(path, data)
+
+
+class Sky:
+    """A shooter without waves, whose plane can be hit from the first step on."""
+
+    def __init__(self, quiet=True, **chosen):
+        self.scene = Shooter(seed=1, **chosen)
+        self.inputs = InputState()
+        if quiet:
+            self.scene.director.step = lambda sky: None
+        self.step(100)
+        self.harm()
+
+    def harm(self):
+        """Make the plane one that can be hit."""
+        self.scene.plane.safe = 0
+        self.step()
+
+    def step(self, count=1, actions=(), changes=()):
+        """So many steps with actions held."""
+        for _ in range(count):
+            self.inputs.set(InputFrame(frozenset(actions), changes=tuple(changes)))
+            self.scene.step(self.inputs)
+
+    def until(self, reached, most=2000, actions=()):
+        """Step until something holds; fails if it does not within `most` steps. Returns how many it took."""
+        for number in range(most):
+            if reached():
+                return number
+            self.step(1, actions)
+        raise AssertionError(f"not reached within {most} steps")
+
+    def enemy(self, kind, x, y, thinks=False, **group):
+        """A plane that hangs where it is put, unless it thinks."""
+        group.setdefault("side", "left")
+        made = Group(kind, (0.5,), 0.5, 0.0, "", **group)
+        plane = self.scene.fleet.launch(made, 0.5)
+        if not thinks:
+            plane.think = lambda sky: None
+        self.scene.world.body(plane.id).move_to((x, y))
+        return plane
+
+    def bullet(self, look, x, y, heading=1.5707963267948966, speed=0.0):
+        """A bullet of the other side; it is in the world after the next step. Returns its id then."""
+        self.scene.incoming.fire(look, x, y, [heading], speed)
+        self.step()
+        return int(self.scene.incoming.ids[-1])
