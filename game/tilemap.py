@@ -23,7 +23,7 @@ KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of the map: kind, name, rect in world pixels, own properties."""
+    """An object of the map: kind, name, rect in world pixels, own properties; `place` names it in its file."""
 
     kind: str
     name: str
@@ -32,6 +32,7 @@ class Thing:
     width: float
     height: float
     properties: dict = field(default_factory=dict)
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -69,8 +70,10 @@ class TileMap:
             solid |= here & (kind == "solid")
             one_way |= here & (kind == "one_way")
             if kind == "slope":
-                tile = self.tiles[number]
-                slopes[here] = (tile.get("left", 0.0), tile.get("right", 0.0))
+                sides, flips = (self.tiles[number].get("left", 0.0), self.tiles[number].get("right", 0.0)), self._flips(layer)
+                slopes[here] = sides
+                slopes[here & (flips & FLIP_X > 0)] = sides[::-1]
+                self._refuse_turned(layer, here & (flips & (FLIP_Y | FLIP_DIAGONAL) > 0))
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
     def cells(self, kind, layer="solid"):
@@ -89,6 +92,15 @@ class TileMap:
         if len(found) != 1:
             raise FileError(self.path, "objects", f"must hold one {kind}, hold {len(found)}")
         return found[0]
+
+    def _flips(self, layer):
+        return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
+
+    def _refuse_turned(self, layer, turned):
+        """A slope is mirrored left and right only: it would hold at its upper edge what the picture shows below."""
+        for row, column in np.argwhere(turned)[:1].tolist():
+            raise FileError(self.path, f"layer {layer}", f"the slope at column {column} row {row} is turned or upside down; "
+                            "mirror slopes left and right only")
 
     def _layer(self, name):
         if name not in self.layers:
@@ -229,5 +241,5 @@ class _Reader:
                 self.fail(here, "is not an object")
             kind = entry.get("type") or entry.get("class") or ""
             numbers = [self.number(entry, here, name) for name in ("x", "y", "width", "height")]
-            found.append(Thing(str(kind), str(entry.get("name", "")), *numbers, self.properties(entry, here)))
+            found.append(Thing(str(kind), str(entry.get("name", "")), *numbers, self.properties(entry, here), here))
         return found

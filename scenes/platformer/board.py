@@ -1,13 +1,15 @@
-"""Words and numbers over the picture: counters, signs that are read, the iris of a new life, the result."""
+"""Words and numbers over the picture: counters, names of acts, signs that are read, the iris of a new life, the result."""
+
+from functools import lru_cache
 
 import pygame
 
 from game.boxes import draw_box
-from game.colors import FOG, GOLD, INK, PAPER
+from game.colors import FOG, GOLD, GREEN, INK, PAPER, RED
 from game.draw import CANVAS_SIZE, SMALL, TEXT, whole, wrap
 from game.hud import MARGIN
 from game.sprites import load_atlas
-from scenes.platformer.hero import steps
+from scenes.platformer.feel import steps
 
 SIGN_REACH = (40, 44)        # [px] how near the hero must be to read a sign
 SIGN_WIDTH = 260             # [canvas px] of its longest line
@@ -18,6 +20,9 @@ WIDEST = 560                 # [canvas px] radius at which the iris is out of th
 RESULT_AFTER = 0.9           # [s] from the goal to its result
 PARTS = (0.5, 1.0, 1.5)      # [s] after that, each star appears
 HOLE = (255, 0, 255)
+TITLES = {"meadow": "THE MEADOW", "cave": "THE HOLLOW", "keep": "THE KEEP"}
+TITLE_TIME, TITLE_FADE = 2.4, 0.35   # [s] the name of an act is shown; it comes and goes in
+TITLE_Y = 58                 # [canvas px]
 
 
 def draw_board(canvas, scene, view):
@@ -27,6 +32,7 @@ def draw_board(canvas, scene, view):
         _draw_iris(canvas, scene, view, opened)
     _draw_counters(canvas, scene)
     if scene.phase == "playing" and opened >= 1.0:
+        _draw_title(canvas, scene.look)
         _draw_signs(canvas, scene)
     elif scene.phase == "won":
         _draw_result(canvas, scene)
@@ -40,7 +46,7 @@ def clock_text(ticks):
 
 def stars(scene):
     """(earned, what for) of the three stars."""
-    return ((True, "the flag"), (scene.coins == scene.things.coins_in_all, "every coin"), (scene.deaths == 0, "no hurt"))
+    return ((True, "the flag"), (scene.secrets == scene.things.secrets_in_all, "all secrets"), (scene.deaths == 0, "no hurt"))
 
 
 def _draw_counters(canvas, scene):
@@ -49,11 +55,54 @@ def _draw_counters(canvas, scene):
     lift = whole(3 * scene.look.pulse)
     canvas.surface.blit(icons["icon_coin"], (MARGIN, y - 1 - lift))
     text = canvas.text(f"{scene.coins}", MARGIN + 13, y, GOLD if lift else PAPER, TEXT, outline=True)
-    canvas.text(f"/{scene.things.coins_in_all}", text.right + 2, y, FOG, TEXT, outline=True)
+    text = canvas.text(f"/{scene.things.coins_in_all}", text.right + 2, y, FOG, TEXT, outline=True)
+    _draw_gems(canvas, scene, text.right + 8)
     clock = canvas.text(clock_text(scene.clock), CANVAS_SIZE[0] // 2, y, PAPER, TEXT, 1, "center", True)
     canvas.surface.blit(icons["icon_clock"], (clock.left - 13, y - 1))
     hurts = canvas.text(f"{scene.deaths}", CANVAS_SIZE[0] - MARGIN, y, PAPER, TEXT, 1, "right", True)
     canvas.surface.blit(icons["icon_skull"], (hurts.left - 13, y - 1))
+
+
+    if scene.look.split is not None:
+        behind, _ = scene.look.split
+        color = GREEN if behind <= 0.0 else RED
+        text = f"{'+' if behind > 0.0 else '-'}{abs(behind):.1f}"
+        canvas.text(text, CANVAS_SIZE[0] // 2, y + 11, color, TEXT, 1, "center", True)
+
+
+def _draw_gems(canvas, scene, x):
+    """A place for each secret: empty, or with its gem."""
+    icon = load_atlas("ui")["icon_gem"]
+    lift = whole(4 * scene.look.gem_pulse)
+    for number in range(min(scene.things.secrets_in_all, 8)):
+        found = number < scene.secrets
+        up = lift if number == scene.secrets - 1 else 0
+        canvas.surface.blit(icon if found else _empty(icon), (x + 12 * number, MARGIN - 1 - up))
+    canvas.reserve((x, MARGIN - 1, 12 * min(scene.things.secrets_in_all, 8), 10))
+
+
+@lru_cache(maxsize=4)
+def _empty(icon):
+    """The shape of an icon, as a place that is still empty."""
+    image = icon.copy()
+    image.fill((60, 60, 96, 200), special_flags=pygame.BLEND_RGBA_MULT)
+    return image
+
+
+def _draw_title(canvas, look):
+    """The name of the act he has come into: it slides in and fades out of the way."""
+    age = look.act_age
+    if age >= TITLE_TIME:
+        return
+    come = min(age / TITLE_FADE, 1.0, (TITLE_TIME - age) / TITLE_FADE)
+    y = TITLE_Y - whole(14 * (1.0 - come) ** 2)
+    width, height = canvas.measure(TITLES[look.act], TEXT, 2)
+    half = whole((width / 2 + 26) * come)
+    middle = CANVAS_SIZE[0] // 2
+    for row in (y - 6, y + height + 4):
+        canvas.surface.fill(GOLD, (middle - half, row, 2 * half, 1))
+    if come > 0.5:
+        canvas.text(TITLES[look.act], middle, y, PAPER, TEXT, 2, "center", True)
 
 
 def _draw_signs(canvas, scene):
@@ -96,7 +145,7 @@ def _draw_result(canvas, scene):
     since = scene.since / 60.0 - RESULT_AFTER
     if since < 0.0:
         return
-    middle, width, height = CANVAS_SIZE[0] // 2, 214, 134
+    middle, width, height = CANVAS_SIZE[0] // 2, 214, 146
     left, top = middle - width // 2, 62 + whole(max(0.0, 0.25 - since) ** 2 * 1600)
     draw_box(canvas, (left, top, width, height), "panel")
     canvas.reserve((left, top, width, height))
@@ -109,12 +158,13 @@ def _draw_result(canvas, scene):
         canvas.text(reason, x, top + 64, PAPER if shown else FOG, SMALL, 1, "center")
     for row, (name, value) in enumerate((("time", clock_text(scene.clock)),
                                          ("coins", f"{scene.coins} of {scene.things.coins_in_all}"),
+                                         ("secrets", f"{scene.secrets} of {scene.things.secrets_in_all}"),
                                          ("hurt", f"{scene.deaths} times" if scene.deaths != 1 else "once"))):
         y = top + 78 + row * 12
         canvas.text(name, middle - 6, y, FOG, TEXT, 1, "right")
         canvas.text(value, middle + 6, y, PAPER, TEXT)
-    if since % 1.2 < 0.8:
-        canvas.text("JUMP: play again", middle, top + height - 17, GOLD, TEXT, 1, "center")
+    if scene.result is not None and since % 1.2 < 0.8:
+        canvas.text("JUMP: go on", middle, top + height - 17, GOLD, TEXT, 1, "center")
 
 
 def _draw_star(canvas, image, x, y, shown, age):

@@ -1,63 +1,57 @@
-"""The hero: every number that makes a jump feel right, and the moves made of them.
-
-The numbers are those of Celeste at twice its size, since its tiles are 8 px wide and ours 16. Half of the moves only
-forgive: they do what the player meant, a few frames or pixels off from what was pressed.
-"""
+"""The hero: the moves that are made of the numbers in feel.py."""
 
 from math import sqrt
 
 from game.loop import STEP_SECONDS
 from physics import Character, Polygon
+from scenes.platformer.feel import (
+    AIR_CONTROL,
+    APEX_SPEED,
+    BUFFER,
+    CEILING_GRACE,
+    CLIMB_ALIGN,
+    CLIMB_SPEED,
+    CORNER,
+    COYOTE,
+    DROP_SPEED,
+    DROP_TIME,
+    FALL_SPEED,
+    FAST_FALL_GAIN,
+    FAST_FALL_SPEED,
+    GRAVITY,
+    HEIGHT,
+    JUMP_BOOST,
+    JUMP_HOLD,
+    JUMP_SPEED,
+    LIFT_TIME,
+    LIFT_X,
+    LIFT_Y,
+    OVERSPEED_DRAG,
+    POP_REACH,
+    POP_SPEED,
+    PUSH,
+    PUSH_REACH,
+    PUSH_SPEED,
+    RUN_ACCELERATION,
+    RUN_SPEED,
+    SLIDE_SPEED,
+    SLIDE_TIME,
+    SPRING_SPEED,
+    STOMP_SPEED,
+    THROWN,
+    THROWN_TIME,
+    THUD,
+    WALL_JUMP_SPEED,
+    WALL_JUMP_TIME,
+    WALL_REACH,
+    WALL_RETENTION,
+    WIDTH,
+    approach,
+    steps,
+)
 from scenes.platformer.level import HERO_FILTER
 
-WIDTH, HEIGHT = 10, 20       # [px] slimmer than the sprite: what grazes the scarf is no hit
-
-# Running
-RUN_SPEED = 180.0            # [px/s] 11 tiles a second: the screen's width takes 2.7 s
-RUN_ACCELERATION = 2000.0    # [px/s2] full speed after 5 frames: felt as at once, seen as a start
-OVERSPEED_DRAG = 800.0       # [px/s2] a wall jump's or a platform's extra speed is lost slowly, it was earned
-AIR_CONTROL = 0.65           # of both in the air: a jump can be steered but not undone
-PUSH_SPEED = 88.0            # [px/s] a crate is heavy, and rubs off a fifth of it
-PUSH_REACH = 4               # [px] a crate this near is still being pushed
-PUSH = 3000.0                # [px/s2] one large crate, not two on each other
-# Falling
-GRAVITY = 1800.0             # [px/s2]
-APEX_SPEED = 80.0            # [px/s] slower than this with jump held, gravity is half: time to aim the landing
-FALL_SPEED = 320.0           # [px/s] what can still be read at a fall across the screen
-FAST_FALL_SPEED = 480.0      # [px/s] with down held
-FAST_FALL_GAIN = 600.0       # [px/s2] how quickly down gets there
-# Jumping
-JUMP_SPEED = 210.0           # [px/s] up; with the time below 57 px, 3.5 tiles
-JUMP_BOOST = 80.0            # [px/s] along the way: a running jump is a long one, 7.7 tiles
-JUMP_HOLD = 0.20             # [s] the speed is kept while jump is held: short and high jumps from one button
-COYOTE = 0.10                # [s] a jump is still one from the ground after the edge: nobody sees the last pixel
-BUFFER = 0.08                # [s] a press this early before the landing counts
-CORNER = 8                   # [px] a head that hits a corner slips past it, and so does he when a corner squeezes him
-# Walls
-SLIDE_SPEED = 40.0           # [px/s] at first; the grip tires over SLIDE_TIME
-SLIDE_TIME = 1.2             # [s]
-WALL_REACH = 6               # [px] a wall that near can be kicked: the hand reaches further than the box
-WALL_JUMP_SPEED = 260.0      # [px/s] away from it
-WALL_JUMP_TIME = 0.16        # [s] in which the keys cannot turn back, or one wall could be climbed
-WALL_RETENTION = 0.06        # [s] a run into a corner is not lost if the corner is passed by then
-# What throws him
-SPRING_SPEED = 640.0         # [px/s] 113 px: over a ledge of 5 tiles with room to see it
-STOMP_SPEED = 250.0          # [px/s] with jump held it rises like a jump
-LIFT_TIME = 0.10             # [s] a platform's speed is still added to a jump after it was left
-LIFT_X, LIFT_Y = 500.0, 260.0  # [px/s] at most, so that no platform becomes a cannon
-DROP_TIME = 0.12             # [s] planks are open for: 8 px, more than a plank and less than to the next
-DROP_SPEED = 80.0            # [px/s] the step down
-THUD = 90.0                  # [px] a fall from that high is heard: more than his own jump
-
-
-def steps(seconds):
-    """A time as whole steps: counted, never summed, so that every run agrees on the last one."""
-    return round(seconds / STEP_SECONDS)
-
-
-def approach(value, target, change):
-    """The value moved towards a target by at most `change`."""
-    return min(value + change, target) if value < target else max(value - change, target)
+TIMERS = ("coyote", "drop", "locked", "kept", "lift")
 
 
 class Hero:
@@ -67,7 +61,8 @@ class Hero:
         self.world, self.level = world, level
         self.character = Character(world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH)
         self.crates = ()           # what he can push
-        self.solids = ()           # boxes (left, top, right, bottom) of these and of platforms, refreshed before each step
+        self.solids = ()           # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
+        self.ladders = {}          # body id -> trigger of the ladders that he touches
         self.facing = 1
         self.news = []
         self.place(position)
@@ -84,7 +79,8 @@ class Hero:
         self.grounded = self.pushing = self.crushed = False
         self.pushed = None                   # the crate beside him that he runs against
         self.peak = self.before[1]           # highest since he left the ground [px]
-        self.riding = None
+        self.riding = self.ladder = None
+        self.gazing = 0                      # -1 looks up, 1 ducks
         self.news.clear()
 
     @property
@@ -99,20 +95,31 @@ class Hero:
         self.news.clear()
         self.before = self.character.position
         way = inputs.held("right") - inputs.held("left") if self.locked == 0 else self.locked_way
-        held = inputs.held("jump")
-        self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
-        self._run(way)
-        self._fall(way, held, inputs.held("down"))
-        if self.buffer:
-            self._jump(way, inputs.held("down"))
-        for timer in ("coyote", "drop", "locked", "kept", "lift"):
+        held, down, up = inputs.held("jump"), inputs.held("down"), inputs.held("up")
+        self.listen(inputs)
+        self.gazing = (down - up) if self.grounded and not way else 0
+        if self.ladder is None:
+            self._grab(up, down)
+        if self.ladder is not None:
+            self._climb(way, down - up, down)
+        else:
+            self._run(way)
+            self._fall(way, held, down)
+            if self.buffer:
+                self._jump(way, down)
+        for timer in TIMERS:
             setattr(self, timer, max(getattr(self, timer) - 1, 0))
         self._travel()
+
+    def listen(self, inputs):
+        """Note a press of jump, which counts for a moment; also while the picture stands still."""
+        self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
 
     def rest(self):
         """A step without keys: he slows down and falls to the ground (the goal is reached)."""
         self.news.clear()
         self.before = self.character.position
+        self.ladder, self.gazing = None, 0
         self._run(0)
         self._fall(0, False, False)
         self._travel()
@@ -184,7 +191,57 @@ class Hero:
         self.rise = steps(JUMP_HOLD) + 1     # the step of the press itself does not count
         self.buffer = self.coyote = 0
         self.grounded = False
+        self.ladder = None
         self.grip = steps(SLIDE_TIME)
+
+    # --- ladders ---------------------------------------------------------------------------------------------------
+
+    def _grab(self, up, down):
+        """Hold on to a ladder that he touches: by up from beside or below, by down from its top."""
+        if up == down or self.vy < 0.0:
+            return
+        bottom = self.box[3]
+        for ladder in self.ladders.values():
+            if (up and bottom > ladder.top) or (down and self.grounded and bottom == ladder.top):
+                self.ladder = ladder
+                self.grounded = self.pushing = False
+                self.pushed = None
+                self.sliding = 0
+                return
+
+    def _climb(self, way, turn, down):
+        """One step on the ladder. turn: -1 up, 1 down."""
+        if self.buffer:
+            self.ladder, self.coyote = None, 0 if down else 1
+            self.vx = self.vy = 0.0
+            if down:
+                self.buffer = 0                 # let go
+            else:
+                self._jump(way, False)
+            return
+        if self.ladder.body.id not in self.ladders or (way and not turn):
+            self.ladder, self.coyote = None, steps(COYOTE)     # left behind, or stepped off
+            self.vx, self.vy = way * RUN_SPEED * 0.5, 0.0
+            return
+        if way:
+            self.facing = way
+        aside = self.ladder.x - self.character.position[0]
+        self.vx = max(-CLIMB_ALIGN, min(aside, CLIMB_ALIGN)) / STEP_SECONDS
+        self.vy = turn * CLIMB_SPEED
+        if turn < 0:
+            self.vy = max(self.vy, (self.ladder.top - self.box[3]) / STEP_SECONDS)
+        self.drop = 2 if turn > 0 else 0        # past its own top
+
+    def _leave_ladder(self, moved):
+        """Off at its foot, or stand on its top."""
+        if self.vy > 0.0 and moved.grounded:
+            self.ladder, self.drop, self.grounded = None, 0, True
+        elif self.box[3] <= self.ladder.top:
+            self.ladder, self.grounded = None, True
+        if self.ladder is None:
+            self.vx = self.vy = 0.0
+
+    # --- what happens to him -----------------------------------------------------------------------------------------
 
     def launch(self):
         """A spring throws him: always as high, whatever is held."""
@@ -193,9 +250,16 @@ class Hero:
         self.news.append("launch")
 
     def bounce(self):
-        """Up from a walker's back."""
+        """Up from an enemy's back."""
         self._rise(STOMP_SPEED)
         self.news.append("stomp")
+
+    def throw(self, way):
+        """Thrown back by what would have hurt him."""
+        self._rise(THROWN[1])
+        self.rise, self.kept, self.drop = 0, 0, 0
+        self.locked, self.locked_way, self.vx = steps(THROWN_TIME), way, way * THROWN[0]
+        self.news.append("thrown")
 
     # --- the way through the world -----------------------------------------------------------------------------------
 
@@ -203,8 +267,15 @@ class Hero:
         # The speed is along the ground: the same uphill, where each pixel along x is more than a pixel of way.
         along = 1.0 / sqrt(1.0 + self.slope * self.slope) if self.grounded else 1.0
         dx, dy = self.vx * along * STEP_SECONDS, self.vy * STEP_SECONDS
+        if self.ladder is None and self._nearly_up():
+            dy -= POP_SPEED * STEP_SECONDS
         moved = self.character.move(dx, dy, drop=self.drop > 0)
         self.crushed = moved.squeezed and not self._slip_out()
+        self.wall, self.slope, self.riding = moved.wall, moved.slope, moved.riding
+        if self.ladder is not None:
+            self._leave_ladder(moved)
+            self.peak = self.character.position[1]
+            return
         if self.vy < 0.0 and moved.y == 0 and dy <= -1.0:
             self._bump(dy)
         if moved.x == 0 and moved.wall and moved.wall * self.vx > 0.0:
@@ -212,7 +283,6 @@ class Hero:
                 self.kept_vx, self.kept = self.vx, steps(WALL_RETENTION)
             if not (self.pushing and self.pushed.slides(moved.wall)):
                 self.vx = 0.0
-        self.wall, self.slope, self.riding = moved.wall, moved.slope, moved.riding
         self._stand(moved.grounded and self.vy >= 0.0)
 
     def _stand(self, grounded):
@@ -220,12 +290,25 @@ class Hero:
             if not self.grounded:
                 self.news.append("land" if self.character.position[1] - self.peak < THUD else "thud")
             self.vy, self.coyote, self.grip = 0.0, steps(COYOTE), steps(SLIDE_TIME)
-            if self.riding is not None and self.riding.velocity != (0.0, 0.0):
-                self.lift_x, self.lift_y = self.riding.velocity
-                self.lift = steps(LIFT_TIME)
+            self._remember_lift()
         y = self.character.position[1]
         self.peak = y if grounded else min(self.peak, y)
         self.grounded = grounded
+
+    def _remember_lift(self):
+        """The speed of what carries him: a platform's, a crate's, a belt's."""
+        vx, vy = self.riding.velocity if self.riding is not None else (0.0, 0.0)
+        vx += self.character.surface_speed
+        if (vx, vy) != (0.0, 0.0):
+            self.lift_x, self.lift_y = vx, vy
+            self.lift = steps(LIFT_TIME)
+
+    def _nearly_up(self):
+        """Whether he still rises, and his feet are just under the top of a plank they pass."""
+        if self.vy > 0.0 or self.grounded:
+            return False
+        left, _, right, bottom = self.box
+        return self.level.plank_within(left, right, bottom, POP_REACH)
 
     def _bump(self, dy):
         """The head hit something: slip past its corner, or stop rising."""
@@ -237,7 +320,8 @@ class Hero:
                     self.character.move(0.0, dy)
                     return
         self.vy = 0.0
-        self.rise = 0
+        if self.rise <= steps(JUMP_HOLD) + 1 - steps(CEILING_GRACE):
+            self.rise = 0
         self.news.append("bump")
 
     def _slip_out(self):
@@ -270,4 +354,5 @@ class Hero:
         """All that the next step depends on and that is not in the world."""
         return (self.vx, self.vy, self.rise_speed, self.lift_x, self.lift_y, self.kept_vx, self.slope, self.buffer,
                 self.coyote, self.rise, self.drop, self.locked, self.kept, self.lift, self.grip, self.locked_way,
-                self.wall, self.sliding, self.facing, self.grounded, self.peak)
+                self.wall, self.sliding, self.facing, self.grounded, self.peak, *sorted(self.ladders),
+                self.ladder.body.id if self.ladder is not None else -1)

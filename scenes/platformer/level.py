@@ -2,29 +2,36 @@
 
 from functools import lru_cache
 from math import floor
+from pathlib import Path
+
+import numpy as np
 
 from game.places import LEVELS
 from game.tilemap import load_tilemap
 from physics import Filter
+from scenes.platformer.level_rules import check_level, tileset_picture
 
 # Who is who. Two shapes meet if each one's membership is in the other's mask.
-TILES, HERO, WALKER, CRATE, PLATFORM, TRIGGER = 1, 2, 4, 8, 16, 32
+TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS = 1, 2, 4, 8, 16, 32, 64
 SOLIDS = TILES | CRATE | PLATFORM
-TILE_FILTER = Filter(TILES, HERO | WALKER | CRATE)
-HERO_FILTER = Filter(HERO, SOLIDS | WALKER | TRIGGER)
-WALKER_FILTER = Filter(WALKER, SOLIDS | HERO)
-CRATE_FILTER = Filter(CRATE, SOLIDS | HERO | WALKER)
-PLATFORM_FILTER = Filter(PLATFORM, HERO | WALKER | CRATE)
+TILE_FILTER = Filter(TILES, HERO | ENEMY | CRATE | DEBRIS)
+HERO_FILTER = Filter(HERO, SOLIDS | ENEMY | TRIGGER)
+ENEMY_FILTER = Filter(ENEMY, SOLIDS | HERO)
+CRATE_FILTER = Filter(CRATE, SOLIDS | HERO | ENEMY | TRIGGER)
+PLATFORM_FILTER = Filter(PLATFORM, HERO | ENEMY | CRATE)
 TRIGGER_FILTER = Filter(TRIGGER, HERO)
+SPRING_FILTER = Filter(TRIGGER, HERO | CRATE)
+DEBRIS_FILTER = Filter(DEBRIS, TILES)
 
 EMPTY, SOLID, PLANK, SLOPE = "empty", "solid", "one_way", "slope"
+GLOWS = {"torch": (0, -3), "crystal_0": (0, 0), "crystal_1": (0, 0), "glowcap": (0, 0), "window": (0, 0)}   # [px] of the light
 
 
 class Level:
     """A TileMap and its solid layer. Boxes are whole pixels: left, top, width, height."""
 
-    def __init__(self, tilemap):
-        self.map = tilemap
+    def __init__(self, tilemap, picture=None):
+        self.map, self.picture = tilemap, picture
         self.grid = self.map.grid("solid")
         self.size = self.map.size
         self.tile = self.map.tile_size
@@ -32,10 +39,28 @@ class Level:
         self.kinds = [[kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY
                        for number in row] for row in self.map.layers["solid"].tolist()]
         self.slopes = self.grid.slopes.tolist()
-        names = {number: tile.get("name") for number, tile in self.map.tiles.items()}
-        self.torches = [((column + 0.5) * self.tile, (row + 0.5) * self.tile)
-                        for row, line in enumerate(self.map.layers["decor"].tolist())
-                        for column, number in enumerate(line) if names.get(number) == "torch"]
+        self.lights = list(self._find_lights())
+        self.zones = self.map.things_of("zone")
+        self.covers = self.map.things_of("cover")
+        self.hints = sorted(self.map.things_of("hint"), key=lambda hint: hint.properties["order"])
+
+    def __deepcopy__(self, memo):
+        return self                # nothing in it changes, and its pictures are kept by it
+
+    def _find_lights(self):
+        """(x, y, name) of every tile of the decoration that glows [px]."""
+        names = {number: tile.get("name") for number, tile in self.map.tiles.items() if tile.get("name") in GLOWS}
+        layer = self.map.layers.get("decor", np.zeros((0, 0), int))
+        for row, line in enumerate(layer.tolist()):
+            for column, number in enumerate(line):
+                if number in names:
+                    dx, dy = GLOWS[names[number]]
+                    yield (column + 0.5) * self.tile + dx, (row + 0.5) * self.tile + dy, names[number]
+
+    def zones_at(self, x, y):
+        """The zones that hold a point [px], in the map's order: the first one tells the act."""
+        return [zone for zone in self.zones
+                if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
         """Put the tiles into a world as one static body."""
@@ -87,6 +112,13 @@ class Level:
                  for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1)}
         return PLANK in under and under <= {PLANK, EMPTY}
 
+    def plank_within(self, left, right, bottom, reach):
+        """Whether feet at the height `bottom` are in a plank, by at most `reach` px."""
+        row = (bottom - 1) // self.tile
+        if not 0 < bottom - row * self.tile <= reach:
+            return False
+        return any(self.kind(column, row) == PLANK for column in range(left // self.tile, (right - 1) // self.tile + 1))
+
     def drop_to_ground(self, x, y, most):
         """How far below y the ground is at x [px], at most `most`. Planks do not count."""
         row = floor(y / self.tile)
@@ -100,6 +132,16 @@ class Level:
 
 
 @lru_cache(maxsize=4)
-def load_level(path=LEVELS / "platformer.tmj"):
-    """A level, read once: nothing in it changes while it is played. Raises FileError."""
-    return Level(load_tilemap(path))
+def load_level(path=None, stamp=None):
+    """A level that can be played, read once per path and stamp (its time of change). Raises FileError."""
+    tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path)
+    check_level(tilemap)
+    return Level(tilemap, tileset_picture(tilemap))
+
+
+def level_of(path=None):
+    """The level at a path, read anew when the file has changed; None: the game's own. Raises FileError."""
+    if path is None:
+        return load_level()
+    path = Path(path)
+    return load_level(path, path.stat().st_mtime_ns if path.is_file() else None)

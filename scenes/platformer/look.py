@@ -1,36 +1,42 @@
-"""What is only seen and heard: squash and stretch, dust, sparkles, the camera's thinking. No rule reads any of it."""
+"""What is only seen and heard: squash and stretch, dust, trails, sparkles, the light of an act. No rule reads any of it."""
 
 from math import exp, pi
 
-from scenes.platformer.hero import HEIGHT, RUN_SPEED
+from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
+from scenes.platformer.gaze import Gaze
 
-# The camera
-AHEAD = 64.0                 # [px] it looks this far in the way of a run
-AHEAD_RATE = 1.8             # [1/s] slowly, so that a step back does not swing the picture
-FOLLOW_RATE = 6.5            # [1/s]
-DEAD_ZONE = (6.0, 10.0)      # [px] small moves leave the picture still
-RAISED = 38.0                # [px] the hero stands below the middle: there is more to see above
-JUMP_ROOM = 58.0             # [px] a jump of that height does not lift the camera; its landing does
 # Squash and stretch: (width, height) at the moment, and how fast it fades
-STRETCHES = {"jump": (0.72, 1.28), "wall_jump": (0.72, 1.28), "land": (1.22, 0.80), "thud": (1.40, 0.64),
-             "launch": (0.60, 1.42), "stomp": (0.72, 1.28), "bump": (1.15, 0.85), "drop": (0.85, 1.12)}
+STRETCHES = {"jump": (0.60, 1.40), "wall_jump": (0.60, 1.40), "land": (1.22, 0.80), "thud": (1.40, 0.60),
+             "launch": (0.60, 1.42), "stomp": (0.72, 1.28), "bump": (1.15, 0.85), "drop": (0.85, 1.12), "thrown": (1.25, 0.80)}
 STRETCH_RATE = 11.0          # [1/s]
 SOUNDS = {"jump": ("jump", 0.7), "wall_jump": ("jump", 0.8), "land": ("land", 0.4), "thud": ("land", 0.8),
-          "launch": ("spring", 0.9), "stomp": ("stomp", 0.9), "bump": ("hit", 0.25), "drop": ("blip", 0.4)}
+          "launch": ("spring", 0.9), "stomp": ("stomp", 0.9), "bump": ("hit", 0.25), "drop": ("blip", 0.4),
+          "thrown": ("hit", 0.7)}
 DUST = ((214, 200, 190), (160, 142, 140), (104, 90, 100))
+GRIT = ((190, 196, 214), (128, 128, 158), (74, 70, 100))
 GOLDEN = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
 EMBER = ((255, 244, 190), (255, 178, 70), (214, 84, 40), (90, 40, 52))
-MOTE = ((255, 226, 150), (226, 150, 110), (130, 84, 120))
+MOTES = {"meadow": ((255, 226, 150), (226, 150, 110), (130, 84, 120)),
+         "cave": ((190, 255, 240), (90, 190, 200), (50, 90, 130)),
+         "keep": ((255, 214, 190), (214, 130, 140), (110, 70, 120))}
 CONFETTI = (((255, 92, 92), (180, 50, 80)), ((120, 220, 232), (60, 130, 190)), ((255, 222, 110), (214, 140, 60)),
             ((190, 236, 120), (90, 160, 80)))
+GEM = ((255, 255, 255), (170, 255, 236), (80, 200, 220), (60, 90, 170))
 FALLEN = 260.0               # [px/s] how fast a hurt hero is thrown up before he falls out of the picture
 FALLEN_GRAVITY = 1100.0      # [px/s2]
 RUN_DUST = 11                # steps between puffs of a run
 MOTE_EVERY = 9               # steps between motes of light in the air
 EMBER_EVERY = 5              # steps between sparks of a flame
+RUNG = 14.0                  # [px] of climbing between two sounds of it
 LOUDEST = 400000.0           # [density px3/s] impulse of a hit beyond which nothing gets louder: the large crate from 10 tiles
 FAINTEST, SHAKING = 0.02, 0.25   # of that: quieter is not heard, harder shakes the picture
-SQUASHED = 0.5               # [s] a squashed walker is seen
+SQUASHED = 0.5               # [s] a flattened walker is seen
+TUMBLED = 1.2                # [s] a flattened bat or hedgehog is seen to fall
+QUICK, AFTERIMAGES = 250.0, 7    # [px/s] faster than this he leaves so many pictures of himself behind
+DARKEN = 2.2                 # [1/s] how quickly eyes and light get used to another act
+COVER_RATE = 7.0             # [1/s] a covered room is seen, and hidden again
+SPLIT_TIME = 2.6             # [s] the time at a checkpoint against the best run's is shown
+WINDOW = 20.0, 72.0          # [px] the ghost passed a checkpoint when it was that near
 
 
 class Look:
@@ -40,25 +46,40 @@ class Look:
         self.scene = scene
         self.time = 0.0
         self.width = self.height = 1.0       # the hero's stretch
-        self.run = 0.0                       # [px] way on the ground, which drives the run's frames
+        self.run = self.climb = 0.0          # [px] way on the ground and on ladders, which drive the frames
         self.puffs = []                      # [animation, x, y, age s]
-        self.flat = []                       # squashed walkers: [x, bottom, way, age s]
+        self.flat = []                       # flattened enemies: [kind, x, bottom, way, age s]
+        self.afterimages = []                # [x, bottom, frame, way, age steps]
         self.pulse = 0.0                     # the coin counter's jump, 1..0
+        self.gem_pulse = 0.0
         self.fall = self.fall_speed = 0.0    # a hurt hero's way down
-        self.ahead = 0.0
-        self.level_y = scene.hero.character.position[1]
         self.bodies, self.angles = {}, {}    # body id -> place, and angle of a crate, before this step
-        camera = scene.camera
-        camera.keep_within(0, 0, *scene.level.size)
+        self.act = self.last_act = self._act()
+        self.act_age = 0.0                   # [s] in this act
+        self.dark = 1.0 if self.act == "cave" else 0.0
+        self.open = [0.0] * len(scene.level.covers)     # how far each covered room is seen, 0..1
+        self.split = None                    # (seconds against the ghost's, time shown)
+        self.gaze = Gaze(scene)
         self.arrive()
+
+    @property
+    def foot(self):
+        """Where the hero's feet are drawn [px]."""
+        return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
+
+    def _act(self):
+        zones = self.scene.level.zones_at(*self.scene.hero.character.position)
+        return zones[0].properties["act"] if zones else getattr(self, "act", "meadow")
 
     def begin_step(self):
         """Before anything moves."""
-        things = self.scene.things
-        self.bodies = {one.body.id: one.body.position for one in (*things.platforms, *things.crates)}
-        self.angles = {crate.body.id: crate.body.angle for crate in things.crates}
-        for walker in things.walkers.values():
-            self.bodies[walker.character.body.id] = walker.character.position
+        rows = self.scene.world.bodies
+        self.bodies = self.scene.things.places()
+        self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
+
+    def hold(self):
+        """A step in which the picture stands still: only sparks fly on."""
+        self.time += 1 / 240
 
     def before(self, body):
         """Where a body was before the last step [px]."""
@@ -72,51 +93,93 @@ class Look:
         self.width += (1.0 - self.width) * back
         self.height += (1.0 - self.height) * back
         self.pulse = max(0.0, self.pulse - 4.0 * dt)
-        if hero.grounded:
-            self.run += abs(hero.vx) * dt
-        for aging in (self.puffs, self.flat):
-            for one in aging:
-                one[3] += dt
-        self.puffs = [puff for puff in self.puffs if puff[3] < 0.3]
-        for one in self.flat:
-            if one[3] >= SQUASHED:
-                self._puff("dust", one[0], one[1])
-        self.flat = [one for one in self.flat if one[3] < SQUASHED]
-        self._follow(dt)
+        self.gem_pulse = max(0.0, self.gem_pulse - 1.5 * dt)
+        self._age(dt)
+        self._follow_act(dt)
+        if scene.phase != "hurt":
+            self.gaze.step(dt)
         self._air(scene)
+        self._leave_images(hero)
         if scene.phase == "hurt":
             self.fall += self.fall_speed * dt
             self.fall_speed += FALLEN_GRAVITY * dt
-        elif hero.grounded and abs(hero.vx) > 0.9 * RUN_SPEED and scene.frame % RUN_DUST == 0:
+        else:
+            self._move(scene, hero, dt)
+
+    def _move(self, scene, hero, dt):
+        if hero.grounded:
+            self.run += abs(hero.vx) * dt
+        if hero.ladder is not None:
+            rung = self.climb // RUNG
+            self.climb += abs(hero.vy) * dt
+            if self.climb // RUNG != rung:
+                self._sound("ladder", 0.35)
+        if hero.grounded and abs(hero.vx) > 0.9 * RUN_SPEED and scene.frame % RUN_DUST == 0:
             self._dust(3, -hero.facing * 4, speed=(8, 30))
+        elif hero.pushing and abs(hero.vx) > 20.0 and scene.frame % 7 == 0:
+            self._dust(2, hero.facing * 10, speed=(8, 26))
         elif hero.sliding and scene.frame % 4 == 0:
             x, y = hero.character.position
             scene.particles.burst(x + 5 * hero.sliding, y + 4, 2, DUST, speed=(5, 26), life=(0.2, 0.4),
                                   angle=pi / 2 * (1 + hero.sliding), spread=1.6, gravity=60.0)
+        for crumble in scene.things.crumbles:
+            if crumble.shaking and scene.frame % 3 == 0:
+                left, _, right, bottom = crumble.box
+                x = left + (right - left) * scene.particles.random.uniform(0, 1)
+                scene.particles.burst(x, bottom, 1, GRIT, speed=(4, 18), life=(0.2, 0.5), angle=pi / 2, spread=0.8,
+                                      size=(1, 1), gravity=240.0)
 
-    def _follow(self, dt):
-        scene, hero = self.scene, self.scene.hero
-        x, y = hero.character.position
-        wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > 60.0 else AHEAD * 0.35 * hero.facing
-        self.ahead += (max(-AHEAD, min(AHEAD, wanted)) - self.ahead) * (1.0 - exp(-AHEAD_RATE * dt))
-        if hero.grounded or hero.sliding:
-            self.level_y = y
-        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)     # below it he is always followed
-        if scene.phase != "hurt":
-            scene.camera.follow(x + self.ahead, self.level_y - RAISED, dt, FOLLOW_RATE, DEAD_ZONE)
+    def _age(self, dt):
+        for aging in (self.puffs, self.flat):
+            for one in aging:
+                one[-1] += dt
+        self.puffs = [puff for puff in self.puffs if puff[3] < 0.3]
+        for one in self.flat:
+            if one[0] == "walker" and one[4] >= SQUASHED:
+                self._puff("dust", one[1], one[2])
+        self.flat = [one for one in self.flat if one[4] < (SQUASHED if one[0] == "walker" else TUMBLED)]
+        for one in self.afterimages:
+            one[4] += 1
+        self.afterimages = [one for one in self.afterimages if one[4] <= AFTERIMAGES]
+        if self.split is not None:
+            self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
+
+    def _follow_act(self, dt):
+        act = self._act()
+        if act != self.act:
+            self.last_act, self.act, self.act_age = self.act, act, 0.0
+        self.act_age += dt
+        self.dark += ((1.0 if self.act == "cave" else 0.0) - self.dark) * (1.0 - exp(-DARKEN * dt))
+        x, y = self.scene.hero.character.position
+        for number, cover in enumerate(self.scene.level.covers):
+            inside = cover.x - 4 < x < cover.x + cover.width + 4 and cover.y - 4 < y < cover.y + cover.height + 4
+            self.open[number] += (float(inside) - self.open[number]) * (1.0 - exp(-COVER_RATE * dt))
+
+    def hidden(self, x, y):
+        """Whether a cover is still over a point: light from there must not tell."""
+        return any(seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
+                   for cover, seen in zip(self.scene.level.covers, self.open, strict=True))
+
+    def _leave_images(self, hero):
+        """Where he is quicker than he can run or fall by himself."""
+        quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
+        if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
+            x, bottom, name, way = self.scene.trail[-1]
+            self.afterimages.append([x, bottom, name, way, 0])
 
     def _air(self, scene):
-        """Motes drift through the dusk, sparks rise from flames."""
+        """Motes drift through the air of an act, sparks rise from flames."""
         particles, random = scene.particles, scene.particles.random
         left, top = scene.camera.view()
         width, height = scene.camera.size
         if scene.frame % MOTE_EVERY == 0:
-            particles.burst(left + width * random.uniform(0, 1), top + height * random.uniform(0.2, 1), 1, MOTE,
+            particles.burst(left + width * random.uniform(0, 1), top + height * random.uniform(0.2, 1), 1, MOTES[self.act],
                             speed=(4, 14), life=(1.5, 3.2), size=(1, 1), drag=0.2, gravity=-3.0)
         if scene.frame % EMBER_EVERY == 0:
-            for x, y in scene.level.torches:
-                if left - 16 < x < left + width + 16:
-                    particles.burst(x, y - 4, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=-pi / 2, spread=1.2,
+            for x, y, name in scene.level.lights:
+                seen = left - 16 < x < left + width + 16 and top - 16 < y < top + height + 16
+                if name == "torch" and seen and not self.hidden(x, y):
+                    particles.burst(x, y - 1, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=-pi / 2, spread=1.2,
                                     size=(1, 1), gravity=-30.0)
 
     # --- what the scene reports --------------------------------------------------------------------------------------
@@ -129,7 +192,7 @@ class Look:
             if word in SOUNDS:
                 self._sound(*SOUNDS[word])
             if word in ("jump", "land"):
-                self._puff("dust", self._feet()[0], self._feet()[1])
+                self._puff("dust", *self._feet())
                 self._dust(5, 0, speed=(12, 46))
             elif word == "thud":
                 self._dust(14, 0, speed=(20, 90))
@@ -143,42 +206,74 @@ class Look:
                 x, y = self._feet()
                 self.scene.particles.burst(x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4)
 
-    def took_coin(self, trigger):
-        """Sparkle and count."""
+    def tell(self, word, thing):
+        """A stone shakes, breaks or is back, a bat wakes."""
+        scene = self.scene
+        if word == "wake":
+            self._sound_at("blip", thing.character.position[0], 0.35)
+            return
+        x, y = thing.center
+        if word == "shake":
+            self._sound_at("crumble", x, 0.4)
+        elif word == "break":
+            scene.feats.broke()
+            self._sound_at("crumble", x, 0.9)
+            scene.particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
+            scene.camera.shake(0.15)
+        elif self._in_picture(x, y):
+            self._puff("sparkle", x, y)
+
+    def took(self, trigger):
+        """A coin or a gem: sparkle and count."""
+        particles = self.scene.particles
+        if trigger.kind == "secret":
+            for speed in ((30, 60), (90, 150)):
+                particles.burst(trigger.x, trigger.y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
+            self.gem_pulse = 1.0
+            self.scene.flash.start(0.5, (150, 255, 240))
+            self._sound("secret", 0.9)
+            return
         self._puff("sparkle", trigger.x, trigger.y)
-        self.scene.particles.burst(trigger.x, trigger.y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1),
-                                   gravity=120.0)
+        particles.burst(trigger.x, trigger.y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
         self.pulse = 1.0
         self._sound("coin", 0.6)
 
+    def threw(self, trigger):
+        """A spring has thrown a crate."""
+        self._sound_at("spring", trigger.x, 0.7)
+        self.scene.particles.burst(trigger.x, trigger.foot[1] - 8, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2,
+                                   spread=1.4)
+
     def lit(self, trigger):
-        """A lantern is lit."""
+        """A lantern is lit; the time against the ghost's is told."""
         x, bottom = trigger.foot
         self.scene.particles.burst(x, bottom - 24, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
-        self._sound("powerup", 0.7)
+        self._sound("checkpoint", 0.8)
+        for number, row in enumerate(self.scene.ghost or ()):
+            if abs(row[0] - x) < WINDOW[0] and abs(row[1] - bottom) < WINDOW[1]:
+                self.split = ((self.scene.clock - number - 1) / 60.0, 0.0)
+                break
 
-    def squashed(self, walker):
-        """A walker is flat."""
-        x, _ = walker.character.position
-        bottom = walker.bottom
-        self.flat.append([x, bottom, walker.way, 0.0])
-        self.scene.particles.burst(x, bottom - 6, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=-pi / 2, spread=2.6,
+    def squashed(self, enemy):
+        """An enemy is flat."""
+        x, _ = enemy.character.position
+        self.flat.append([enemy.kind, x, enemy.bottom, enemy.way, 0.0])
+        self.scene.particles.burst(x, enemy.bottom - 6, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=-pi / 2, spread=2.6,
                                    gravity=200.0)
-        self.scene.camera.shake(0.2)
+        if self._in_picture(x, enemy.bottom):
+            self.scene.camera.shake(0.2)
+            self._sound_at("stomp", x, 0.6)
 
     def struck(self, x, y, impulse):
-        """A crate hit something at a point: everything about it grows with the impulse."""
+        """Something hit something at a point: everything about it grows with the impulse."""
         force = min(impulse / LOUDEST, 1.0)
-        if force < FAINTEST:
+        if force < FAINTEST or not self._in_picture(x, y):
             return
-        self.scene.particles.burst(x, y, 2 + round(16 * force), DUST, speed=(10, 30 + 80 * force), life=(0.2, 0.3 + 0.4 * force),
-                                   angle=-pi / 2, spread=2.6, gravity=60.0)
-        left, top = self.scene.camera.view()
-        width, height = self.scene.camera.size
-        if left - 32 < x < left + width + 32 and top - 32 < y < top + height + 32:
-            self.scene.play("land", self.scene.camera.to_canvas(x, 0.0)[0], 0.15 + 0.75 * force)
-            if force > SHAKING:
-                self.scene.camera.shake(0.35 * force)
+        self.scene.particles.burst(x, y, 2 + round(16 * force), DUST, speed=(10, 30 + 80 * force),
+                                   life=(0.2, 0.3 + 0.4 * force), angle=-pi / 2, spread=2.6, gravity=60.0)
+        self._sound_at("crate", x, 0.15 + 0.75 * force)
+        if force > SHAKING:
+            self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
         """The hero is thrown out of the picture."""
@@ -187,7 +282,14 @@ class Look:
         self.scene.particles.burst(x, y, 24, ((255, 255, 255), (255, 150, 150), (190, 50, 80), (80, 30, 60)),
                                    speed=(30, 170), life=(0.25, 0.7))
         self.scene.camera.shake(0.6)
+        self.scene.flash.start(0.35, (255, 190, 190))
         self._sound("hurt", 0.9)
+
+    def vanished(self):
+        """He is put back to where he stood: a puff where he was."""
+        x, y = self.scene.hero.character.position
+        self.scene.particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
+        self.scene.camera.shake(0.25)
 
     def won(self, trigger):
         """Confetti."""
@@ -198,15 +300,20 @@ class Look:
 
     def arrive(self):
         """A life starts: the picture is there at once."""
-        scene = self.scene
-        x, y = scene.spawn
-        self.level_y, self.ahead = y, AHEAD * 0.35
-        scene.camera.center_on(x + self.ahead, y - RAISED)
+        self.gaze.arrive(*self.scene.spawn)
+        self.afterimages.clear()
         self.width, self.height = 0.5, 1.4
 
+    def _in_picture(self, x, y):
+        left, top = self.scene.camera.view()
+        width, height = self.scene.camera.size
+        return left - 32 < x < left + width + 32 and top - 32 < y < top + height + 32
+
     def _sound(self, name, volume):
-        x, _ = self.scene.camera.to_canvas(self.scene.hero.character.position[0], 0.0)
-        self.scene.play(name, x, volume)
+        self._sound_at(name, self.scene.hero.character.position[0], volume)
+
+    def _sound_at(self, name, x, volume):
+        self.scene.play(name, self.scene.camera.to_canvas(x, 0.0)[0], volume)
 
     def _feet(self):
         x, y = self.scene.hero.character.position

@@ -1,170 +1,316 @@
-"""The scripted player: looks ahead at tiles and things, and presses keys. It knows the rules of the moves, not the level.
+"""The scripted player: goes from hint to hint of the map and presses keys by rules.
 
-Rules, in order: wait for a platform until it is docked and stay on it until the other side; jump off walls when
-falling; on the ground jump at what is in the way, over what hurts, onto walkers; drop through planks for coins below.
+A hint says where to be next and how: run (and jump at what is in the way), jump at once, climb, kick from wall to wall,
+ride a platform, drop through a plank, push, fall, or let a spring throw it. When, it sees for itself: whether a platform is
+docked, where an enemy will be, whether there is ground ahead.
 """
 
-from scenes.platformer.hero import HEIGHT
+from math import sqrt
 
-LEAP = 18                    # [px] before an edge or spikes it jumps
-NEAR_WALKER = 30             # [px] the last chance to jump over a walker
-FLIGHT = 0.63                # [s] from a full jump's start to a walker's back
-REACH = (112, 127)           # [px] how far a full jump carries in that time
+from scenes.platformer.feel import GRAVITY, RUN_SPEED
+
+NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18       # [px] beside, below and above a hint (on a crate) that count as there
+EDGE = 10                    # [px] before an edge it jumps
+STEP = 18                    # [px] lower ground ahead is no gap
+HOLD = 40                    # steps that jump is held
+FLIGHT = 0.63                # [s] from a full jump's start to an enemy's back
+REACH = (100, 128)           # [px] how far a full jump carries in that time
+CLOSE, FAST_CLOSE = 34, 54   # [px] the last chance to jump over an enemy, over one that flies
+RUN_UP = 62                  # [px] before what is to be jumped over at full speed
+PAUSE, LONGEST_PAUSE = 37, 90    # steps
 DOCK = 1.5                   # [px] a platform that near its end is docked
-SHAFT = 56                   # [px] walls that near can be kicked in turn
-JUMP_HEIGHT = 57             # [px]
-BELOW = 110                  # [px] coins that far under a plank are worth a drop
-PATIENCE = 6                 # steps of standing at a wall before it jumps: a crate may still give way
+KICK_SPEED = -90.0           # [px/s] slower than this upwards, it kicks
 
 
 class Runner:
-    """Remembers little: how long it has been stopped, which coins it dropped for, whether jump is still to be released."""
+    """Remembers which hint is next, which was next at the last checkpoint, and whether jump is still to be released."""
 
     def __init__(self):
-        self.stopped = 0
-        self.dropped_for = set()
-        self.hold = 0
-        self.spring = None         # the one it walks back to
+        self.next = self.kept = 0
+        self.lives = -1
+        self.start_again()
+
+    def remember(self):
+        """A checkpoint was lit."""
+        self.kept = self.next
+
+    def start_again(self):
+        """A new life: it waits a while, each time another one, since the same steps would end the same way."""
+        self.next = self.kept
+        self.lives += 1
+        self.pause = self.lives * PAUSE % LONGEST_PAUSE
+        self.hold = 0              # steps that jump is still held
+        self.fresh = True          # a hint has just become the next one
+        self.boarded = None        # (platform, the end at which it was boarded)
+        self.thrown = False        # a spring has thrown him on the way to this hint
+        self.dropped = False
 
     def keys(self, scene):
         """The actions of the next step."""
-        if scene.phase != "playing":
+        hints = scene.level.hints
+        if scene.phase != "playing" or self.next >= len(hints) or self.pause:
+            self.pause = max(self.pause - 1, 0)
             return frozenset()
-        hero = scene.hero
-        self.stopped = self.stopped + 1 if hero.grounded and hero.wall and hero.vx == 0.0 else 0
-        if self.stopped == PATIENCE and hero.wall > 0:
-            self.spring = self._spring_behind(scene)
-        way, waits = self._way(scene)
-        if hero.grounded and not waits and self._drops(scene):
-            return frozenset(("down", "jump"))
-        jump = self._wants_jump(scene, waits)
-        if jump and not self.hold:
-            self.hold = 40
-        self.hold = max(self.hold - 1, 0)
-        keys = {way} if way else set()
-        # Held while it rises; up for one step before the next press, since only a fresh press jumps.
-        if self.hold and (jump or not hero.grounded):
-            keys.add("jump")
-        else:
+        while self.next < len(hints) and self._there(scene, hints[self.next]):
+            self.next += 1
+            self.fresh, self.boarded, self.thrown, self.dropped = True, None, False, False
+        if self.next >= len(hints):
+            return frozenset()
+        hint = hints[self.next]
+        keys, jump = getattr(self, "_" + hint.properties["act"])(scene, scene.hero, hint)
+        self.fresh = False
+        return self._press(scene.hero, set(keys), jump)
+
+    def _press(self, hero, keys, jump):
+        """Held while it rises; up for one step before the next press, since only a fresh press jumps."""
+        if jump and self.hold == 0:
+            self.hold = HOLD
+        elif self.hold and (hero.vy >= 0.0 or self.hold == 1) and self.hold < HOLD - 1:
             self.hold = 0
+        if self.hold:
+            self.hold -= 1
+            keys.add("jump")
         return frozenset(keys)
 
-    # --- where to ------------------------------------------------------------------------------------------------------
+    def _there(self, scene, hint):
+        hero, act = scene.hero, hint.properties["act"]
+        x, feet = hero.character.position[0], hero.box[3]
+        near = abs(x - _middle(hint)) <= NEAR_X and -NEAR_UP <= feet - _foot(hint) <= NEAR_Y
+        if act == "push":
+            return abs(x - _middle(hint)) <= NEAR_X
+        return near and hero.grounded
 
-    def _way(self, scene):
-        """(key to hold, whether it waits for a platform)."""
-        hero = scene.hero
-        left, _, right, bottom = hero.box
-        if self.spring is not None:
-            if hero.vy < -300.0:
-                self.spring = None
-            else:
-                return ("left" if self.spring.x < (left + right) / 2 else "right"), False
-        if hero.grounded and self._over_edge(scene) and self._lands_badly(scene):
-            return None, True
-        for platform in scene.things.platforms:
-            box = platform.box
-            if hero.riding == platform.body:
-                return self._ride(platform, hero)
-            start_left = platform.start[0] - platform.size[0] / 2
-            start_top = platform.start[1] - platform.size[1] / 2
-            before = start_left - 40 < right <= start_left + 20 and abs(bottom - start_top) < 8
-            under = start_left < (left + right) / 2 < start_left + platform.size[0] and bottom > start_top + 16
-            if under and platform.end[1] < platform.start[1]:
-                return "left", False         # fallen into its pit: out again on the near side
-            if before and hero.grounded and not self._docked(platform, platform.start):
-                return (None if right < start_left - 12 else "left"), True
-            if left >= box[0] - 30 and right <= box[0] + 20 and hero.grounded and abs(bottom - box[1]) < 3:
-                return "right", True
-        return "right", False
+    # --- the acts: (keys, whether to jump) -----------------------------------------------------------------------------
 
-    def _spring_behind(self, scene):
-        """A spring on this floor, when the wall ahead is higher than a jump."""
-        left, top, right, bottom = scene.hero.box
-        if all(scene.level.blocks(right, top - rise, 1, HEIGHT) for rise in (16, 32, 48, JUMP_HEIGHT)):
-            for trigger in scene.things.of("spring"):
-                if left - 96 < trigger.x < left and abs(trigger.foot[1] - bottom) < 4:
-                    return trigger
-        return None
+    def _run(self, scene, hero, hint):
+        way = _way(hero, hint)
+        if not hero.grounded:
+            return _keys(self._landing_aside(scene, hero) or way), False
+        left, _, right, feet = hero.box
+        below = _foot(hint) > feet + NEAR_Y and abs(_middle(hint) - (left + right) / 2) < 24
+        if below and scene.level.on_plank(left, feet, right - left):
+            return {"down"}, True
+        if self._needs_a_run_up(scene, hero, way):
+            return _keys(-way), False
+        if self._waits_at_edge(scene, hero, hint, way):
+            return frozenset(), False
+        return _keys(way), self._must_jump(scene, hero, hint, way)
 
-    def _ride(self, platform, hero):
-        x, _ = hero.character.position
-        middle, _ = platform.body.position
-        if self._docked(platform, platform.end):
-            return "right", True
-        if abs(x - middle) < 8:
-            return None, True
-        return ("right" if x < middle else "left"), True
+    def _needs_a_run_up(self, scene, hero, way):
+        """Whether spikes that walk are so near that a jump from here, at this speed, would end on them."""
+        x, feet = hero.character.position[0], hero.box[3]
+        return hero.vx * way < 120.0 and not hero.wall and any(
+            not enemy.stompable and abs(enemy.bottom - feet) < 10 and 0 < (enemy.character.position[0] - x) * way < RUN_UP
+            for enemy in scene.things.enemies.values())
 
-    def _docked(self, platform, place):
-        x, y = platform.body.position
-        return abs(x - place[0]) < DOCK and abs(y - place[1]) < DOCK
+    def _waits_at_edge(self, scene, hero, hint, way):
+        """Whether spikes that walk are just where a step down from here would end."""
+        x, feet = hero.character.position[0], hero.box[3]
+        if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
+            return False
+        return any(not enemy.stompable and STEP < enemy.bottom - feet < 120
+                   and -20 < (enemy.place_after(0.4) - x) * way < RUN_UP for enemy in scene.things.enemies.values())
+
+    def _landing_aside(self, scene, hero):
+        """The way to steer in the air so as not to come down on spikes that walk; 0 if none are there."""
+        x, feet = hero.character.position[0], hero.box[3]
+        for enemy in scene.things.enemies.values():
+            depth = enemy.top - feet
+            if enemy.stompable or not 0 < depth < 120 or hero.vy < -60.0:
+                continue
+            time = (sqrt(hero.vy * hero.vy + 2.0 * GRAVITY * depth) - hero.vy) / GRAVITY
+            lands, there = x + hero.vx * time, enemy.place_after(time)
+            if abs(lands - there) < 26:
+                # Past it where he nearly is already, else short of it.
+                return 1 if lands > there + 6 * (1 if hero.vx > 0.0 else -1) else -1
+        return 0
+
+    def _jump(self, scene, hero, hint):
+        way = _way(hero, hint, 3)
+        if hero.grounded:
+            return _keys(way), self.fresh or self._must_jump(scene, hero, hint, way) or hero.wall == way != 0
+        return _keys(way), False
+
+    def _climb(self, scene, hero, hint):
+        x, feet = hero.character.position[0], hero.box[3]
+        turn = "down" if _foot(hint) > feet else "up"
+        if hero.ladder is not None:
+            return {turn}, False
+        if abs(x - _middle(hint)) > 3:
+            way = _way(hero, hint, 3)
+            return _keys(way), hero.grounded and self._must_jump(scene, hero, hint, way)
+        return {turn}, False
+
+    def _kick(self, scene, hero, hint):
+        if hero.grounded:
+            return _keys(hero.facing), hero.wall == hero.facing
+        up = hero.box[3] <= _foot(hint) + 2
+        if up:
+            return _keys(_way(hero, hint, 3)), False
+        way = hero.wall or hero.facing
+        return _keys(way), hero.wall != 0 and hero.locked == 0 and hero.vy > KICK_SPEED
+
+    def _drop(self, scene, hero, hint):
+        x = hero.character.position[0]
+        if hero.grounded and not self.dropped:
+            if abs(x - _middle(hint)) > 6:
+                return _keys(_way(hero, hint, 3)), False
+            self.dropped = True
+            return {"down"}, True
+        return _keys(_way(hero, hint, 3)), False
+
+    def _push(self, scene, hero, hint):
+        return _keys(_way(hero, hint)), False
+
+    def _fall(self, scene, hero, hint):
+        return _keys(_way(hero, hint, 3)), False
+
+    def _spring(self, scene, hero, hint):
+        self.thrown = hero.vy < -300.0 or (self.thrown and not hero.grounded)
+        if self.thrown:
+            # With a wall at hand and still too low, the kicks begin where the throw ends.
+            return self._kick(scene, hero, hint) if hero.wall or hero.locked else (_keys(_way(hero, hint, 3)), False)
+        spring = min(scene.things.of("spring"), key=lambda one: abs(one.x - hero.character.position[0])
+                     + abs(one.foot[1] - hero.box[3]))
+        way = 1 if spring.x > hero.character.position[0] else -1
+        if not hero.grounded:
+            return _keys(self._landing_aside(scene, hero) or way), False
+        return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
+
+    def _ride(self, scene, hero, hint):
+        x, feet = hero.character.position[0], hero.box[3]
+        if self.boarded is None:
+            return self._board(scene, hero, hint)
+        platform, start = self.boarded
+        other = platform.end if start == platform.start else platform.start
+        left, _, right, _ = platform.box
+        on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
+        if not on_it and hero.grounded and hero.riding is None:
+            return self._run(scene, hero, hint)                # off it, on the other side or still on this one
+        if _docked(platform, other):
+            way = _way(hero, hint)
+            return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
+        if not hero.grounded:
+            return _keys(_way_to(hero, (left + right) / 2, 6)), False
+        jump = self._enemy_near(scene, hero)
+        middle = (left + right) / 2
+        if hero.riding is not None and hero.riding.user == "crate":
+            return frozenset(), jump
+        return _keys(_way_to(hero, middle, 10)), jump or (hero.wall != 0 and abs(x - middle) > 10)
+
+    def _board(self, scene, hero, hint):
+        x, feet = hero.character.position[0], hero.box[3]
+        platform = min(scene.things.platforms, key=lambda one: min(abs(x - one.start[0]) + abs(feet - one.start[1]),
+                                                                   abs(x - one.end[0]) + abs(feet - one.end[1])))
+        end = min((platform.start, platform.end), key=lambda place: abs(x - place[0]) + abs(feet - place[1]))
+        left = end[0] - platform.size[0] / 2
+        right = end[0] + platform.size[0] / 2
+        way = 1 if end[0] > x else -1
+        if left <= x <= right and hero.grounded and hero.riding is not None:
+            self.boarded = (platform, end)
+            return self._ride(scene, hero, hint)
+        if not hero.grounded and left - 40 < x < right + 40:
+            return _keys(_way_to(hero, self._place_on(scene, platform, x), 5)), False
+        gap = left - x if way > 0 else x - right
+        if not _soon(platform, end, scene.ticks, 30):
+            if gap > 28:
+                return _keys(way), hero.grounded and self._must_jump(scene, hero, hint, way)
+            return _keys(-way if gap < 12 and hero.grounded else 0), hero.grounded and self._enemy_near(scene, hero)
+        return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
+
+    def _place_on(self, scene, platform, x):
+        """Where to come down on a platform: on its crate, if it has a large one, else in its middle."""
+        left, top, right, _ = platform.box
+        for crate in scene.things.crates:
+            at, _ = crate.body.position
+            if crate.size[0] > 16 and left < at < right and abs(crate.box[3] - top) < 4:
+                return at
+        return (left + right) / 2
 
     # --- what to do there ------------------------------------------------------------------------------------------------
 
-    def _wants_jump(self, scene, waits):
-        hero = scene.hero
-        if not hero.grounded:
-            if self.hold and hero.vy < 0.0:
-                return True
-            return hero.wall != 0 and hero.locked == 0 and (hero.vy > 30.0 or hero.wall < 0) and self._in_shaft(scene)
-        if waits:
-            return self._walker_comes(scene)
-        return (self.stopped >= PATIENCE and self.spring is None) or self._over_edge(scene) or self._onto_walker(scene)
+    def _must_jump(self, scene, hero, hint, way):
+        """What is in the way: a wall, a gap that does not lead there, an enemy."""
+        if not way:
+            return self._enemy_near(scene, hero)
+        left, _, right, bottom = hero.box
+        if hero.wall == way and not (hero.pushing and hero.vx != 0.0 and hint.properties["act"] == "push"):
+            return True
+        level_or_up = _foot(hint) <= bottom + NEAR_Y
+        beyond = abs(_middle(hint) - hero.character.position[0]) > EDGE + 6
+        edge = right + EDGE if way > 0 else left - EDGE
+        if level_or_up and beyond and not self._ground(scene, edge, bottom):
+            return True
+        if self._spikes(scene, hero, way):
+            return True
+        return self._enemy_ahead(scene, hero, way)
 
-    def _in_shaft(self, scene):
-        """Whether kicks lead up: a wall on either hand, and no ledge at the hands already."""
-        left, top, right, _ = scene.hero.box
-        blocks = scene.level.blocks
-        if scene.hero.wall > 0 and not blocks(right, top - 8, 1, HEIGHT):
-            return False
-        return (any(blocks(left - reach, top, 1, HEIGHT) for reach in range(1, SHAFT, 8))
-                and any(blocks(right + reach, top, 1, HEIGHT) for reach in range(0, SHAFT, 8)))
+    def _ground(self, scene, x, bottom):
+        """Whether there is something to stand on at x, no more than a step lower."""
+        level = scene.level
+        if level.drop_to_ground(x, bottom - 4, STEP + 4) < STEP + 4 or level.kind_at(x, bottom + 2) == "one_way":
+            return True
+        return any(box[0] <= x <= box[2] and -4 <= box[1] - bottom <= STEP for box in scene.hero.solids)
 
-    def _over_edge(self, scene):
-        """Spikes just ahead and below."""
-        _, top, right, bottom = scene.hero.box
+    def _spikes(self, scene, hero, way):
+        left, _, right, bottom = hero.box
         for trigger in scene.things.of("spikes"):
             area = trigger.thing
-            if area.x - LEAP < right < area.x + area.width and -8 < area.y - bottom < 80:
+            ahead = area.x - right if way > 0 else left - area.x - area.width
+            if -4 < ahead < EDGE + 4 and -8 < area.y - bottom < 40:
                 return True
         return False
 
-    def _onto_walker(self, scene):
-        hero = scene.hero
-        _, top, right, bottom = hero.box
-        x = hero.character.position[0]
-        for walker in scene.things.walkers.values():
-            there = walker.character.position[0]
-            if abs(walker.bottom - bottom) > 24 or there < x:
+    def _enemy_ahead(self, scene, hero, way):
+        """Jump now: onto one that can be stomped, over one that cannot."""
+        x, bottom = hero.character.position[0], hero.box[3]
+        for enemy in scene.things.enemies.values():
+            there = (enemy.character.position[0] - x) * way
+            if not -4 < bottom - enemy.bottom + 12 < 36 or there < 0:
                 continue
-            then = walker.place_after(FLIGHT)
-            if REACH[0] < then - x < REACH[1] or there - right < NEAR_WALKER:
-                return hero.vx > 100.0 or there - right < NEAR_WALKER
-        return False
-
-    def _walker_comes(self, scene):
-        """A walker from either side while he stands: he jumps it, and comes down on it or behind it."""
-        x, bottom = scene.hero.character.position[0], scene.hero.box[3]
-        return any(0.0 < (x - walker.character.position[0]) * walker.way < NEAR_WALKER and abs(walker.bottom - bottom) < 8
-                   for walker in scene.things.walkers.values())
-
-    def _lands_badly(self, scene):
-        """Whether a leap from here ends beside a walker instead of on it."""
-        x, bottom = scene.hero.character.position[0], scene.hero.box[3]
-        for walker in scene.things.walkers.values():
-            ahead = walker.place_after(FLIGHT) - x
-            if abs(walker.bottom - bottom) < 24 and (REACH[0] - 40 < ahead < REACH[0] or REACH[1] < ahead < REACH[1] + 60):
+            then = (enemy.place_after(FLIGHT) - x) * way
+            if enemy.stompable and REACH[0] < then < REACH[1] and abs(hero.vx) > 0.6 * RUN_SPEED:
+                return True
+            if there < (CLOSE if enemy.kind != "bat" else FAST_CLOSE):
                 return True
         return False
 
-    def _drops(self, scene):
-        """Whether coins hang under the plank it stands on; once for each."""
-        left, _, right, bottom = scene.hero.box
-        if not scene.level.on_plank(left, bottom, right - left):
-            return False
-        below = [identity for identity, trigger in scene.things.triggers.items()
-                 if trigger.kind == "coin" and identity not in self.dropped_for
-                 and left - 10 < trigger.x < right + 26 and 0 < trigger.y - bottom < BELOW]
-        self.dropped_for.update(below)
-        return bool(below)
+    def _enemy_near(self, scene, hero):
+        """One that comes from either side while he stands."""
+        x, bottom = hero.character.position[0], hero.box[3]
+        return any(0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
+                   for enemy in scene.things.enemies.values())
+
+
+def _middle(hint):
+    return hint.x + hint.width / 2
+
+
+def _foot(hint):
+    return hint.y + hint.height
+
+
+def _way_to(hero, x, slack):
+    away = x - hero.character.position[0]
+    return 0 if abs(away) <= slack else 1 if away > 0 else -1
+
+
+def _way(hero, hint, slack=0):
+    return _way_to(hero, _middle(hint), slack)
+
+
+def _keys(way):
+    return {"right"} if way > 0 else {"left"} if way < 0 else set()
+
+
+def _docked(platform, place):
+    x, y = platform.body.position
+    return abs(x - place[0]) < DOCK and abs(y - place[1]) < DOCK
+
+
+def _soon(platform, place, tick, within):
+    """Whether it is docked there now or within some steps, and not about to leave."""
+    here = platform.place_at(tick)
+    far = abs(here[0] - place[0]) + abs(here[1] - place[1])
+    then = platform.place_at(tick + within)
+    return far < 2.0 * DOCK or (far < 20.0 and abs(then[0] - place[0]) + abs(then[1] - place[1]) < far)

@@ -1,24 +1,27 @@
 """The platformer: a hero, one level, and the rules between them."""
 
 from game.loop import STEP_SECONDS
-from game.scene import Goal, Scene
+from game.scene import Result, Scene
 from physics import Effects
-from scenes.platformer.hero import GRAVITY, HEIGHT, WIDTH, Hero, steps
-from scenes.platformer.level import load_level
+from scenes.platformer.contents import BELOW, Contents
+from scenes.platformer.feats import Feats
+from scenes.platformer.feel import GRAVITY, HEIGHT, steps
+from scenes.platformer.hero import Hero
+from scenes.platformer.level import level_of
 from scenes.platformer.look import Look
 from scenes.platformer.runner import Runner
-from scenes.platformer.things import Things
-from scenes.platformer.view import level_view
+from scenes.platformer.view import hero_frame, level_view
 
 MOURNING = 0.6               # [s] from the hurt to the next life: long enough to see why, short enough to try again
-MERCY = 1.2                  # [s] in which walkers do not hurt a new life
-APPLAUSE = 1.2               # [s] from the goal to its result
+MERCY = 1.2                  # [s] in which enemies do not hurt a new life, or one who was thrown back
+APPLAUSE = 1.6               # [s] from the goal to its result
+HIT_STOP = 4                 # [steps] the picture stands still when he is hurt: 67 ms
+STOMP_STOP = 3               # [steps] and when he stomps
 STRIKE = 60.0                # [px/s] slower is a crate that is pushed or rocks: two steps of gravity
 CRUSHING = 120000.0          # [density px3/s] the large crate after a fall of a tile
-STOMP_DEPTH = 9              # [px] feet this far below a walker's top still stomp it
+STOMP_DEPTH = 9              # [px] feet this far below an enemy's top still stomp it
+COIN_WORTH, SECRET_WORTH = 100, 1000
 PLAYING, HURT, WON = "playing", "hurt", "won"
-CHECKPOINTS_DUE = (900, 1200, 1500, 2100, 2700, 3300)     # steps
-FEATS = ("jumps", "wall_jumps", "drops", "springs", "stomps", "pushed", "ridden", "sloped", "slid")
 
 
 class Platformer(Scene):
@@ -26,184 +29,241 @@ class Platformer(Scene):
 
     name = "platformer"
     title = "Platformer"
-    about = "One level at dusk: run, jump, slide and kick off walls, ride, push and stomp your way to the flag."
+    about = "From the meadow through the cave to the keep at dusk: run, climb, ride, push and stomp your way to the flag."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, continuous=True,
-                      sleeping=True, sensors=True, one_way=True)
-    pieces = ("boxes", "circles", "tiles", "masks", "characters")
-    features = ("whole-pixel motion with slopes, planks and moving platforms", "coyote time, buffering, corner correction",
-                "crates stack, topple, are pushed and ridden", "hits sound, shake and hurt by their impulse",
-                "pick-ups are sensor events")
-    actions = (("Arrows", "run"), ("Space", "jump"), ("Down + Space", "through planks"))
+                      sleeping=True, sensors=True, one_way=True, conveyor=True)
+    pieces = ("boxes", "circles", "tiles", "masks", "characters", "queries")
+    features = ("whole-pixel motion with slopes, planks, ladders and lifts", "coyote time, buffering, corner correction",
+                "crates stack, topple, are pushed, ridden, thrown and carried by belts",
+                "hits sound, shake and hurt by their impulse", "pick-ups are sensor events",
+                "three secrets, a ghost of the best run")
+    actions = (("Arrows", "run, climb"), ("Space", "jump"), ("Down + Space", "through planks"))
     broadphase = "hash"
+    music = "platformer"
+    ranked_by = "seconds"
+    assists = ("invincible", "hit_stop")
+    takes_level = True
+    level_suffix = ".tmj"
     life_after = steps(MOURNING)
 
     def build(self):
         """The level and all in it."""
-        self.level = load_level()
+        self.level = level_of(self.level_file)
         self.add_world(gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
         start = self.level.map.one("hero_start")
         self.spawn = (start.x + start.width / 2, start.y + start.height - HEIGHT / 2)
         self.hero = Hero(self.world, self.level, self.spawn)
-        self.things = Things(self.world, self.level, self.random)
+        self.things = Contents(self.world, self.level, self.random)
         self.checkpoints = self.things.of("checkpoint")
-        self.walkers_touched = set()
-        self.phase, self.since, self.mercy = PLAYING, 0, 0
-        self.coins = self.deaths = self.clock = self.inside_solid = 0
-        self.feats = dict.fromkeys(FEATS, 0)
-        self.furthest = 0.0
+        self.touched = set()       # ids of the enemies that he touches
+        self.phase, self.since, self.mercy, self.stop = PLAYING, 0, 0, 0
+        self.coins = self.secrets = self.deaths = 0
+        self.clock = 0             # [steps] of the run, with its hurts, without the picture's stops
+        self.ticks = 0             # [steps] of the world
+        self.safe = self.spawn     # where he last stood on plain ground: with the assist, spikes throw him back there
+        self.feats = Feats(self)
         self.runner = Runner()
         self.look = Look(self)
 
     def update(self, inputs):
         """Things move, the hero moves, the world steps, and what happened is read from it."""
-        if self.phase == WON and self.since > steps(APPLAUSE) and (inputs.pressed("confirm") or inputs.pressed("jump")):
-            self.restart()
+        if self.stop:
+            self.stop -= 1
+            self.hero.listen(inputs)
+            self.look.hold()
             return
         self.look.begin_step()
         self._move_things()
         self._move_hero(inputs)
         self.world.step()
+        self.ticks += 1
         self._read_events()
-        self._count()
+        self.feats.count()
         self.since += 1
         if self.phase == HURT and self.since >= self.life_after:
             self._start_life()
+        elif self.phase == WON and self.since == steps(APPLAUSE):
+            self.result = self._result()
+        if self.phase != WON:
+            x, _ = self.hero.character.position
+            self.trail.append((x, self.look.foot, *hero_frame(self)))
         self.look.step(STEP_SECONDS)
 
     def _move_things(self):
-        things = self.things
-        for platform in things.platforms:
-            platform.aim(self.frame)
-        for walker in things.walkers.values():
-            walker.step()
+        for word, thing in self.things.step(self.ticks, self.hero.character.position):
+            if word == "squeezed":
+                self._flatten(thing)
+            else:
+                self.look.tell(word, thing)
 
     def _move_hero(self, inputs):
         hero, things = self.hero, self.things
         hero.crates = things.crates
-        hero.solids = things.crate_boxes + things.platform_boxes
+        hero.solids = things.solid_boxes
+        self.clock += self.phase != WON
         if self.phase == PLAYING:
             hero.step(inputs)
-            self.clock += 1
+            if hero.grounded and hero.riding is None and hero.character.surface_speed == 0.0:
+                self.safe = hero.character.position
         elif self.phase == WON:
             hero.rest()
         else:
             hero.news.clear()
             hero.before = hero.character.position
         self.look.hear(hero.news)
-        if hero.crushed and self.phase == PLAYING:
-            self._hurt()
+        if self.phase != PLAYING:
+            return
+        if hero.crushed or hero.box[1] > self.level.size[1] + BELOW:
+            self._lose()
+
+    # --- what the world has seen ---------------------------------------------------------------------------------------
 
     def _read_events(self):
-        events, me = self.world.events, self.hero.character.body.id
-        for identity in sorted(_others(events.sensor_begin, me)):
-            self._touch(self.things.triggers[identity])
-        self.walkers_touched |= _others(events.begin, me) & self.things.walkers.keys()
-        self.walkers_touched -= _others(events.end, me)
-        for identity in sorted(self.walkers_touched):
-            self._meet(identity)
+        events, things, me = self.world.events, self.things, self.hero.character.body.id
+        for identity in sorted(others(events.sensor_end, me)):
+            self.hero.ladders.pop(identity, None)
+            if identity in things.lairs:
+                things.lairs[identity].seen = False
+        for identity in sorted(others(events.sensor_begin, me)):
+            if identity in things.lairs:
+                things.lairs[identity].seen = True
+            elif identity in things.triggers:
+                self._touch(things.triggers[identity])
+        self._read_springs(events.sensor_begin)
+        things.press_stones(self.hero.riding if self.phase == PLAYING else None, events.begin)
+        self.touched |= others(events.begin, me) & things.enemies.keys()
+        self.touched -= others(events.end, me)
+        for identity in sorted(self.touched):
+            if identity in things.enemies:
+                self._meet(things.enemies[identity])
         for hit in events.hits[events.hits["speed"] > STRIKE]:
             self._strike(hit, me)
         self.mercy = max(self.mercy - 1, 0)
 
+    def _read_springs(self, begun):
+        """Crates that have come down on a spring."""
+        things = self.things
+        for pair in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
+            for crate, spring in (pair, pair[::-1]):
+                if crate in things.crate_ids and spring in things.triggers:
+                    things.crate_ids[crate].launch()
+                    things.triggers[spring].touched = self.ticks
+                    self.look.threw(things.triggers[spring])
+                    self.feats.done["crates thrown"] += 1
+
     def _strike(self, hit, me):
-        """A crate hit something: how hard, its impulse says. A walker under it is flat, a hero under it is hurt."""
+        """A crate hit something: how hard, its impulse says. An enemy under it is flat, a hero under it is hurt."""
         impulse, pair = float(hit["normal_impulse"]), (int(hit["body_a"]), int(hit["body_b"]))
+        enemies = self.things.enemies
         self.look.struck(float(hit["point_x"]), float(hit["point_y"]), impulse)
         for identity, other, down in ((*pair, -hit["normal_y"]), (*reversed(pair), hit["normal_y"])):
-            if impulse < CRUSHING or down < 0.7 or other in self.things.walkers:
+            if impulse < CRUSHING or down < 0.7 or other in enemies:
                 continue
-            if identity in self.things.walkers:
-                self._flatten(identity)
-            elif identity == me and not self.mercy:
-                self._hurt()
+            if identity in enemies:
+                self.feats.done["crushed"] += 1
+                self._flatten(enemies[identity])
+            elif identity == me:
+                self._hurt(self.hero.facing)
 
-    def _flatten(self, identity):
-        self.walkers_touched.discard(identity)
-        self.look.squashed(self.things.walkers[identity])
-        self.things.squash(identity)
+    def _flatten(self, enemy):
+        if enemy.body.id in self.things.enemies:
+            self.touched.discard(enemy.body.id)
+            self.look.squashed(enemy)
+            self.things.remove(enemy)
 
     def _touch(self, trigger):
-        trigger.touched = self.frame
-        if trigger.kind == "goal" and self.phase == PLAYING:
-            self.phase, self.since = WON, 0
-            self.look.won(trigger)
-        elif trigger.kind == "spikes":
-            self._hurt()
+        kind = trigger.kind
+        trigger.touched = self.ticks
+        if kind == "ladder":
+            self.hero.ladders[trigger.body.id] = trigger
         elif self.phase != PLAYING:
             return
-        elif trigger.kind == "coin":
-            self.coins += 1
+        elif kind == "goal":
+            self.phase, self.since = WON, 0
+            self.look.won(trigger)
+        elif kind == "spikes":
+            self._impale()
+        elif kind in ("coin", "secret"):
+            self.coins += kind == "coin"
+            self.secrets += kind == "secret"
             self.things.take(trigger)
-            self.look.took_coin(trigger)
-        elif trigger.kind == "spring":
+            self.look.took(trigger)
+        elif kind == "spring":
             self.hero.launch()
-            self.feats["springs"] += 1
+            self.feats.done["springs"] += 1
             self.look.hear(("launch",))
-        elif trigger.kind == "checkpoint" and not trigger.lit:
+        elif kind == "checkpoint" and not trigger.lit:
             trigger.lit = True
             x, bottom = trigger.foot
             self.spawn = (x, bottom - HEIGHT / 2)
+            self.runner.remember()
             self.look.lit(trigger)
 
-    def _meet(self, identity):
-        """A walker's back is a step, its sides hurt."""
-        hero, walker = self.hero, self.things.walkers[identity]
+    def _meet(self, enemy):
+        """The back of some is a step; all else of them hurts."""
+        hero = self.hero
         if self.phase != PLAYING:
             return
-        if hero.vy > 0.0 and hero.box[3] - walker.top <= STOMP_DEPTH:
-            self._flatten(identity)
+        # Where his feet were a step ago: a quick fall must not end as a hit from beside.
+        depth = hero.box[3] - hero.vy * STEP_SECONDS - enemy.top
+        if enemy.stompable and hero.vy > 0.0 and depth <= STOMP_DEPTH:
+            self._flatten(enemy)
             hero.bounce()
-            self.feats["stomps"] += 1
+            self.stop = STOMP_STOP if self.assist["hit_stop"] else 0
+            self.feats.done["stomps"] += 1
             self.look.hear(("stomp",))
         elif not self.mercy:
-            self._hurt()
+            self._hurt(1 if hero.character.position[0] >= enemy.character.position[0] else -1)
 
-    def _hurt(self):
-        if self.phase == PLAYING:
-            self.phase, self.since = HURT, 0
-            self.deaths += 1
-            self.look.hurt()
+    def _hurt(self, away):
+        """Something hurts him: he loses this life, or with the assist is only thrown `away` (-1, 1)."""
+        if self.phase != PLAYING or (self.mercy and self.assist["invincible"]):
+            return
+        if self.assist["invincible"]:
+            self.mercy = steps(MERCY)
+            self.hero.throw(away)
+            self.look.hear(("thrown",))
+        else:
+            self._lose()
+
+    def _impale(self):
+        """Spikes: a life, or with the assist the way back to where he last stood."""
+        if not self.assist["invincible"]:
+            self._lose()
+            return
+        self.look.vanished()
+        self.hero.place(self.safe)
+        self.mercy = steps(MERCY)
+        self.look.hear(("thrown",))
+
+    def _lose(self):
+        self.phase, self.since = HURT, 0
+        self.deaths += 1
+        self.stop = HIT_STOP if self.assist["hit_stop"] else 0
+        self.look.hurt()
 
     def _start_life(self):
         self.phase, self.since, self.mercy = PLAYING, 0, steps(MERCY)
         self.hero.place(self.spawn)
         self.hero.facing = 1
+        self.touched.clear()
         self.things.go_home()
+        self.runner.start_again()
         self.look.arrive()
 
-    # --- what the judge wants to know ----------------------------------------------------------------------------------
+    def _result(self):
+        things = self.things
+        hurts = "not hurt" if not self.deaths else "hurt once" if self.deaths == 1 else f"hurt {self.deaths} times"
+        return Result(True, self.coins * COIN_WORTH + self.secrets * SECRET_WORTH, self.clock * STEP_SECONDS,
+                      (f"coins {self.coins} of {things.coins_in_all}",
+                       f"secrets {self.secrets} of {things.secrets_in_all}", hurts))
 
-    def _count(self):
-        hero, feats = self.hero, self.feats
-        left, top, _, _ = hero.box
-        self.inside_solid += self.level.blocks(left, top, WIDTH, HEIGHT)
-        self.furthest = max(self.furthest, hero.character.position[0])
-        for word, feat in (("jump", "jumps"), ("wall_jump", "wall_jumps"), ("drop", "drops")):
-            feats[feat] += word in hero.news
-        feats["pushed"] += any(abs(c.body.position[0] - c.home[0]) > 16 for c in self.things.crates)
-        feats["ridden"] += any(hero.riding == platform.body for platform in self.things.platforms)
-        feats["sloped"] += hero.grounded and hero.slope != 0.0
-        feats["slid"] += hero.sliding != 0
+    # --- the rest of a scene -------------------------------------------------------------------------------------------
 
     def check(self):
         """All that the level teaches, by when the bot is past it."""
-        feats, lit = self.feats, [trigger.lit for trigger in self.checkpoints]
-        reached = [Goal(f"checkpoint {number}", due, number <= len(lit) and lit[number - 1], f"at x {self.furthest:.0f}")
-                   for number, due in enumerate(CHECKPOINTS_DUE, 1)]
-        return [
-            Goal("never inside a solid tile", 1, self.inside_solid == 0, f"{self.inside_solid} steps"),
-            Goal("walked a slope", 480, feats["sloped"] > 20, f"{feats['sloped']} steps"),
-            *reached,
-            Goal("stomped or passed a walker", 900, feats["stomps"] > 0 or lit[0], f"{feats['stomps']} stomps"),
-            Goal("dropped through a plank", 1200, feats["drops"] > 0),
-            Goal("thrown by a spring", 1500, feats["springs"] > 0),
-            Goal("pushed a crate", 1800, feats["pushed"] > 0),
-            Goal("rode a platform", 2400, feats["ridden"] > 60, f"{feats['ridden']} steps"),
-            Goal("kicked off walls", 3400, feats["wall_jumps"] > 2, f"{feats['wall_jumps']}"),
-            Goal("coins", 3600, self.coins >= 40, f"{self.coins} of {self.things.coins_in_all}"),
-            Goal("reached the goal", 3600, self.phase == WON, f"{self.phase} at x {self.furthest:.0f}"),
-        ]
+        return self.feats.goals()
 
     def bot(self):
         """The scripted player."""
@@ -211,15 +271,15 @@ class Platformer(Scene):
 
     def state(self):
         """All that is not in the world."""
-        return (self.frame, self.phase, self.since, self.mercy, self.coins, self.deaths, self.clock, *self.spawn,
-                *self.hero.state(), *self.things.state(), *sorted(self.walkers_touched))
+        return (self.frame, self.ticks, self.phase, self.since, self.mercy, self.stop, self.coins, self.secrets, self.deaths,
+                self.clock, *self.spawn, *self.safe, *self.hero.state(), *self.things.state(), *sorted(self.touched))
 
     def draw(self, canvas, alpha):
         """The picture."""
-        level_view(self.level).draw(self, canvas, alpha)
+        level_view(self.level).draw(self, canvas, 1.0 if self.stop else alpha)
 
 
-def _others(rows, identity):
+def others(rows, identity):
     """The bodies that share an event with `identity`."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

@@ -1,20 +1,37 @@
-"""What the hero meets: triggers that are picked up or touched, walkers, platforms, crates."""
+"""What the hero meets and what does not walk: triggers that are touched, platforms, belts, crumbling stones, crates."""
 
 from math import ceil, cos, floor, pi, sin
 
 from game.loop import STEP_SECONDS
-from physics import Character, Material, Polygon
-from scenes.platformer.level import CRATE_FILTER, PLATFORM_FILTER, TRIGGER_FILTER, WALKER_FILTER
+from physics import Filter, Material, Polygon
+from scenes.platformer.feel import SPRING_SPEED, steps
+from scenes.platformer.level import (
+    CRATE,
+    CRATE_FILTER,
+    DEBRIS_FILTER,
+    ENEMY,
+    HERO,
+    PLATFORM,
+    PLATFORM_FILTER,
+    SPRING_FILTER,
+    TILE_FILTER,
+    TRIGGER_FILTER,
+)
 
-WALK_SPEED = 36.0            # [px/s] a fifth of the hero's: it can be read and waited for
-WALKER_BOX = (16, 13)        # [px] inside the sprite of 20 x 16: its cap's rim does not hurt
 CRATE_DENSITY = 0.5          # the large one weighs two and a half heroes: he tips what he stands on
 CRATE_FRICTION = 0.3         # the ground's is twice that
 SLIDES = 0.1                 # [px] a step that a crate gives way by
+SPRING_KEEPS = 0.5           # of its speed along x that a crate keeps when a spring throws it: up is where it aims
 COIN_REACH = 2               # [px] around a coin: whoever comes that close meant it
 LANTERN_SHINES = 64          # [px] above a checkpoint it is still reached: nobody loses it to a jump
 SPRING_INSET = (2, 7)        # [px] the plate lies low in its tile
-TRIGGERS = ("coin", "spring", "spikes", "checkpoint", "goal")
+LADDER_INSET, LADDER_OVER = 3, 4     # [px] from its sides; above its top, where one who stands there reaches it with the feet
+TRIGGERS = ("coin", "secret", "spring", "spikes", "checkpoint", "goal", "ladder")
+SHAKES = 0.5                 # [s] a crumbling stone holds from the first foot on it
+GONE = 3.0                   # [s] until it is back, if nobody is in its place
+BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))      # [px] where its pieces start from
+BIT_SIZE, BIT_DENSITY = 7, 0.2
+BIT_LIFE = 1.6               # [s]
 
 
 class Trigger:
@@ -23,16 +40,19 @@ class Trigger:
     def __init__(self, world, thing):
         self.kind, self.thing = thing.kind, thing
         left, top, width, height = thing.x, thing.y, thing.width, thing.height
-        if self.kind == "coin":
+        self.top = thing.y
+        if self.kind in ("coin", "secret"):
             left, top, width, height = left - COIN_REACH, top - COIN_REACH, width + 2 * COIN_REACH, height + 2 * COIN_REACH
         elif self.kind == "spring":
             left, top, width, height = (left + SPRING_INSET[0], top + SPRING_INSET[1], width - 2 * SPRING_INSET[0],
                                         height - SPRING_INSET[1])
         elif self.kind == "checkpoint":
             top, height = top - LANTERN_SHINES, height + LANTERN_SHINES
+        elif self.kind == "ladder":
+            left, top, width, height = left + LADDER_INSET, top - LADDER_OVER, width - 2 * LADDER_INSET, height + LADDER_OVER
         self.x, self.y = left + width / 2, top + height / 2
         self.body = world.add_body(Polygon.box(width, height), position=(self.x, self.y), kind="static", sensor=True,
-                                   filter=TRIGGER_FILTER, user=self.kind)
+                                   filter=SPRING_FILTER if self.kind == "spring" else TRIGGER_FILTER, user=self.kind)
         self.lit = False
         self.touched = None
 
@@ -42,49 +62,10 @@ class Trigger:
         return self.thing.x + self.thing.width / 2, self.thing.y + self.thing.height
 
 
-class Walker:
-    """Walks to and fro around its home and turns at walls. Not solid: it hurts, or is stomped."""
-
-    def __init__(self, world, thing, way):
-        width, height = WALKER_BOX
-        self.home = (thing.x + thing.width / 2, thing.y + thing.height - height / 2)
-        self.range = float(thing.properties.get("range", 0))
-        self.character = Character(world, Polygon.box(width, height), self.home, filter=WALKER_FILTER, user="walker",
-                                   push=0.0)        # it turns at crates
-        self.way = way
-
-    @property
-    def top(self):
-        """The upper edge of its box [px]."""
-        return self.character.position[1] - WALKER_BOX[1] / 2
-
-    @property
-    def bottom(self):
-        """The lower edge of its box [px]."""
-        return self.character.position[1] + WALKER_BOX[1] / 2
-
-    def step(self):
-        """One step of walking."""
-        x = self.character.position[0]
-        if (x - self.home[0]) * self.way >= self.range:
-            self.way = -self.way
-        moved = self.character.move(self.way * WALK_SPEED * STEP_SECONDS, 0.0)
-        if moved.wall == self.way:
-            self.way = -self.way
-
-    def place_after(self, seconds):
-        """Where it will be on free ground [px]: it turns at the ends of its range."""
-        there = self.character.position[0] + self.way * WALK_SPEED * seconds
-        end = self.home[0] + self.way * self.range
-        return 2.0 * end - there if (there - end) * self.way > 0.0 else there
-
-    def go_home(self):
-        """Stand where the level put it."""
-        self.character.move_to(self.home)
-
-
 class Platform:
     """A kinematic box that swings between two places: slow at the ends, where one steps on and off."""
+
+    kind = "platform"
 
     def __init__(self, world, thing):
         half_width, half_height = thing.width / 2, thing.height / 2
@@ -96,16 +77,16 @@ class Platform:
         self.body = world.add_body(Polygon.box(*self.size), position=self.start, kind="kinematic", continuous="off",
                                    filter=PLATFORM_FILTER, user="platform")
 
-    def place_at(self, frame):
-        """Where its centre is after so many steps [px]."""
-        share = (1.0 - cos(2.0 * pi * frame * STEP_SECONDS / self.period)) / 2.0
+    def place_at(self, tick):
+        """Where its centre is after so many steps of the world [px]."""
+        share = (1.0 - cos(2.0 * pi * tick * STEP_SECONDS / self.period)) / 2.0
         return (self.start[0] + (self.end[0] - self.start[0]) * share,
                 self.start[1] + (self.end[1] - self.start[1]) * share)
 
-    def aim(self, frame):
+    def aim(self, tick):
         """Give it the velocity that takes it to its next place in one step: it moves in the world, and so carries."""
         x, y = self.body.position
-        next_x, next_y = self.place_at(frame + 1)
+        next_x, next_y = self.place_at(tick + 1)
         self.body.velocity = ((next_x - x) / STEP_SECONDS, (next_y - y) / STEP_SECONDS)
 
     @property
@@ -116,8 +97,88 @@ class Platform:
         return left, top, left + int(self.size[0]), top + int(self.size[1])
 
 
+class Block:
+    """A box of the level that stands still and is no tile: a belt, whose surface runs, or a crumbling stone."""
+
+    def __init__(self, world, thing):
+        self.world, self.thing, self.kind = world, thing, thing.kind
+        self.size = (int(thing.width), int(thing.height))
+        self.center = (thing.x + thing.width / 2, thing.y + thing.height / 2)
+        left, top = int(thing.x), int(thing.y)
+        self.box = (left, top, left + self.size[0], top + self.size[1])
+
+
+class Belt(Block):
+    """Its surface runs at `speed` [px/s] to the right and carries what lies or stands on it."""
+
+    def __init__(self, world, thing):
+        super().__init__(world, thing)
+        self.speed = float(thing.properties["speed"])
+        self.body = world.add_body(Polygon.box(*self.size), position=self.center, kind="static", filter=TILE_FILTER,
+                                   material=Material(surface_speed=self.speed), user="belt")
+
+
+class Crumble(Block):
+    """A stone that shakes under the first foot or crate on it, breaks into pieces, and comes back."""
+
+    FREE = Filter(PLATFORM, HERO | ENEMY | CRATE)
+
+    def __init__(self, world, thing):
+        super().__init__(world, thing)
+        self.whole = self.box
+        self.count = 0                    # steps since it began to shake, or since it broke
+        self.shaking = False
+        self.body = None
+        self.bits = []                    # [body, age in steps]
+        self.stand()
+
+    def stand(self):
+        """Be there, whole."""
+        if self.body is None:
+            self.body = self.world.add_body(Polygon.box(*self.size), position=self.center, kind="kinematic", continuous="off",
+                                            filter=PLATFORM_FILTER, user="crumble")
+        self.box, self.count, self.shaking = self.whole, 0, False
+
+    def press(self):
+        """Somebody is on it."""
+        self.shaking = self.body is not None
+
+    def step(self):
+        """One step. Returns "shake" or "break" when it begins to, or "back"."""
+        for bit in self.bits:
+            bit[1] += 1
+        for body, _ in [bit for bit in self.bits if bit[1] > steps(BIT_LIFE)]:
+            self.world.remove_body(body)
+        self.bits = [bit for bit in self.bits if bit[1] <= steps(BIT_LIFE)]
+        if self.body is None:
+            self.count += 1
+            if self.count >= steps(GONE) and not self.world.overlap(Polygon.box(*self.size), (*self.center, 0.0),
+                                                                    filter=self.FREE):
+                self.stand()
+                return "back"
+        elif self.shaking:
+            self.count += 1
+            if self.count == 1:
+                return "shake"
+            if self.count > steps(SHAKES):
+                self._fall_apart()
+                return "break"
+        return None
+
+    def _fall_apart(self):
+        self.world.remove_body(self.body)
+        self.body, self.box, self.count, self.shaking = None, (0, 0, 0, 0), 0, False
+        for dx, dy in BITS:
+            body = self.world.add_body(Polygon.box(BIT_SIZE, BIT_SIZE), position=(self.center[0] + dx, self.center[1] + dy),
+                                       velocity=(3.0 * dx, -30.0), angular_velocity=0.3 * dx, filter=DEBRIS_FILTER,
+                                       material=Material(BIT_DENSITY), user="bit")
+            self.bits.append([body, 0])
+
+
 class Crate:
-    """A body of the physics: it falls, stacks, tips over, is pushed and ridden."""
+    """A body of the physics: it falls, stacks, tips over, is pushed, ridden, thrown and carried."""
+
+    kind = "crate"
 
     def __init__(self, world, thing):
         self.size = (int(thing.width), int(thing.height))
@@ -131,9 +192,15 @@ class Crate:
         row = self.body.world.bodies[self.body.world.rows(self.body.id)]
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
-    def go_home(self):
-        """Stand where the level put it."""
-        self.body.move_to(self.home, 0.0)
+    def launch(self):
+        """A spring throws it by an impulse: as high as it throws the hero, whatever its mass."""
+        vx, vy = self.body.velocity
+        mass = self.body.mass
+        self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))
+
+    def go_home(self, moved=(0.0, 0.0)):
+        """Stand where the level put it; moved: how far what it stood on has gone since [px]."""
+        self.body.move_to((self.home[0] + moved[0], self.home[1] + moved[1]), 0.0)
         self.body.velocity = (0.0, 0.0)
         self.body.angular_velocity = 0.0
 
@@ -144,51 +211,3 @@ class Crate:
         c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
         half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2
         return floor(x - half_width), round(y - half_height), ceil(x + half_width), round(y + half_height)
-
-
-class Things:
-    """All of them, by kind and by body id."""
-
-    def __init__(self, world, level, random):
-        self.world = world
-        found = [Trigger(world, thing) for thing in level.map.things if thing.kind in TRIGGERS]
-        self.triggers = {trigger.body.id: trigger for trigger in found}
-        self.platforms = [Platform(world, thing) for thing in level.map.things_of("platform")]
-        self.crates = [Crate(world, thing) for thing in level.map.things_of("crate")]
-        # Which way each walker sets out is the one thing that the seed decides.
-        walkers = [Walker(world, thing, random.choice((-1, 1))) for thing in level.map.things_of("walker")]
-        self.walkers = {walker.character.body.id: walker for walker in walkers}
-        self.coins_in_all = len(self.of("coin"))
-
-    def of(self, kind):
-        """The triggers of a kind, in the level's order."""
-        return [trigger for trigger in self.triggers.values() if trigger.kind == kind]
-
-    @property
-    def crate_boxes(self):
-        """Boxes of the crates."""
-        return tuple(crate.box for crate in self.crates)
-
-    @property
-    def platform_boxes(self):
-        """Boxes of the platforms."""
-        return tuple(platform.box for platform in self.platforms)
-
-    def take(self, trigger):
-        """Remove a coin from the world."""
-        self.world.remove_body(trigger.body)
-        del self.triggers[trigger.body.id]
-
-    def squash(self, identity):
-        """Remove a walker from the world."""
-        self.walkers.pop(identity).character.remove()
-
-    def go_home(self):
-        """A new life: crates and walkers are back where they were; what was taken or squashed is gone."""
-        for one in (*self.crates, *self.walkers.values()):
-            one.go_home()
-
-    def state(self):
-        """What the world does not hold of them."""
-        return (*(walker.way for walker in self.walkers.values()),
-                *(trigger.lit for trigger in self.of("checkpoint")))

@@ -1,4 +1,4 @@
-"""The picture of the platformer: dusk behind, tiles in chunks, things, the hero, lights, and words on top.
+"""The picture of the platformer: backdrop, tiles in chunks, things, the hero and his ghost, lights, and words on top.
 
 Everything is read, nothing is changed: pictures are cached, state is not touched.
 """
@@ -9,23 +9,25 @@ import pygame
 
 from game.camera import Camera
 from game.draw import CANVAS_SIZE, Canvas, whole
-from game.sprites import load_atlas, load_backdrop
+from game.sprites import load_atlas, load_image
 from game.tile_picture import TilePicture
 from game.turned import TurnedPicture
 from scenes.platformer import board
-from scenes.platformer.hero import APEX_SPEED, HEIGHT
-from scenes.platformer.things import WALKER_BOX
+from scenes.platformer.backdrop import Backdrops
+from scenes.platformer.feel import APEX_SPEED, HEIGHT, steps
+from scenes.platformer.lighting import Lighting, wave
+from scenes.platformer.look import AFTERIMAGES
+from scenes.platformer.things import SHAKES
 
-# Backdrop, back to front: picture, share of the camera's way along x and along y, own drift [px/s].
-LAYERS = (("clouds", 0.05, 0.02, 3.0), ("mountains_far", 0.10, 0.05, 0.0), ("mountains_mid", 0.20, 0.10, 0.0),
-          ("mountains_near", 0.42, 0.18, 0.0))
-CLOUDS_TOP = 14              # [canvas px]
-HORIZON = 62                 # [canvas px] the mountains stand above the picture's lower edge: the ground hides the rest
-FOOT = (26, 24, 48)          # colour of the near mountains' feet, below them in pits
 STRIDE = 13.0                # [px] of way per frame of the run: feet do not slide
+PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
 NEAR = 40                    # [px] around the picture in which things are still drawn
 COIN_WAVE = 0.9              # [px] coins bob by this much, in a wave along the level
-LIGHTS = {"torch": (0.10, 11.0), "lantern": (0.05, 5.0)}     # how much, and how quickly, a flame flickers
+GHOST = (96, 190, 255)       # added to a ghost's colours
+IMAGE = (120, 130, 220)      # to an afterimage's
+TUMBLE = (30.0, 90.0, 420.0) # [px/s], [px/s], [px/s2] aside, up and down of what was flattened and is no walker
+LAYERS = ("wall", "decor", "solid")
+SHINING = ("secret", "goal", "coin")
 
 
 class View:
@@ -33,54 +35,63 @@ class View:
 
     def __init__(self, level):
         self.level = level
-        self.sky = load_backdrop("sky_dusk")
-        self.layers = [(load_backdrop(name), *rest) for name, *rest in LAYERS]
-        self.decor, self.ground = TilePicture(level.map, "decor"), TilePicture(level.map, "solid")
+        sheet = load_image(level.picture)
+        self.backdrops, self.lighting = Backdrops(level), Lighting()
+        self.layers = {name: TilePicture(level.map, name, sheet) for name in (*LAYERS, "cover") if name in level.map.layers}
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
         self.crates = [TurnedPicture(self.things[name]) for name in ("crate", "crate_large")]
+        self.bits = [TurnedPicture(self.things[f"crumble_bit_{number}"]) for number in range(3)]
         self.shaped = lru_cache(maxsize=512)(self._shaped)
-        self.lowest = level.size[1] - CANVAS_SIZE[1]
+        self.tinted = lru_cache(maxsize=512)(self._tinted)
         self._paint_ahead()
+        self.covers = [self._cover(thing) for thing in level.covers]
 
     def _paint_ahead(self):
-        """Paint every chunk of tiles now: 0.1 s once, instead of a hitch of 10 ms at each border while playing."""
+        """Paint every chunk of tiles now: 0.2 s once, instead of a hitch of 10 ms at each border while playing."""
         canvas, camera = Canvas(), Camera()
         for left in range(0, self.level.size[0], CANVAS_SIZE[0]):
-            for top in (0, self.lowest):
+            for top in range(0, self.level.size[1], CANVAS_SIZE[1]):
                 camera.place(left, top)
-                self.decor.draw(canvas, camera)
-                self.ground.draw(canvas, camera)
+                for name in LAYERS:
+                    if name in self.layers:
+                        self.layers[name].draw(canvas, camera)
+
+    def _cover(self, thing):
+        """(picture, left, top) of what hides a room, its walls with it."""
+        tile = self.level.tile
+        left, top = int(thing.x) - tile, int(thing.y) - tile
+        canvas = Canvas(pygame.Surface((int(thing.width) + 2 * tile, int(thing.height) + 2 * tile), pygame.SRCALPHA))
+        if "cover" in self.layers:
+            camera = Camera(canvas.rect)
+            camera.place(left, top)
+            self.layers["cover"].draw(canvas, camera)
+        return canvas.surface, left, top
 
     def draw(self, scene, canvas, alpha):
         """The whole picture."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
-        self._draw_dusk(canvas, scene.look.time, left, top)
-        self.decor.draw(canvas, scene.camera, alpha)
+        self.near = [trigger for trigger in scene.things.triggers.values() if self._sees(trigger.x, trigger.y, 100)]
+        self.backdrops.draw(canvas.surface, scene.look, left, top)
+        for name in ("wall", "decor"):
+            if name in self.layers:
+                self.layers[name].draw(canvas, scene.camera, alpha)
         self._draw_still_things(canvas, scene)
-        self.ground.draw(canvas, scene.camera, alpha)
+        self.layers["solid"].draw(canvas, scene.camera, alpha)
+        self._draw_blocks(canvas, scene)
         self._draw_moving_things(canvas, scene, alpha)
+        self._draw_enemies(canvas, scene, alpha)
+        self._draw_ghost(canvas, scene)
+        self._draw_hero(canvas, scene, alpha)
+        self._draw_covers(canvas, scene.look)
         scene.particles.draw(canvas, scene.camera, alpha)
         self._draw_puffs(canvas, scene.look)
-        self._draw_hero(canvas, scene, alpha)
-        self._draw_lights(canvas, scene)
+        self.lighting.draw(canvas.surface, list(self._lights(scene, alpha)), scene.look.dark, scene.look.time)
         board.draw_board(canvas, scene, (left, top))
 
-    def _draw_dusk(self, canvas, time, left, top):
-        surface = canvas.surface
-        surface.blit(self.sky, (0, 0))
-        for picture, along, down, drift in self.layers:
-            width, height = picture.get_size()
-            y = CLOUDS_TOP if drift else CANVAS_SIZE[1] - HORIZON - height
-            y += whole(max(0, self.lowest - top) * down)
-            x = -whole(left * along + time * drift) % width - width
-            while x < CANVAS_SIZE[0]:
-                surface.blit(picture, (x, y))
-                x += width
-        surface.fill(FOOT, (0, y + height, CANVAS_SIZE[0], CANVAS_SIZE[1]))
-
-    def _sees(self, x):
-        return self.left - NEAR < x < self.left + CANVAS_SIZE[0] + NEAR
+    def _sees(self, x, y, reach=NEAR):
+        return (self.left - reach < x < self.left + CANVAS_SIZE[0] + reach
+                and self.top - reach < y < self.top + CANVAS_SIZE[1] + reach)
 
     def _stand(self, canvas, image, x, bottom):
         """Draw an image with the middle of its lower edge at a world point."""
@@ -90,11 +101,9 @@ class View:
     def _draw_still_things(self, canvas, scene):
         things, time = self.things, scene.look.time
         for sign in self.level.map.things_of("sign"):
-            if self._sees(sign.x):
+            if self._sees(sign.x, sign.y):
                 self._stand(canvas, things["sign"], sign.x + sign.width / 2, sign.y + sign.height)
-        for trigger in scene.things.triggers.values():
-            if not self._sees(trigger.x):
-                continue
+        for trigger in self.near:
             x, bottom = trigger.foot
             if trigger.kind == "checkpoint":
                 image = things.animation("checkpoint").at(time + x) if trigger.lit else things["checkpoint_off"]
@@ -108,33 +117,71 @@ class View:
         animation = self.things.animation("spring")
         if trigger.touched is None:
             return self.things["spring_0"]
-        return animation.at((scene.frame - trigger.touched) / 60, loop=False)
+        return animation.at((scene.ticks - trigger.touched) / 60, loop=False)
+
+    def _draw_blocks(self, canvas, scene):
+        """Belts and crumbling stones."""
+        things = self.things
+        for belt in scene.things.belts:
+            left, top, right, _ = belt.box
+            if not self.left - (right - left) < left < self.left + CANVAS_SIZE[0]:
+                continue
+            frame = int(scene.ticks * belt.speed / 60 / 4) % 4
+            for x in range(left, right, 16):
+                part = "left_end" if x == left else "right_end" if x == right - 16 else "mid"
+                canvas.surface.blit(things[f"belt_{part}_{frame}"], (x - self.left, top - self.top))
+        for crumble in scene.things.crumbles:
+            if crumble.body is not None and self._sees(*crumble.center):
+                left, top, _, _ = crumble.box
+                worn = min(4 * crumble.count // steps(SHAKES), 3)
+                shift = (crumble.count // 2) % 2 * 2 - 1 if crumble.shaking else 0
+                canvas.surface.blit(things[f"crumble_{worn}"], (left + shift - self.left, top - self.top))
 
     def _draw_moving_things(self, canvas, scene, alpha):
         things, look = self.things, scene.look
-        for trigger in scene.things.triggers.values():
-            if trigger.kind == "coin" and self._sees(trigger.x):
-                image = things.animation("coin").at(look.time + trigger.x * 0.004)
+        for trigger in self.near:
+            if trigger.kind in ("coin", "secret"):
+                image = things.animation("coin" if trigger.kind == "coin" else "secret_gem").at(look.time + trigger.x * 0.004)
                 bob = COIN_WAVE * wave(look.time * 0.55 + trigger.x * 0.011)
                 canvas.sprite(image, trigger.x - self.left, trigger.y + bob - self.top)
         for platform in scene.things.platforms:
             x, y = between(look.before(platform.body), platform.body.position, alpha)
-            canvas.surface.blit(things["platform"], (whole(x - platform.size[0] / 2) - self.left,
-                                                     whole(y - platform.size[1] / 2) - self.top))
+            canvas.surface.blit(deck(int(platform.size[0])), (whole(x - platform.size[0] / 2) - self.left,
+                                                             whole(y - platform.size[1] / 2) - self.top))
         for crate in scene.things.crates:
-            x, y = between(look.before(crate.body), crate.body.position, alpha)
-            if self._sees(x):
-                angle = look.angles.get(crate.body.id, crate.body.angle)
-                angle += (crate.body.angle - angle) * alpha
-                self.crates[crate.size[0] > 16].draw(canvas.surface, x - self.left, y - self.top, angle)
-        for walker in scene.things.walkers.values():
-            x, y = between(look.before(walker.character.body), walker.character.position, alpha)
-            if self._sees(x):
-                image = things.animation("walker").at(look.time + walker.home[0])
-                self._stand(canvas, image if walker.way < 0 else flipped(image), x, y + WALKER_BOX[1] / 2)
-        for x, bottom, way, _ in look.flat:
-            image = things["walker_squashed"]
-            self._stand(canvas, image if way < 0 else flipped(image), x, bottom)
+            self._draw_turned(canvas, look, crate.body, self.crates[crate.size[0] > 16], alpha)
+        for crumble in scene.things.crumbles:
+            for number, (body, _) in enumerate(crumble.bits):
+                self._draw_turned(canvas, look, body, self.bits[number % 3], alpha)
+
+    def _draw_turned(self, canvas, look, body, picture, alpha):
+        x, y = between(look.before(body), body.position, alpha)
+        if self._sees(x, y):
+            angle = look.angles.get(body.id, body.angle)
+            angle += (body.angle - angle) * alpha
+            picture.draw(canvas.surface, x - self.left, y - self.top, angle)
+
+    def _draw_enemies(self, canvas, scene, alpha):
+        things, look = self.things, scene.look
+        for enemy in scene.things.enemies.values():
+            x, y = between(look.before(enemy.body), enemy.character.position, alpha)
+            if not self._sees(x, y):
+                continue
+            if enemy.kind == "bat":
+                image = things["bat_0"] if enemy.phase == "hanging" else things.animation("bat").at(look.time + x)
+                image = pygame.transform.flip(image, False, True) if enemy.phase == "hanging" else image
+                canvas.sprite(image if enemy.way < 0 else flipped(image), x - self.left, y - self.top)
+                continue
+            image = things.animation(enemy.kind).at(look.time + enemy.start[0])
+            self._stand(canvas, image if enemy.way < 0 else flipped(image), x, y + enemy.size[1] / 2)
+        for kind, x, bottom, way, age in look.flat:
+            if kind == "walker":
+                image = things["walker_squashed"]
+                self._stand(canvas, image if way < 0 else flipped(image), x, bottom)
+            else:
+                image = pygame.transform.flip(things[f"{kind}_0"], way > 0, True)
+                aside, up, down = TUMBLE
+                self._stand(canvas, image, x + aside * way * age, bottom - up * age + down * age * age)
 
     def _draw_puffs(self, canvas, look):
         for name, x, y, age in look.puffs:
@@ -144,56 +191,97 @@ class View:
             else:
                 canvas.sprite(image, x - self.left, y - self.top)
 
+    def _draw_covers(self, canvas, look):
+        for (picture, left, top), seen in zip(self.covers, look.open, strict=True):
+            place = (left - self.left, top - self.top)
+            if canvas.rect.colliderect((*place, *picture.get_size())) and seen < 0.98:
+                picture.set_alpha(whole(255 * (1.0 - seen)))
+                canvas.surface.blit(picture, place)
+
+    def _lights(self, scene, alpha):
+        """(canvas x, canvas y, name) of what shines in the picture."""
+        for x, y, name in self.level.lights:
+            if self._sees(x, y, 100) and not scene.look.hidden(x, y):
+                yield x - self.left, y - self.top, name
+        for trigger in self.near:
+            if trigger.kind == "checkpoint" and trigger.lit:
+                yield trigger.foot[0] - self.left, trigger.foot[1] - 23 - self.top, "lantern"
+            elif trigger.kind in SHINING and not scene.look.hidden(trigger.x, trigger.y):
+                yield trigger.x - self.left, trigger.y - self.top, trigger.kind
+        x, y = between(scene.hero.before, scene.hero.character.position, alpha)
+        yield x - self.left, y - self.top, "hero"
+
     # --- the hero ------------------------------------------------------------------------------------------------------
 
     def _draw_hero(self, canvas, scene, alpha):
         hero, look = scene.hero, scene.look
-        if scene.mercy and scene.phase == "playing" and scene.mercy % 8 < 4:
+        for x, bottom, name, way, age in look.afterimages:
+            image = self.tinted(name, way, IMAGE, whole(110 * (1.0 - age / (AFTERIMAGES + 1)) / 22) * 22)
+            self._stand(canvas, image, x, bottom)
+        spared = scene.mercy and scene.phase == "playing"
+        if spared and scene.comfort.flashing and scene.mercy % 8 < 4:
             return
         x, y = between(hero.before, hero.character.position, alpha)
         bottom = y + HEIGHT / 2
-        name, way = self._hero_frame(scene)
+        name, way = hero_frame(scene)
         if scene.phase == "hurt":
             bottom += look.fall
         elif hero.grounded:
             bottom += lowered(self.level, hero)
         image = self.shaped(name, way, whole(24 * look.width), whole(24 * look.height))
+        if spared and not scene.comfort.flashing:
+            for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                self._stand(canvas, self.tinted(name, way, (255, 255, 255), 255), x + dx, bottom + dy)
         self._stand(canvas, image, x, bottom)
 
-    def _hero_frame(self, scene):
-        """(frame name, way he faces)."""
-        hero, look, frames = scene.hero, scene.look, self.hero
-        if scene.phase == "hurt":
-            return "hurt_0", hero.facing
-        if hero.sliding:
-            return cycle(frames.animation("slide"), look.time), hero.sliding
-        if not hero.grounded:
-            if hero.vy < APEX_SPEED:
-                return ("jump_0" if hero.vy < -APEX_SPEED else "jump_1"), hero.facing
-            return cycle(frames.animation("fall"), look.time), hero.facing
-        if scene.phase == "won":
-            return cycle(frames.animation("win"), look.time), hero.facing
-        if abs(hero.vx) > 12.0:
-            run = frames.animation("run")
-            return run.names[int(look.run / STRIDE) % len(run.names)], hero.facing
-        return cycle(frames.animation("idle"), look.time), hero.facing
+    def _draw_ghost(self, canvas, scene):
+        """The best run at the same moment, half seen."""
+        if not scene.ghost or scene.clock >= len(scene.ghost) or scene.phase == "won":
+            return
+        x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
+        if self._sees(x, bottom):
+            known = name if name in self.hero.images else "idle_0"
+            self._stand(canvas, self.tinted(known, 1 if way >= 0 else -1, GHOST, 130), x, bottom)
 
     def _shaped(self, name, way, width, height):
         image = self.hero[name]
         if (width, height) != image.get_size():
-            image = pygame.transform.scale(image, (width, height))
+            image = pygame.transform.scale(image, (max(width, 1), max(height, 1)))
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
-    def _draw_lights(self, canvas, scene):
-        time, light = scene.look.time, self.things["lantern_light"]
-        lights = [(x, y - 3, "torch") for x, y in self.level.torches if self._sees(x)]
-        lights += [(c.foot[0], c.foot[1] - 23, "lantern") for c in scene.checkpoints if c.lit and self._sees(c.x)]
-        for x, y, kind in lights:
-            much, quick = LIGHTS[kind]
-            size = whole(light.get_width() * (1.0 - much + much * wave(time * quick / 6.28 + x * 0.13)))
-            image = scaled(light, size)
-            canvas.surface.blit(image, (whole(x) - size // 2 - self.left, whole(y) - size // 2 - self.top),
-                                special_flags=pygame.BLEND_RGB_ADD)
+    def _tinted(self, name, way, color, alpha):
+        """A frame in one light colour, half seen."""
+        image = self.shaped(name, way, 24, 24).copy()
+        image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
+        image.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
+        return image
+
+
+def hero_frame(scene):
+    """(frame name, way he faces) of the hero as he is now."""
+    hero, look, frames = scene.hero, scene.look, load_atlas("hero")
+    if scene.phase == "hurt":
+        return "hurt_0", hero.facing
+    if hero.ladder is not None:
+        names = frames.animation("climb").names
+        return names[int(look.climb / RUNG_STRIDE) % len(names)], 1
+    if hero.sliding:
+        return cycle(frames.animation("slide"), look.time), hero.sliding
+    if not hero.grounded:
+        if hero.vy < APEX_SPEED:
+            return ("jump_0" if hero.vy < -APEX_SPEED else "jump_1"), hero.facing
+        return cycle(frames.animation("fall"), look.time), hero.facing
+    if scene.phase == "won":
+        return cycle(frames.animation("win"), look.time), hero.facing
+    if hero.pushing and hero.pushed is not None:
+        names = frames.animation("push").names
+        return names[int(look.run / PUSH_STRIDE) % len(names)], hero.facing
+    if abs(hero.vx) > 12.0:
+        names = frames.animation("run").names
+        return names[int(look.run / STRIDE) % len(names)], hero.facing
+    if hero.gazing:
+        return ("duck_0" if hero.gazing > 0 else "look_up_0"), hero.facing
+    return cycle(frames.animation("idle"), look.time), hero.facing
 
 
 @lru_cache(maxsize=2)
@@ -202,27 +290,27 @@ def level_view(level):
     return View(level)
 
 
+@lru_cache(maxsize=8)
+def deck(width):
+    """A platform of any width: the ends of the drawn one, its middle as often as needed."""
+    image = load_atlas("things")["platform"]
+    out = pygame.Surface((width, image.get_height()), pygame.SRCALPHA)
+    for x in range(16, width - 16, 16):
+        out.blit(image, (x, 0), (16, 0, min(16, width - 16 - x), image.get_height()))
+    out.blit(image, (0, 0), (0, 0, 16, image.get_height()))
+    out.blit(image, (width - 16, 0), (image.get_width() - 16, 0, 16, image.get_height()))
+    return out
+
+
 @lru_cache(maxsize=64)
 def flipped(image):
     """An image the other way round."""
     return pygame.transform.flip(image, True, False)
 
 
-@lru_cache(maxsize=64)
-def scaled(image, size):
-    """A square image at another size."""
-    return pygame.transform.scale(image, (size, size))
-
-
 def between(before, now, alpha):
     """A place between two steps."""
     return before[0] + (now[0] - before[0]) * alpha, before[1] + (now[1] - before[1]) * alpha
-
-
-def wave(turns):
-    """A soft wave -1..1 per turn, of two parabolas: no table and no sine per coin."""
-    part = turns % 1.0
-    return 16.0 * part * (0.5 - part) if part < 0.5 else -16.0 * (part - 0.5) * (1.0 - part)
 
 
 def cycle(animation, seconds):

@@ -5,10 +5,11 @@ import numpy as np
 from game.inputs import InputFrame, InputState
 from game.tilemap import Thing, TileMap
 from physics import World
-from scenes.platformer.hero import GRAVITY, HEIGHT, Hero
+from scenes.platformer.feel import GRAVITY, HEIGHT
+from scenes.platformer.hero import Hero
 from scenes.platformer.level import Level
-from scenes.platformer.scene import Platformer
-from scenes.platformer.things import Crate, Platform
+from scenes.platformer.scene import Platformer, others
+from scenes.platformer.things import Belt, Crate, Crumble, Platform, Trigger
 
 TILES = {"#": 0, "-": 1, "/": 2, "\\": 3, "1": 4, "2": 5}
 PROPERTIES = {0: {"kind": "solid"}, 1: {"kind": "one_way"}, 2: {"kind": "slope", "left": 0.0, "right": 1.0},
@@ -29,8 +30,11 @@ class Stage:
         self.level.add_to(self.world)
         floor = next(row for row in range(len(rows)) if rows[row][x] in "#-") * 16
         self.hero = Hero(self.world, self.level, (x * 16 + 8, floor - HEIGHT / 2))
-        self.platforms = [Platform(self.world, thing) for thing in things if thing.kind == "platform"]
-        self.crates = [Crate(self.world, thing) for thing in things if thing.kind == "crate"]
+        made = {kind: [cls(self.world, one) for one in things if one.kind == kind]
+                for kind, cls in (("platform", Platform), ("crate", Crate), ("belt", Belt), ("crumble", Crumble),
+                                  ("ladder", Trigger))}
+        self.platforms, self.crates, self.belts, self.crumbles, ladders = made.values()
+        self.ladders = {ladder.body.id: ladder for ladder in ladders}
         self.inputs = InputState()
         self.frame = 0
         self.news = []
@@ -43,13 +47,23 @@ class Stage:
             self.inputs.set(InputFrame(frozenset(keys.split())))
             for platform in self.platforms:
                 platform.aim(self.frame)
+            for crumble in self.crumbles:
+                crumble.step()
             self.hero.crates = self.crates
-            self.hero.solids = tuple(each.box for each in (*self.crates, *self.platforms))
+            self.hero.solids = tuple(each.box for each in (*self.crates, *self.platforms, *self.belts, *self.crumbles))
             self.hero.step(self.inputs)
             self.news += self.hero.news
             self.world.step()
+            self._read_ladders()
             self.frame += 1
         return self.hero
+
+    def _read_ladders(self):
+        me, events = self.hero.character.body.id, self.world.events
+        for identity in others(events.sensor_end, me):
+            self.hero.ladders.pop(identity, None)
+        for identity in others(events.sensor_begin, me) & self.ladders.keys():
+            self.hero.ladders[identity] = self.ladders[identity]
 
     def until(self, keys, met, most=200):
         """Hold keys until something is so."""

@@ -1,0 +1,71 @@
+"""What is behind the level: a sky and layers that move slower than the ground, by act, faded from one to the next."""
+
+import pygame
+
+from game.draw import CANVAS_SIZE, whole
+from game.sprites import load_backdrop
+
+FADE = 0.9                   # [s] from one act's backdrop to the next
+CLOUDS_TOP = 14              # [canvas px]
+HORIZON = 62                 # [canvas px] the mountains stand above the picture's lower edge: the ground hides the rest
+FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}     # colour under the nearest layer, seen from high up
+# act: back to front (picture, share of the camera's way along x and along y, own drift [px/s], above the horizon [px])
+LAYERS = {
+    "meadow": (("clouds", 0.05, 0.02, 3.0, None), ("mountains_far", 0.10, 0.05, 0.0, 0), ("mountains_mid", 0.20, 0.10, 0.0, 0),
+               ("mountains_near", 0.42, 0.18, 0.0, 0)),
+    "keep": (("clouds", 0.04, 0.02, 4.0, None), ("mountains_far", 0.08, 0.04, 0.0, -8),
+             ("mountains_mid", 0.16, 0.08, 0.0, -26), ("keep_far", 0.30, 0.14, 0.0, -30)),
+}
+CAVE = (("cave_far", 0.15, 0.10), ("cave_near", 0.40, 0.25))
+
+
+class Backdrops:
+    """Draws the backdrop of the act that the look is in, and of the one before while it fades."""
+
+    def __init__(self, level):
+        self.sky = load_backdrop("sky_dusk")
+        self.layers = {act: [(load_backdrop(name), *rest) for name, *rest in layers] for act, layers in LAYERS.items()}
+        self.cave = [(load_backdrop(name), *rest) for name, *rest in CAVE]
+        self.lowest = {act: lowest_view(level, act) for act in ("meadow", "cave", "keep")}
+        self.scratch = pygame.Surface(CANVAS_SIZE)
+
+    def draw(self, surface, look, left, top):
+        """Draw for a picture whose top left is at (left, top) of the world."""
+        share = min(look.act_age / FADE, 1.0)
+        if share < 1.0 and look.last_act != look.act:
+            self._draw_act(surface, look.last_act, look.time, left, top)
+            self._draw_act(self.scratch, look.act, look.time, left, top)
+            self.scratch.set_alpha(whole(255 * share))
+            surface.blit(self.scratch, (0, 0))
+        else:
+            self._draw_act(surface, look.act, look.time, left, top)
+
+    def _draw_act(self, surface, act, time, left, top):
+        if act == "cave":
+            for picture, along, down in self.cave:
+                y = whole(-(top - self.lowest["cave"]) * down * 0.5) + CANVAS_SIZE[1] - picture.get_height()
+                tile_along(surface, picture, left * along, min(max(y, CANVAS_SIZE[1] - picture.get_height()), 0))
+            return
+        surface.blit(self.sky, (0, 0))
+        raised = max(0, self.lowest[act] - top)
+        for picture, along, down, drift, above in self.layers[act]:
+            y = CLOUDS_TOP if above is None else CANVAS_SIZE[1] - HORIZON - picture.get_height() - above
+            y += whole(raised * down)
+            tile_along(surface, picture, left * along + time * drift, y)
+        below = y + picture.get_height()
+        surface.fill(FEET[act], (0, below, CANVAS_SIZE[0], max(CANVAS_SIZE[1] - below, 0)))
+
+
+def lowest_view(level, act):
+    """Top [px] of the lowest picture that is seen in an act."""
+    bottoms = [zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]]
+    return (max(bottoms) if bottoms else level.size[1]) - CANVAS_SIZE[1]
+
+
+def tile_along(surface, picture, way, y):
+    """Draw a picture side by side over the whole width, moved to the left by `way`."""
+    width = picture.get_width()
+    x = -whole(way) % width - width
+    while x < CANVAS_SIZE[0]:
+        surface.blit(picture, (x, y))
+        x += width

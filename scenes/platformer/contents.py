@@ -1,0 +1,124 @@
+"""All that a level holds, by kind and by body id, and the step in which it moves by itself."""
+
+from scenes.platformer.enemies import Bat, Walker
+from scenes.platformer.things import TRIGGERS, Belt, Crate, Crumble, Platform, Trigger
+
+NEARBY = (400.0, 300.0)      # [px] from the hero within which enemies move: the picture's size and some more
+ENEMIES = ("walker", "hedgehog", "bat")
+BELOW = 64                   # [px] under the map what falls out of it is lost
+
+
+class Contents:
+    """Made with the scene; what is taken or flattened leaves it and the world."""
+
+    def __init__(self, world, level, random):
+        self.world, self.level = world, level
+        found = [Trigger(world, thing) for thing in level.map.things if thing.kind in TRIGGERS]
+        self.triggers = {trigger.body.id: trigger for trigger in found}
+        self.platforms = [Platform(world, thing) for thing in level.map.things_of("platform")]
+        self.belts = [Belt(world, thing) for thing in level.map.things_of("belt")]
+        self.crumbles = [Crumble(world, thing) for thing in level.map.things_of("crumble")]
+        self.crates = [Crate(world, thing) for thing in level.map.things_of("crate")]
+        # Which way each walker sets out is the one thing that the seed decides.
+        enemies = [Bat(world, thing) if thing.kind == "bat" else Walker(world, thing, random.choice((-1, 1)))
+                   for thing in level.map.things if thing.kind in ENEMIES]
+        self.enemies = {enemy.body.id: enemy for enemy in enemies}
+        self.lairs = {enemy.lair.id: enemy for enemy in enemies if enemy.kind == "bat"}
+        self.crate_ids = {crate.body.id: crate for crate in self.crates}
+        self.decks = {one.body.id: self._deck_under(one) for one in (*self.crates, *enemies)}
+        self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
+
+    def _deck_under(self, one):
+        """The platform that a crate or an enemy starts on, or None."""
+        x = one.home[0] if one.kind == "crate" else one.start[0]
+        bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
+        for platform in self.platforms:
+            left, top, right, _ = platform.box
+            if left <= x <= right and abs(bottom - top) < 2.0:
+                return platform
+        return None
+
+    def of(self, kind):
+        """The triggers of a kind, in the level's order."""
+        return [trigger for trigger in self.triggers.values() if trigger.kind == kind]
+
+    @property
+    def solid_boxes(self):
+        """Boxes of all that is solid for the hero and no tile."""
+        return tuple(one.box for group in (self.crates, self.platforms, self.belts, self.crumbles) for one in group)
+
+    def step(self, tick, seen):
+        """Platforms, stones and enemies move by one step. seen: where the hero is. Returns [(word, thing)] that happened."""
+        news = []
+        for platform in self.platforms:
+            platform.aim(tick)
+        for crumble in self.crumbles:
+            word = crumble.step()
+            if word:
+                news.append((word, crumble))
+        places, lost = self.places(), self.level.size[1] + BELOW
+        for identity, enemy in list(self.enemies.items()):
+            x, y = places[identity]
+            if abs(x - seen[0]) > NEARBY[0] or abs(y - seen[1]) > NEARBY[1]:
+                enemy.rest(x)
+            elif enemy.step(seen):
+                news.append(("wake", enemy))
+            if enemy.squeezed:
+                news.append(("squeezed", enemy))
+            elif y > lost:
+                self.remove(enemy)
+        for crate in self.crates:
+            if places[crate.body.id][1] > lost:
+                self._send_home(crate)
+        return news
+
+    def places(self):
+        """Position [px] of every body by its id: read at once, it is asked for often."""
+        rows = self.world.bodies
+        return dict(zip(rows["id"].tolist(), zip(rows["x"].tolist(), rows["y"].tolist(), strict=True), strict=True))
+
+    def press_stones(self, riding, begun):
+        """Stones under the hero (`riding`, a body or None), under enemies, and under crates of pairs that touch now."""
+        pressed = {enemy.riding for enemy in self.enemies.values()} | ({riding.id} if riding is not None else set())
+        for a, b in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
+            if a in self.crate_ids or b in self.crate_ids:
+                pressed |= {a, b}
+        for crumble in self.crumbles:
+            if crumble.body is not None and crumble.body.id in pressed:
+                crumble.press()
+
+    def take(self, trigger):
+        """Remove a coin or a gem from the world."""
+        self.world.remove_body(trigger.body)
+        del self.triggers[trigger.body.id]
+
+    def remove(self, enemy):
+        """Remove an enemy from the world."""
+        del self.enemies[enemy.body.id]
+        if enemy.kind == "bat":
+            del self.lairs[enemy.lair.id]
+        enemy.remove()
+
+    def go_home(self):
+        """A new life: all is back where it was; what was taken or flattened is gone."""
+        for one in (*self.crates, *self.enemies.values()):
+            self._send_home(one)
+        for crumble in self.crumbles:
+            crumble.stand()
+
+    def _send_home(self, one):
+        deck = self.decks[one.body.id]
+        moved = (0.0, 0.0)
+        if deck is not None:
+            x, y = deck.body.position
+            moved = (x - deck.start[0], y - deck.start[1])
+        one.go_home(moved)
+
+    def state(self):
+        """What the world does not hold of them."""
+        out = [trigger.lit for trigger in self.of("checkpoint")]
+        for enemy in self.enemies.values():
+            out += enemy.state()
+        for crumble in self.crumbles:
+            out += (crumble.count, crumble.shaking, crumble.body is None, *(age for _, age in crumble.bits))
+        return tuple(out)

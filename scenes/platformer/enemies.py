@@ -1,0 +1,199 @@
+"""The three that hurt: walkers, which are stomped; hedgehogs, which are not; bats, which hang and dive.
+
+None is solid for the hero: contacts with them are read after the step. A crate that comes down on one flattens it.
+"""
+
+from math import cos, pi, sin
+
+from game.loop import STEP_SECONDS
+from physics import Character, Polygon
+from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
+from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER
+
+WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}      # [px/s] a fifth of the hero's: it can be read and waited for
+BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}    # [px] inside the sprite: its rim does not hurt
+# Bats
+LAIR = (104.0, 150.0)        # [px] to either side and down: who comes into it wakes the bat
+DIVE = 0.75                  # [s] down to the height at which it saw the hero
+FLY_SPEED = 84.0             # [px/s] slower than a run: one can get away
+WAVE, WAVE_TIME = 11.0, 0.9  # [px], [s] up and down of its flight
+FLIGHT = 2.6                 # [s] until it turns back to where it hung
+HOME_SPEED = 120.0           # [px/s]
+HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
+
+
+class Walker:
+    """Walks to and fro around its home and turns at walls and crates. Where it is carried, its home comes along."""
+
+    def __init__(self, world, thing, way):
+        self.kind = thing.kind
+        width, height = self.size = BOXES[self.kind]
+        self.start = (thing.x + thing.width / 2, thing.y + thing.height - height / 2)
+        self.home = self.start[0]            # [px] the middle of its beat
+        self.range = float(thing.properties.get("range", 0))
+        self.character = Character(world, Polygon.box(width, height), self.start, filter=ENEMY_FILTER, user=self.kind,
+                                   push=0.0)        # it turns at crates
+        self.way = self.first_way = way
+        self.vy = 0.0
+        self.left_at = self.character.position[0]   # where its own last move ended
+        self.squeezed = False
+        self.riding = -1                     # id of the body under its feet
+
+    @property
+    def stompable(self):
+        """Whether its back is a step."""
+        return self.kind == "walker"
+
+    @property
+    def body(self):
+        """The body by which the world knows it."""
+        return self.character.body
+
+    @property
+    def top(self):
+        """The upper edge of its box [px]."""
+        return self.character.position[1] - self.size[1] / 2
+
+    @property
+    def bottom(self):
+        """The lower edge of its box [px]."""
+        return self.character.position[1] + self.size[1] / 2
+
+    def step(self, seen):
+        """One step of walking. seen: where the hero is [px]. Returns False: it never wakes up."""
+        x, _ = self.character.position
+        if self.character.surface_speed == 0.0:
+            self.home += x - self.left_at    # a platform carries its beat along; a belt carries only itself
+        if (x - self.home) * self.way >= self.range:
+            self.way = -self.way
+        self.vy = approach(self.vy, FALL_SPEED, GRAVITY * STEP_SECONDS)
+        pace = WALK_SPEED[self.kind] if self.range else 0.0
+        moved = self.character.move(self.way * pace * STEP_SECONDS, self.vy * STEP_SECONDS)
+        self.vy = 0.0 if moved.grounded else self.vy
+        if moved.wall == self.way:
+            self.way = -self.way
+        self.squeezed = moved.squeezed
+        self.riding = moved.riding.id if moved.riding is not None else -1
+        self.left_at = self.character.position[0]
+        return False
+
+    def rest(self, x):
+        """A step far from the hero, at x [px]."""
+        self.left_at = x
+
+    def place_after(self, seconds):
+        """Where it will be on free ground [px]: it turns at the ends of its range."""
+        if not self.range:
+            return self.character.position[0]
+        there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
+        end = self.home + self.way * self.range
+        return 2.0 * end - there if (there - end) * self.way > 0.0 else there
+
+    def go_home(self, moved=(0.0, 0.0)):
+        """Stand where the level put it; moved: how far what it stood on has gone since [px]."""
+        self.character.move_to((self.start[0] + moved[0], self.start[1] + moved[1]))
+        self.home = self.left_at = self.character.position[0]
+        self.way, self.vy, self.riding = self.first_way, 0.0, -1
+
+    def remove(self):
+        """Out of the world."""
+        self.character.remove()
+
+    def state(self):
+        """What the world does not hold of it."""
+        return self.way, self.home, self.vy, self.left_at, self.riding
+
+
+class Bat:
+    """Hangs until the hero comes into its lair, dives to his height, flies on in a wave, and goes back to hang."""
+
+    kind = "bat"
+    stompable = True
+    riding = -1
+    squeezed = False
+
+    def __init__(self, world, thing):
+        width, height = self.size = BOXES["bat"]
+        self.start = (thing.x + thing.width / 2, thing.y + height / 2 + 1.0)
+        self.character = Character(world, Polygon.box(width, height), self.start, filter=ENEMY_FILTER, user="bat", push=0.0)
+        self.lair = world.add_body(Polygon.box(2 * LAIR[0], LAIR[1]), position=(self.start[0], self.start[1] + LAIR[1] / 2),
+                                   kind="static", sensor=True, filter=TRIGGER_FILTER, user="lair")
+        self.seen = False                    # the hero is in its lair
+        self._hang()
+
+    def _hang(self):
+        self.phase, self.count, self.way, self.from_y, self.to_y = HANGING, 0, 1, 0.0, 0.0
+
+    @property
+    def body(self):
+        """The body by which the world knows it."""
+        return self.character.body
+
+    @property
+    def top(self):
+        """The upper edge of its box [px]."""
+        return self.character.position[1] - self.size[1] / 2
+
+    @property
+    def bottom(self):
+        """The lower edge of its box [px]."""
+        return self.character.position[1] + self.size[1] / 2
+
+    def step(self, seen):
+        """One step of flight. seen: where the hero is [px]. Returns whether it has just woken up."""
+        x, y = self.character.position
+        if self.phase == HANGING:
+            if self.seen:
+                self.phase, self.count = FLYING, 0
+                self.way = 1 if seen[0] >= x else -1
+                self.from_y, self.to_y = y, max(seen[1], y + 16.0)
+            return self.seen
+        self.count += 1
+        time = self.count * STEP_SECONDS
+        if self.phase == FLYING:
+            share = (1.0 - cos(pi * min(time / DIVE, 1.0))) / 2.0
+            wanted = self.from_y + (self.to_y - self.from_y) * share
+            if time > DIVE:
+                wanted += WAVE * sin(2.0 * pi * (time - DIVE) / WAVE_TIME)
+            moved = self.character.move(self.way * FLY_SPEED * STEP_SECONDS, wanted - y)
+            if moved.wall == self.way:
+                self.way = -self.way
+            if time >= FLIGHT:
+                self.phase = RETURNING
+        else:
+            self._return(x, y)
+        return False
+
+    def rest(self, x):
+        """A step far from the hero: it stays in the air."""
+
+    def _return(self, x, y):
+        """Fly back; where rock is in the way it is there at once when nobody can see it."""
+        way = HOME_SPEED * STEP_SECONDS
+        dx, dy = self.start[0] - x, self.start[1] - y
+        far = max(abs(dx), abs(dy), 1e-9)
+        share = min(way / far, 1.0)
+        self.way = 1 if dx > 0.0 else -1
+        self.character.move(dx * share, dy * share)
+        if far <= way + 1.0 or self.count * STEP_SECONDS > 3.0 * FLIGHT:
+            self.character.move_to(self.start)
+            self._hang()
+
+    def place_after(self, seconds):
+        """Where it will be along x if nothing stops it [px]."""
+        return self.character.position[0] + (self.way * FLY_SPEED * seconds if self.phase == FLYING else 0.0)
+
+    def go_home(self, moved=(0.0, 0.0)):
+        """Hang where the level put it, until the hero comes into its lair again."""
+        self.seen = False
+        self.character.move_to(self.start)
+        self._hang()
+
+    def remove(self):
+        """Out of the world."""
+        self.character.remove()
+        self.character.world.remove_body(self.lair)
+
+    def state(self):
+        """What the world does not hold of it."""
+        return self.phase, self.count, self.way, self.from_y, self.to_y, self.seen

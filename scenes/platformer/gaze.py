@@ -1,0 +1,58 @@
+"""Where the camera looks: ahead of a run, not at every hop, up and down when asked, and only into the zone he is in."""
+
+from math import exp
+
+from game.draw import CANVAS_SIZE
+from scenes.platformer.feel import RUN_SPEED
+
+AHEAD = 64.0                 # [px] it looks this far in the way of a run
+AHEAD_RATE = 1.8             # [1/s] slowly, so that a step back does not swing the picture
+FOLLOW_RATE = 6.5            # [1/s]
+DEAD_ZONE = (6.0, 10.0)      # [px] small moves leave the picture still
+RAISED = 46.0                # [px] the hero stands below the middle: there is more to see above
+JUMP_ROOM = 58.0             # [px] a jump of that height does not lift the camera; its landing does
+PEEK, PEEK_AFTER = 62.0, 24  # [px], [steps] that up or down is held on the ground
+
+
+class Gaze:
+    """Owned by the look; moves the scene's camera."""
+
+    def __init__(self, scene):
+        self.scene = scene
+        self.ahead = AHEAD * 0.35
+        self.level_y = scene.hero.character.position[1]
+        self.peeking = 0                     # steps that he has looked up or down
+        scene.camera.keep_within(0, 0, *scene.level.size)
+
+    def arrive(self, x, y):
+        """The picture is there at once."""
+        self.level_y, self.ahead, self.peeking = y, AHEAD * 0.35, 0
+        self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
+
+    def step(self, dt):
+        """Follow the hero."""
+        scene, hero = self.scene, self.scene.hero
+        x, y = hero.character.position
+        wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > 60.0 else AHEAD * 0.35 * hero.facing
+        self.ahead += (max(-AHEAD, min(AHEAD, wanted)) - self.ahead) * (1.0 - exp(-AHEAD_RATE * dt))
+        if hero.grounded or hero.sliding or hero.ladder is not None:
+            self.level_y = y
+        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)     # below it he is always followed
+        self.peeking = self.peeking + 1 if hero.gazing else 0
+        peek = PEEK * hero.gazing if self.peeking > PEEK_AFTER else 0.0
+        scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
+
+    def _kept(self, x, y):
+        """The point moved so that the picture around it stays in the hero's zone, where that is larger than the picture."""
+        zones = self.scene.level.zones_at(*self.scene.hero.character.position)
+        width, height = CANVAS_SIZE
+        for zone in [zone for zone in zones if zone.width >= width][:1]:
+            x = min(max(x, zone.x + width / 2), zone.x + zone.width - width / 2)
+        for top, bottom in [rows_of(zone) for zone in zones if rows_of(zone)[1] - rows_of(zone)[0] >= height][:1]:
+            y = min(max(y, top + height / 2), bottom - height / 2)
+        return x, y
+
+
+def rows_of(zone):
+    """Top and bottom [px] of what may be seen from a zone: its own, unless it says otherwise."""
+    return zone.properties.get("view_top", zone.y), zone.properties.get("view_bottom", zone.y + zone.height)

@@ -1,0 +1,79 @@
+"""Light: glows that add to the picture, and the dark of the cave that takes from it where no light reaches."""
+
+from functools import lru_cache
+
+import pygame
+
+from game.draw import CANVAS_SIZE, whole
+from game.sprites import load_atlas
+
+AMBIENT = (136, 132, 180)    # what is left of each colour where the cave is darkest
+STEPS = 12                   # of darkness between day and that, each with light discs of its own
+GRAIN = 2                    # [px] between the radii that a flickering light takes: so few pictures are kept
+# What shines: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
+SHINES = {
+    "torch": (0.10, 11.0, 32, 92, (255, 206, 150)), "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
+    "crystal_0": (0.06, 1.6, 20, 60, (130, 235, 235)), "crystal_1": (0.06, 1.9, 20, 60, (130, 235, 235)),
+    "glowcap": (0.08, 1.2, 16, 50, (150, 255, 190)), "window": (0.04, 6.0, 20, 60, (255, 206, 150)),
+    "hero": (0.02, 1.0, 0, 104, (226, 222, 240)), "secret": (0.12, 2.0, 22, 62, (150, 255, 240)),
+    "goal": (0.04, 2.0, 0, 80, (255, 230, 190)), "coin": (0.0, 1.0, 0, 22, (210, 180, 110)),
+}
+
+
+class Lighting:
+    """Draws over the world and under the words."""
+
+    def __init__(self):
+        self.cover = pygame.Surface(CANVAS_SIZE)
+
+    def draw(self, surface, lights, dark, time):
+        """lights: (canvas x, canvas y, name); dark 0..1."""
+        level = whole(dark * STEPS)
+        if level:
+            self.cover.fill([whole(255 - (255 - part) * level / STEPS) for part in AMBIENT])
+            for x, y, name in lights:
+                flicker, speed, _, radius, color = SHINES[name]
+                image = disc(flickering(radius, flicker, speed, time, x), color, level / STEPS)
+                self.cover.blit(image, (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
+                                special_flags=pygame.BLEND_RGB_ADD)
+            surface.blit(self.cover, (0, 0), special_flags=pygame.BLEND_RGB_MULT)
+        for x, y, name in lights:
+            flicker, speed, radius, _, _ = SHINES[name]
+            if radius:
+                image = glow(flickering(radius, flicker, speed, time, x), name in ("torch", "lantern", "window"))
+                surface.blit(image, (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
+                             special_flags=pygame.BLEND_RGB_ADD)
+
+
+def flickering(radius, share, speed, time, x):
+    """The radius of a light at a time [s]; two lights do not flicker together."""
+    return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
+
+
+@lru_cache(maxsize=128)
+def glow(radius, warm):
+    """The drawn light at another size; cold ones have red and blue changed over."""
+    image = pygame.transform.scale(load_atlas("things")["lantern_light"], (2 * radius, 2 * radius))
+    if not warm:
+        pixels = pygame.surfarray.pixels3d(image)
+        pixels[:] = pixels[:, :, ::-1] // 2
+        del pixels
+    return image
+
+
+@lru_cache(maxsize=128)
+def disc(radius, color, share):
+    """A round light that falls off in rings, as much of it as there is darkness."""
+    image = pygame.Surface((2 * radius, 2 * radius))
+    rings = max(radius // 5, 3)
+    for ring in range(rings):
+        part = (ring + 1) / rings
+        pygame.draw.circle(image, [whole(c * share * 0.62 * part * part) for c in color], (radius, radius),
+                           whole(radius * (1.0 - ring / rings)))
+    return image
+
+
+def wave(turns):
+    """A soft wave -1..1 per turn, of two parabolas: no table and no sine per coin."""
+    part = turns % 1.0
+    return 16.0 * part * (0.5 - part) if part < 0.5 else -16.0 * (part - 0.5) * (1.0 - part)
