@@ -1,34 +1,33 @@
-"""The window: events in, fixed steps, a picture out. Screens: title, menu, options, play."""
+"""The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens.py."""
 
-import os
-import sys
 from time import perf_counter, strftime
 
 import pygame
 
-from game.bindings import key_codes
 from game.colors import GOLD
-from game.command_line import make_scene
 from game.data_folder import data_folder
 from game.devices import DeviceSource, Pads
-from game.draw import CANVAS_SIZE, SMALL
+from game.draw import SMALL
 from game.errors import UsageError
 from game.headless import finish, save_or_fail
 from game.inputs import InputState
 from game.loading import Loading
 from game.loop import STEP_SECONDS, FixedStep
-from game.menu import Menu
-from game.options import Options
+from game.pause_menu import PauseMenu
 from game.picture import Picture, save_png
 from game.play import Play
+from game.records import load_records
+from game.screens import Screens
 from game.settings import load_settings, save_settings
 from game.sound import Sounds
 from game.startup import say
-from game.title import Title
 from game.warmup import warm_up_scene
+from game.watch import Watch
+from game.window import mode_of, open_window, set_mode
+from game.wipe import Wipe
 
-LARGEST_SHARE = 0.9        # of the desktop that a window opened without a chosen size may take
 IDLE_SECONDS = 0.002       # rest between frames when the display does not wait for its refresh
+QUIET = 0.3                # of the music's volume while nobody plays
 
 
 def run_app(options, registry):
@@ -43,54 +42,47 @@ def run_app(options, registry):
         pygame.quit()
 
 
-def open_window(settings):
-    """The window's surface. Raises UsageError when there is no display to open it on."""
-    try:
-        if not has_screen(sys.platform, os.environ):
-            raise pygame.error("neither DISPLAY nor WAYLAND_DISPLAY is set")
-        pygame.display.init()
-        # SDL falls back to drivers nobody can see; only who asks for one by name gets it.
-        if pygame.display.get_driver() in ("dummy", "offscreen") and not os.environ.get("SDL_VIDEODRIVER"):
-            raise pygame.error("no screen found")
-        surface = set_mode(settings)
-    except pygame.error as error:
-        raise UsageError(f"no display to open a window on ({error}); run without one: "
-                         "--headless --scene NAME") from error
-    pygame.display.set_caption("Hitbox")
-    return surface
-
-
-def has_screen(platform, environment):
-    """False where SDL could only fail, with noise of its own: Linux without X, Wayland or a driver by name."""
-    names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
-    return not platform.startswith("linux") or any(environment.get(name) for name in names)
-
-
-def set_mode(settings):
-    """Open or change the window to the settings' size."""
-    desktop = pygame.display.get_desktop_sizes()[0]
-    if settings.fullscreen:
-        return pygame.display.set_mode(desktop, pygame.FULLSCREEN)
-    fits = min(desktop[0] * LARGEST_SHARE // CANVAS_SIZE[0], desktop[1] * LARGEST_SHARE // CANVAS_SIZE[1])
-    scale = settings.window_scale or max(1, int(fits))
-    return pygame.display.set_mode((CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale), pygame.RESIZABLE)
-
-
 class App:
-    """One screen at a time; a screen that is done names the next in `outcome`."""
+    """What all screens share, and the loop that runs the one on top."""
 
     def __init__(self, options, registry, settings, surface, message=""):
         self.options, self.registry, self.settings = options, registry, settings
+        self.records, lost = load_records()
+        say(lost)
         self.picture = Picture(surface)
         self.pads = Pads()
-        self.devices = DeviceSource(self.picture.presenter.to_canvas, settings.keys, self.pads)
-        self.sounds = Sounds(settings.volume)
+        self.devices = DeviceSource(self.picture.presenter.to_canvas, settings.keys, self.pads, settings.buttons)
+        self.sounds = Sounds(settings.master, settings.effects, settings.music)
         say(self.sounds.silent_because)
+        self.mode = mode_of(settings)
         self.inputs = InputState()
         self.clock = FixedStep()
+        self.wipe = Wipe()
         self.frame_seconds = STEP_SECONDS
+        self.before = None
         self.running = True
-        self.screen = self._play(options.scene, first=True) if options.scene else Title(message)
+        self.screens = Screens(self)
+        self._open_first(message or lost)
+        self.apply_settings()
+
+    def _open_first(self, message):
+        recording = self.options.recording
+        if recording is not None and not self._is_a_run():
+            self.screens.stack.append(self.screens.watching(self.options.replay))
+        elif self.options.scene:
+            self.screens.play_first()
+        else:
+            self.screens.title(message)
+
+    def _is_a_run(self):
+        """True for a run that the command line measures or saves: it is about one scene, and ends with it."""
+        o = self.options
+        return bool(o.frames or o.record or o.json or o.profile or o.screenshot)
+
+    @property
+    def screen(self):
+        """The screen on top."""
+        return self.screens.top
 
     def run(self):
         """The loop. Returns the exit code."""
@@ -99,15 +91,18 @@ class App:
             while self.running:
                 self.turn()
         finally:
-            self._save_recording()
-        if isinstance(self.screen, Play) and self.options.scene:
-            play = self.screen
+            self._save_what_is_open()
+        play = self.screens.played
+        if play is not None and self.options.scene:
             if self.options.screenshot:
                 frame = self.picture.presenter.frame
                 save_or_fail(lambda path: save_png(frame.surface, path), self.options.screenshot)
             recording = self.options.recording
             code = finish(play.scene, play.session.report, self.options,
                           self.options.bot or bool(recording and recording.bot))
+        elif isinstance(self.screen, Watch) and self.screen.tape.diverged:
+            say(self.screen.tape.diverged)
+            code = 1
         return code
 
     def turn(self):
@@ -115,118 +110,152 @@ class App:
         started = perf_counter()
         for event in pygame.event.get():
             self._feed(event)
-        if isinstance(self.screen, Play):
-            self._turn_play(started)
-        else:
-            self._turn_screen(started)
+        try:
+            if hasattr(self.screen, "advance"):
+                self._turn_scene(started)
+            else:
+                self._turn_menu(started)
+        except UsageError as error:
+            if self._is_a_run():
+                raise
+            self.screens.complain(error)
+            return
+        self.wipe.draw(self.picture.presenter.frame.surface, started, self.settings.reduced_flashing)
+        self._sound(started)
         pygame.mouse.set_visible(self.screen.shows_pointer)
         pygame.display.flip()
-        spent = perf_counter() - started
-        self.frame_seconds += (spent - self.frame_seconds) * 0.05
-        if spent < STEP_SECONDS:
-            pygame.time.wait(max(1, int((STEP_SECONDS - spent - IDLE_SECONDS) * 1000)))
+        self._rest(started)
         if self.screen.outcome is not None:
             self._follow(self.screen.outcome)
 
-    def _turn_play(self, now):
-        play = self.screen
-        play.advance(now, self.options.frames)
-        drawn = perf_counter()
-        if not self.settings.shake:
-            play.scene.camera.trauma = 0.0
-        frame = play.draw(self.picture)
+    def _turn_scene(self, now):
+        """A screen that shows a scene: it keeps its own time and draws at the window's resolution."""
+        screen = self.screen
+        if isinstance(screen, Play):
+            screen.advance(now, self.options.frames)
+            drawn = perf_counter()
+        else:
+            screen.advance(now)
+        frame = screen.draw(self.picture)
         if self.settings.show_fps:
             frame.text_if_free(f"{self.frame_seconds * 1000:.1f} ms a frame", frame.area.right - 4, frame.area.top + 4,
                                GOLD, SMALL, frame.text_scale, "right", True)
-        play.session.report.note_drawing(perf_counter() - drawn)
+        if isinstance(screen, Play):
+            screen.session.report.note_drawing(perf_counter() - drawn)
+            self._end_run(screen)
+
+    def _end_run(self, play):
         if play.wants_screenshot:
             play.wants_screenshot = False
-            self._save_screenshot()
+            self._save_screenshot(play.scene.name)
         ended = self.options.frames or (self.options.recording and self.options.recording.frames)
-        if ended and play.session.report.steps >= ended:
+        if ended and play.session.report.steps >= ended and self.options.scene:
             self.running = False
 
-    def _turn_screen(self, now):
+    def _turn_menu(self, now):
+        screen = self.screen
         for _ in range(self.clock.advance(now)):
             self.inputs.set(self.devices.next())
-            self.screen.step(self.inputs, STEP_SECONDS)
-        self.picture.draw_screen(self.screen)
+            screen.step(self.inputs, STEP_SECONDS)
+            if screen.outcome is not None:
+                break
+        self.picture.draw_screen(screen)
+
+    def _sound(self, now):
+        """The menu's sounds and the tune of this moment."""
+        screen = self.screen
+        if getattr(screen, "cues", None):
+            self.sounds.play_cues([(name, None, 1.0) for name in screen.cues])
+            screen.cues.clear()
+        if screen.tune is not None:
+            self.sounds.tune(screen.tune)
+        self.sounds.music = self.settings.music * (QUIET if getattr(screen, "quiet", False) else 1.0)
+        self.sounds.step(0.0 if self.before is None else now - self.before)
+        self.before = now
+
+    def _rest(self, started):
+        """Wait for the next picture, so that an unpaced display does not burn a core."""
+        spent = perf_counter() - started
+        self.frame_seconds += (spent - self.frame_seconds) * 0.05
+        wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
+        if spent < wanted:
+            pygame.time.wait(max(1, int((wanted - spent - IDLE_SECONDS) * 1000)))
 
     def _feed(self, event):
         if event.type == pygame.QUIT:
             self.running = False
         elif event.type == pygame.KEYDOWN and event.key == pygame.K_F11:
             self.settings.fullscreen = not self.settings.fullscreen
-            self._apply_settings()
+            self.apply_settings()
+            self.save_settings()
         elif event.type in (pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED):
             self.picture.presenter.frame.surface = pygame.display.get_surface()
-        elif not (hasattr(self.screen, "feed") and self.screen.feed(event)):
-            self.devices.feed(event)
+        elif event.type == pygame.DROPFILE:
+            self._follow(("watch", event.file))
+        else:
+            if event.type == pygame.WINDOWFOCUSLOST and isinstance(self.screen, Play) and self.screen.person:
+                self.screen.outcome = self.screen.outcome or ("pause", "")
+            if not (hasattr(self.screen, "feed") and self.screen.feed(event)):
+                self.devices.feed(event)
+
+    def was_closed(self):
+        """True if the window's closing waits in the queue."""
+        return pygame.event.peek(pygame.QUIT)
 
     def _follow(self, outcome):
-        """Open the screen that the last one named."""
-        kind, *rest = outcome
-        if isinstance(self.screen, Options):
-            self._apply_settings()
-        if isinstance(self.screen, Play) and (self.options.scene or kind == "quit"):
-            self.screen.outcome = None
-            if self.options.frames or self.options.record or self.options.replay or self.options.json:
+        """Go where the top screen leads; the old picture is wiped away."""
+        if self.screens.played is self.screen and outcome[0] == "menu":
+            if self.options.scene and (self._is_a_run() or self.options.recording):
                 self.running = False       # such a run is about one scene; leaving it ends the program
+                self.screen.outcome = None
                 return
             self.options.scene = None
+        self.wipe.begin(self.picture.presenter.frame.surface, perf_counter())
         self.devices.release_all()
+        self.screens.follow(outcome)
+        self.devices.menus = not isinstance(self.screen, Play)
+        self.devices.lost_pad = False
+        if isinstance(self.screen, PauseMenu):
+            self.sounds.pause()
+        else:
+            self.sounds.resume()
         self.inputs = InputState()
-        if kind == "quit":
-            self.running = False
-        elif kind == "title":
-            self.screen = Title()
-        elif kind == "menu":
-            self.screen = Menu(self.registry, rest[0] if rest else getattr(self, "last_played", None))
-        elif kind == "options":
-            self.screen = Options(self.settings)
-        else:
-            self.screen = self._play(rest[0])
+        self.clock.rest()
 
-    def _play(self, name, first=False):
-        """A Play screen for a scene, its kernels compiled behind a bar. `first`: the command line's scene."""
-        self.last_played = name
-        options = self.options
-        scene_class = self.registry.scene_class(name)
-        loading = Loading(scene_class.title)
+    def compile_for(self, scene_class, solver=None, broadphase=None, stops_for_anybody=False):
+        """Compile what a scene needs, behind a bar. Raises LoadingStopped."""
+        loading = Loading(scene_class.title, stops_for_anybody)
+        warm_up_scene(scene_class, broadphase or self.options.broadphase, solver,
+                      lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
 
-        def compile_for(solver):
-            loading.show(self.picture, 0.0, "")
-            warm_up_scene(scene_class, options.broadphase, solver,
-                          lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
-        compile_for(options.solver if first else None)
-        if first:
-            scene = make_scene(options, self.registry)
-            play = Play(scene, self.devices, self.sounds, options.bot, options.recording, bool(options.record),
-                        options.overlay)
-        else:
-            play = Play(scene_class(options.seed or 0), self.devices, self.sounds)
-        play.prepare = compile_for
-        return play
+    def apply_settings(self):
+        """Put changed settings to work."""
+        if mode_of(self.settings) != self.mode:
+            self.mode = mode_of(self.settings)
+            self.picture.presenter.frame.surface = set_mode(self.settings)
+        self.devices.bind(self.settings.keys, self.settings.buttons)
+        self.sounds.master, self.sounds.effects = self.settings.master, self.settings.effects
 
-    def _apply_settings(self):
-        """Put changed settings to work and save them; a failed save is said and does not stop the game."""
-        self.picture.presenter.frame.surface = set_mode(self.settings)
-        self.devices.keys = key_codes(self.settings.keys)
-        self.sounds.volume = self.settings.volume
+    def save_settings(self):
+        """Write the settings; a failed save is said and does not stop the game."""
         try:
             save_settings(self.settings)
         except OSError as error:
             say(f"settings could not be saved: {error}")
 
-    def _save_recording(self):
-        recorder = self.screen.session.recorder if isinstance(self.screen, Play) else None
-        if recorder is not None:
-            save_or_fail(recorder.save, self.options.record)
+    def _save_what_is_open(self):
+        """The window is closed mid-game: the run is kept, and what was asked for is written."""
+        play = self.screens.played
+        if play is not None and self.options.record and play.recorder is not None:
+            save_or_fail(play.recorder.save, self.options.record)
+        elif play is not None:
+            play.end_run()
+        self.save_settings()
 
-    def _save_screenshot(self):
+    def _save_screenshot(self, name):
         """F12: into the player's folder, under the time."""
         folder = data_folder() / "screenshots"
-        path = folder / f"{self.screen.scene.name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}.png"
+        path = folder / f"{name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}.png"
         try:
             folder.mkdir(parents=True, exist_ok=True)
             save_png(self.picture.presenter.frame.surface, path)

@@ -23,6 +23,7 @@ class Camera:
         self.x = self.previous_x = float(x)
         self.y = self.previous_y = float(y)
         self.trauma = 0.0
+        self.shake_share = 1.0     # of the shake that is drawn
         self.clock = 0.0
         self.limits = None
 
@@ -67,8 +68,8 @@ class Camera:
         """The drawn world top left (x, y); whole numbers at zoom 1."""
         x = self.previous_x + (self.x - self.previous_x) * alpha
         y = self.previous_y + (self.y - self.previous_y) * alpha
-        if self.trauma > 0.0:
-            reach = SHAKE_PIXELS * self.trauma * self.trauma / self.zoom
+        if self.trauma > 0.0 and self.shake_share > 0.0:
+            reach = SHAKE_PIXELS * self.shake_share * self.trauma * self.trauma / self.zoom
             # Two slow sines that do not repeat together: smooth, and the same in every run.
             x += reach * sin(self.clock * 61.0)
             y += reach * sin(self.clock * 47.0 + 1.3)

@@ -1,4 +1,4 @@
-"""The shell's colours. Overlay hues are the Okabe-Ito set, which stays apart for colour-blind eyes."""
+"""The shell's colours. Overlay hues are near the Okabe-Ito set; a player may ask for others (see toned)."""
 
 INK = (20, 16, 32)            # text outlines, panel ground: the art's outline colour, never pure black
 NIGHT = (26, 22, 42)
@@ -19,7 +19,30 @@ WHITE = (255, 255, 255)
 
 SERIES = (ORANGE, SKY, GREEN, PINK, YELLOW, BLUE, RED, WHITE)   # for curves and kinds, in this order
 
+# What the overlays' hues become under the other palettes. "safe" is the Okabe-Ito set itself (jfly.uni-koeln.de/color):
+# under every kind of colour blindness its two nearest hues are half as far again from each other as the ones above.
+# "contrast" is brighter, over a picture that is darkened for it (SHADE), and further apart still.
+TONES = {
+    "standard": {},
+    "safe": {GREEN: (0, 158, 115), BLUE: (0, 114, 178), RED: (213, 94, 0), PINK: (204, 121, 167)},
+    "contrast": {
+        ORANGE: (255, 176, 0), SKY: (175, 182, 241), GREEN: (47, 226, 159), YELLOW: (255, 218, 118), BLUE: (8, 155, 255),
+        RED: (228, 121, 46), PINK: (173, 141, 157), FOG: (200, 200, 214), SLATE: (140, 138, 160),
+    },
+}
+SHADE = 96                    # of 255 that is left of the picture's light under overlays of the palette "contrast"
+BRIGHTER = 0.3                # towards white: what "contrast" does with a mixed colour
+
 BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
+
+
+def toned(color, palette):
+    """An overlay's colour as a palette of game.comfort.PALETTES has it; alpha, where there is one, is kept."""
+    plain = tuple(color[:3])
+    found = TONES[palette].get(plain)
+    if found is None:
+        found = plain if palette != "contrast" else tuple(round(c + (255 - c) * BRIGHTER) for c in plain)
+    return (*found, *color[3:])
 
 
 def faded(color, amount):

@@ -4,11 +4,13 @@ import argparse
 import json
 import sys
 import warnings
+from pathlib import Path
 
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.overlays import LAYER_NAMES
-from game.replay import load_replay
+from game.own_levels import level_digest
+from game.replay_check import load_replay_for
 
 DEFAULT_FRAMES = 600       # of a headless run that names no number: ten seconds
 
@@ -60,6 +62,7 @@ def make_parser():
     add("--broadphase", metavar="NAME", help="brute, sweep, hash or tree")
     add("--solver", metavar="NAME", help="how overlaps are resolved")
     add("--tier", metavar="NAME", help="the shape that sprites are tested with")
+    add("--level", metavar="FILE", help="a level of your own, for a scene that takes one")
     add("--screenshot", metavar="FILE", help="save the presented picture after the last frame (PNG)")
     add("--profile", action="store_true", help="print a table of times at the end")
     add("--warmup", action="store_true", help="compile every kernel now")
@@ -83,9 +86,11 @@ def read_options(arguments, registry):
         raise UsageError(f"--seed must be 0 or more (got {options.seed})")
     if options.replay and (options.bot or options.record):
         raise UsageError("--replay brings its own input: leave out --bot and --record")
-    options.recording = load_replay(options.replay) if options.replay else None
-    _take_from_recording(options, registry)
+    options.recording = load_replay_for(options.replay, registry)[0] if options.replay else None
+    _take_from_recording(options)
     _needs_scene(options, registry)
+    if options.level is not None:
+        _check_level(options, registry)
     if options.tier is not None:
         _check_tier(options, registry)
     if options.solver is not None and options.scene is not None:
@@ -115,19 +120,20 @@ def read_layers(text):
     return tuple(names)
 
 
-def _take_from_recording(options, registry):
+def _take_from_recording(options):
     """A replay names its scene, seed and switches; what the command line names too goes first."""
     recording = options.recording
     if recording is None:
         return
     if options.scene not in (None, recording.scene):
         raise UsageError(f"{options.replay} is a recording of {recording.scene}, not of {options.scene}")
-    _known(recording.scene, "scene", registry.names)
     options.scene = recording.scene
     options.seed = recording.seed if options.seed is None else options.seed
     options.broadphase = options.broadphase or recording.broadphase
     options.solver = options.solver or recording.solver
     options.tier = options.tier or recording.tier
+    if options.level is None:
+        options.level = recording.level_path()
 
 
 def _needs_scene(options, registry):
@@ -152,10 +158,20 @@ def _check_tier(options, registry):
         raise UsageError(f"--tier: {options.scene} cannot use {options.tier}; valid: {', '.join(valid)}")
 
 
+def _check_level(options, registry):
+    takers = ", ".join(c.name for c in registry.all_classes() if c.takes_level) or "none here"
+    if options.scene is None:
+        raise UsageError(f"--level needs --scene; scenes that take one: {takers}")
+    if not registry.scene_class(options.scene).takes_level:
+        raise UsageError(f"--level: {options.scene} takes none; scenes that take one: {takers}")
+    options.level = Path(options.level)
+    level_digest(options.level)        # a file that is not there is said before anything is compiled
+
+
 def make_scene(options, registry):
-    """The scene that the options ask for."""
+    """The scene that the options ask for. Raises FileError for a level with a mistake."""
     scene_class = registry.scene_class(options.scene)
-    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier)
+    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier, options.level)
 
 
 def _dispatch(options, registry):

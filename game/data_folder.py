@@ -40,19 +40,31 @@ def write_atomically(path, text):
         beside.unlink(missing_ok=True)
 
 
-def keep_beside(path):
-    """Copy a damaged file to the first free `name.damaged-N`, and return that path.
+def keep_beside(path, why="damaged"):
+    """Copy a file that cannot be used to the first free `name.damaged-N` (or another word), and return that path.
 
-    The name is claimed with exclusive creation, so an earlier kept file is never overwritten.
+    The name is claimed with exclusive creation, so an earlier kept file is never overwritten; one that already holds
+    the same is enough, or every start would leave another.
     """
     path = Path(path)
     content = path.read_bytes()
     number = 1
     while True:
-        kept = path.with_name(f"{path.name}.damaged-{number}")
+        kept = path.with_name(f"{path.name}.{why}-{number}")
         try:
             with open(kept, "xb") as file:
                 file.write(content)
             return kept
         except FileExistsError:
+            if kept.read_bytes() == content:
+                return kept
             number += 1
+
+
+def refusal(path, place, reason, instead, why="damaged"):
+    """Keep a file that cannot be used, and say in one line what is wrong, what is used instead and where it is kept."""
+    try:
+        kept = f"the old file is kept as {keep_beside(path, why).name}"
+    except OSError as error:
+        kept = f"the old file could not be copied ({error})"
+    return f"{path}: {place}: {reason}; {instead}, {kept}"

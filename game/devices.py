@@ -8,19 +8,22 @@ while the program runs; device indexes do and are.
 import pygame
 
 from game import compat
-from game.bindings import AXES, CONTROLLER_BUTTONS, DEAD_ZONE, DEFAULT_KEYS, JOYSTICK_BUTTONS, key_codes
+from game.bindings import (AXES, CONTROLLER_NAMES, DEAD_ZONE, DEFAULT_BUTTONS, DEFAULT_KEYS, JOYSTICK_NAMES,
+                           TRIGGER_NAMES, button_actions, key_codes)
 from game.inputs import InputFrame
 
 STICK = {pygame.CONTROLLER_AXIS_LEFTX: AXES[0], pygame.CONTROLLER_AXIS_LEFTY: AXES[1]}
 STICK_RANGE = 32767.0      # CONTROLLERAXISMOTION counts in 16 bits
+PULLED = 0.5               # of a trigger's travel, from where it counts as a button
 
 
 class DeviceSource:
     """`to_canvas(position)` maps the window's pointer to the canvas; `pads` opens controllers (see Pads)."""
 
-    def __init__(self, to_canvas=lambda position: position, keys=None, pads=None):
+    def __init__(self, to_canvas=lambda position: position, keys=None, pads=None, buttons=None):
         self.to_canvas = to_canvas
-        self.keys = key_codes(keys or DEFAULT_KEYS)
+        self.bind(keys or DEFAULT_KEYS, buttons or DEFAULT_BUTTONS)
+        self.menus = False         # True: whatever was rebound, the keys and buttons of the start work the menus
         self.pads = pads
         self.held = {}             # (device, control) -> actions
         self.tapped = set()        # actions that went down since the last step
@@ -29,6 +32,12 @@ class DeviceSource:
         self.wheel = 0
         self.changes = []
         self.lost_pad = False      # a pad was pulled out; the app pauses and resets this
+
+    def bind(self, keys, buttons):
+        """Take other bindings: {action: names} each."""
+        self.keys, self.buttons = key_codes(keys), button_actions(buttons)
+        self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
+        self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
 
     def change(self, name, value):
         """Queue a change of the simulation (panel, keys) for the next step."""
@@ -54,7 +63,8 @@ class DeviceSource:
         """Take one pygame event."""
         kind = event.type
         if kind == pygame.KEYDOWN:
-            self._press(("key", event.key), self.keys.get(event.key, ()))
+            keys = self.menu_keys if self.menus else self.keys
+            self._press(("key", event.key), keys.get(event.key, ()))
         elif kind == pygame.KEYUP:
             self._release(("key", event.key))
         elif kind == pygame.MOUSEMOTION:
@@ -71,32 +81,55 @@ class DeviceSource:
         else:
             self._feed_pad(event)
 
+    def button_of(self, event):
+        """(pad, name of the button, down) of an event of a pad, or None. A trigger is a button once it is pulled."""
+        kind = event.type
+        if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
+            return event.instance_id, CONTROLLER_NAMES[event.button], kind == pygame.CONTROLLERBUTTONDOWN
+        if kind == pygame.CONTROLLERAXISMOTION and event.axis in TRIGGER_NAMES:
+            return event.instance_id, TRIGGER_NAMES[event.axis], event.value > PULLED * STICK_RANGE
+        if kind in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP) and event.button in JOYSTICK_NAMES:
+            if not self._is_mapped(event.instance_id):
+                return event.instance_id, JOYSTICK_NAMES[event.button], kind == pygame.JOYBUTTONDOWN
+        return None
+
+    def pressed_button(self, event):
+        """The name of the button that this event presses, or None."""
+        found = self.button_of(event)
+        if found is None or not found[2] or found[:2] in self.held:
+            return None
+        return found[1]
+
+    def _is_mapped(self, instance_id):
+        """A mapped pad sends joystick events too, and is then left to its controller events."""
+        return self.pads is not None and self.pads.is_controller(instance_id)
+
     def _feed_pad(self, event):
         kind = event.type
-        if kind in (pygame.CONTROLLERDEVICEADDED, pygame.JOYDEVICEADDED):
+        button = self.button_of(event)
+        if button is not None:
+            self._button(*button)
+        elif kind in (pygame.CONTROLLERDEVICEADDED, pygame.JOYDEVICEADDED):
             if self.pads is not None:
                 self.pads.added(event.device_index)
         elif kind in (pygame.CONTROLLERDEVICEREMOVED, pygame.JOYDEVICEREMOVED):
             self._removed(event.instance_id)
-        elif kind == pygame.CONTROLLERBUTTONDOWN:
-            self._press((event.instance_id, event.button), CONTROLLER_BUTTONS.get(event.button, ()))
-        elif kind == pygame.CONTROLLERBUTTONUP:
-            self._release((event.instance_id, event.button))
         elif kind == pygame.CONTROLLERAXISMOTION and event.axis in STICK:
             self._stick(event.instance_id, event.axis, event.value / STICK_RANGE, STICK[event.axis])
-        elif kind in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame.JOYHATMOTION):
+        elif kind in (pygame.JOYAXISMOTION, pygame.JOYHATMOTION) and not self._is_mapped(event.instance_id):
             self._feed_joystick(event)
 
+    def _button(self, pad, name, down):
+        control = (pad, name)
+        if not down:
+            self._release(control)
+        elif control not in self.held:        # a trigger sends many events on its way
+            self._press(control, (self.menu_buttons if self.menus else self.buttons).get(name, ()))
+
     def _feed_joystick(self, event):
-        """A pad without a mapping. A mapped pad sends these too, and is then left to its controller events."""
-        if self.pads is not None and self.pads.is_controller(event.instance_id):
-            return
+        """The stick and the hat of a pad without a mapping."""
         pad = event.instance_id
-        if event.type == pygame.JOYBUTTONDOWN:
-            self._press((pad, event.button), JOYSTICK_BUTTONS.get(event.button, ()))
-        elif event.type == pygame.JOYBUTTONUP:
-            self._release((pad, event.button))
-        elif event.type == pygame.JOYHATMOTION:
+        if event.type == pygame.JOYHATMOTION:
             self._axis(pad, "hat x", event.value[0], AXES[0])
             self._axis(pad, "hat y", -event.value[1], AXES[1])      # a hat's up is +1
         elif event.axis in AXES:
@@ -166,3 +199,8 @@ class Pads:
     def is_controller(self, instance_id):
         """True if SDL maps this pad's buttons."""
         return instance_id in self.controllers
+
+    def rumble(self, low, high, milliseconds):
+        """Shake every mapped pad's motors, 0..1 each, those that have any."""
+        for controller in self.controllers.values():
+            controller.rumble(low, high, milliseconds)

@@ -8,7 +8,7 @@ from math import floor
 
 import pygame
 
-from game.colors import PAPER
+from game.colors import PAPER, toned
 from game.font import load_font
 
 CANVAS_SIZE = (480, 270)
@@ -27,6 +27,11 @@ class Canvas:
         self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
         self.boxes = []
         self.reserved = []
+        self.palette = "standard"      # of the overlays, as the player wants it
+
+    def tone(self, color):
+        """An overlay's colour in the palette of this picture."""
+        return toned(color, self.palette)
 
     @property
     def rect(self):

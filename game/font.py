@@ -14,6 +14,7 @@ from game.compat import blit_many
 from game.errors import FileError
 from game.places import FONTS
 
+MEASURED = 4096    # lines of text whose size is remembered
 UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
@@ -26,8 +27,9 @@ class Font:
         self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
         self.sheet = sheet
         self.tinted = {}
+        self.measure = lru_cache(maxsize=MEASURED)(self._measure)      # labels ask for the same text picture by picture
 
-    def measure(self, text, scale=1):
+    def _measure(self, text, scale=1):
         """Width and height of one line in pixels. The gap behind the last letter does not count."""
         unknown = self.advance[UNKNOWN]
         width = sum(self.advance.get(c, unknown) for c in text)

@@ -14,7 +14,8 @@ class FixedStep:
 
     def __init__(self, step=STEP_SECONDS):
         self.step = step
-        self.speed = 1.0
+        self.speed = 1.0           # slow motion, for looking closely
+        self.pace = 1.0            # game speed, as the player wants to be able to follow
         self.paused = False
         self.left_over = 0.0
         self.before = None
@@ -28,10 +29,15 @@ class FixedStep:
             due, self.requested = self.requested, 0
             self.left_over = 0.0
             return due
-        self.left_over += passed * self.speed
+        self.left_over += passed * self.speed * self.pace
         due = int(self.left_over / self.step)
         self.left_over -= due * self.step
         return due
+
+    def rest(self):
+        """Time does not count until advance() is called again: another screen is in front."""
+        self.before = None
+        self.requested = 0
 
     @property
     def alpha(self):

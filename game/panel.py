@@ -50,7 +50,7 @@ class Panel:
     def feed(self, event):
         """Take an event; True if the panel used it."""
         if event.type == pygame.KEYDOWN and self.focused:
-            return self._key(event.key)
+            return self.key(event.key)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             self.focused = self.rect.collidepoint(event.pos)
             return self._click(event.pos)
@@ -64,7 +64,8 @@ class Panel:
             return True
         return False
 
-    def _key(self, key):
+    def key(self, key):
+        """Take a key; True if the panel used it."""
         rows = self.rows()
         row = rows[self.mark] if self.mark < len(rows) else None
         if key in (pygame.K_UP, pygame.K_DOWN):
@@ -164,7 +165,7 @@ class Panel:
         text_y = rect.y + scale
         x = rect.x + 2 * scale
         if row.kind == CHECK:
-            x = _draw_check(surface, x, rect, row, scale)
+            x = _draw_check(surface, x, rect, row, frame.tone(row.color), scale)
         right = rect.right - 2 * scale
         if row.key:
             frame.text(row.key, right, rect.y + 3 * scale, FOG, SMALL, scale, "right")
@@ -193,12 +194,12 @@ class Panel:
         return top
 
 
-def _draw_check(surface, x, rect, row, scale):
+def _draw_check(surface, x, rect, row, color, scale):
     box = pygame.Rect(x, rect.y + scale, 7 * scale, 7 * scale)
     surface.fill(INK, box)
-    pygame.draw.rect(surface, row.color, box, scale)
+    pygame.draw.rect(surface, color, box, scale)
     if row.on:
-        surface.fill(row.color, box.inflate(-4 * scale, -4 * scale))
+        surface.fill(color, box.inflate(-4 * scale, -4 * scale))
     return box.right + 4 * scale
 
 

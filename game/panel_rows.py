@@ -14,7 +14,7 @@ def play_rows(play):
         Row(HEAD, scene.title),
         *_switches(play, scene),
         Row(HEAD, "See"),
-        *_layers(play),
+        *layer_rows(play.overlays),
         Row(HEAD, "Time"),
         *_time(play),
         *_sliders(play, scene),
@@ -50,22 +50,23 @@ def _switches(play, scene):
     return rows
 
 
-def _layers(play):
+def layer_rows(overlays):
+    """A check box per overlay layer."""
     return [
-        Row(CHECK, layer.title, key=layer.key.upper(), color=layer.color, on=layer.name in play.overlays.on,
-            press=lambda name=layer.name: play.overlays.toggle(name))
-        for layer in play.overlays.layers
+        Row(CHECK, layer.title, key=layer.key.upper(), color=layer.color, on=layer.name in overlays.on,
+            press=lambda name=layer.name: overlays.toggle(name))
+        for layer in overlays.layers
     ]
 
 
 def _time(play):
     clock = play.clock
     return [
-        Row(CHECK, "Pause", key="P", on=clock.paused, press=play.toggle_pause),
+        Row(CHECK, "Freeze", key="P", on=clock.paused, press=play.toggle_pause),
         Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
         Row(CHOICE, "Speed", f"{clock.speed:.0%}", "- +",
             turn=lambda way: clock.faster() if way > 0 else clock.slower(), hint=f"down to {SPEEDS[-1]:.0%}"),
-        Row(BUTTON, "Restart", key="R", press=lambda: play.devices.change("restart", True)),
+        Row(BUTTON, "Restart", key="R", press=play.restart),
     ]
 
 

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.colors import INK
+from game.colors import INK, SHADE
 from game.draw import Canvas
 from game.overlays.stack import draw_legend, legend_columns, legend_size
 from game.presenter import SCREENSHOT_SCALE, Presenter
@@ -19,15 +19,25 @@ class Picture:
         self.canvas = Canvas()
         self.presenter = Presenter(surface)
 
-    def draw_scene(self, scene, overlays, alpha=1.0, panel=None):
-        """Draw everything and return the frame. With geometry shown, sprites stand where the step left them."""
+    def draw_scene(self, scene, overlays, alpha=1.0, panel=None, reserve=None):
+        """Draw everything and return the frame. With geometry shown, sprites stand where the step left them.
+
+        reserve(frame): called before the overlays' text is placed, to keep it away from what is drawn later.
+        """
         if overlays.shows_geometry():
             alpha = 1.0
         self.canvas.begin(INK)
+        self.canvas.palette = self.presenter.frame.palette = scene.comfort.palette
         scene.draw(self.canvas, alpha)
+        if scene.comfort.flashing:
+            scene.flash.draw(self.canvas.surface)
+        if scene.comfort.palette == "contrast" and overlays.shows_geometry():
+            self.canvas.surface.fill((SHADE,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         overlays.draw_on_canvas(self.canvas, scene)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
+        if reserve is not None:
+            reserve(frame)
         scene.draw_on_frame(frame)
         scene.drag.draw(frame, scene.pointer)
         overlays.draw_on_frame(frame, scene)

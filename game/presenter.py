@@ -44,6 +44,10 @@ class Frame(Canvas):
         """Whole-number scale at which small text can be read at this resolution."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
+    def scale_for(self, width):
+        """Whole-number scale at which something `width` text px wide fits over the game."""
+        return max(1, min(self.text_scale, self.area.width // width))
+
     def lens(self, camera):
         """World to frame for a camera, drawn at the last step's poses."""
         left, top = camera.view()

@@ -1,10 +1,7 @@
 """What a run measured: per stage, per frame, counters and events, summed over the scene's worlds."""
 
-from array import array
-
-import numpy as np
-
 from game.digest import scene_digest
+from game.spread import Spread
 
 EVENTS = ("begin", "persist", "end", "hits")
 
@@ -14,9 +11,10 @@ class RunReport:
 
     def __init__(self):
         self.steps = 0
-        self.frames = array("d")   # [s] update, and drawing where there was any
-        self.updates = array("d")  # [s] update alone
-        self.stages = {}           # name -> [s] per step
+        self.frames = Spread()     # update, and drawing where there was any; the last one is still open
+        self.last = None           # [s] the frame that drawing may still be added to
+        self.updates = Spread()    # update alone
+        self.stages = {}           # name -> Spread of the times per step
         self.counters = {}
         self.events = dict.fromkeys(EVENTS, 0)
         self.quarantined = 0
@@ -24,8 +22,9 @@ class RunReport:
     def note_step(self, scene, seconds):
         """Take what the worlds measured in the step just made, which took that long."""
         self.steps += 1
-        self.frames.append(seconds)
-        self.updates.append(seconds)
+        self._close_frame()
+        self.last = seconds
+        self.updates.add(seconds)
         step_stages = {}
         for world in scene.worlds:
             for name, spent in world.profile.stages.items():
@@ -36,12 +35,17 @@ class RunReport:
                 self.events[name] += len(getattr(world.events, name))
             self.quarantined += len(world.events.quarantined)
         for name, spent in step_stages.items():
-            self.stages.setdefault(name, array("d")).append(spent)
+            self.stages.setdefault(name, Spread()).add(spent)
 
     def note_drawing(self, seconds):
         """Add drawing time to the frame of the last step."""
-        if self.frames:
-            self.frames[-1] += seconds
+        if self.last is not None:
+            self.last += seconds
+
+    def _close_frame(self):
+        if self.last is not None:
+            self.frames.add(self.last)
+            self.last = None
 
     def strict_failures(self):
         """What --strict objects to: quarantined bodies and any cap that was hit."""
@@ -54,6 +58,7 @@ class RunReport:
 
     def to_json(self, scene, check):
         """The object that --json prints; `check` comes from judge()."""
+        self._close_frame()
         return {
             "scene": scene.name, "frames": self.steps, "seed": scene.seed, "effects": scene.effects.names(),
             "broadphase": scene.broadphase, "solver": solver_name(scene), "tier": scene.tier,
@@ -65,6 +70,7 @@ class RunReport:
 
     def profile_lines(self):
         """The table that --profile prints."""
+        self._close_frame()
         lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
         rows = {"frame": self.frames, "  update": self.updates}
         rows |= {f"    {name}": spent for name, spent in self.stages.items()}
@@ -82,12 +88,10 @@ def solver_name(scene):
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
-def summary(seconds, wanted):
+def summary(spread, wanted):
     """{mean, p50, p99, max} in milliseconds, of what is wanted; zeros when nothing was measured."""
-    values = np.asarray(seconds if len(seconds) else [0.0]) * 1000.0
-    found = {"mean": values.mean(), "p50": np.percentile(values, 50), "p99": np.percentile(values, 99),
-             "max": values.max()}
-    return {name: round(float(found[name]), 4) for name in wanted}
+    found = {"mean": spread.mean, "p50": spread.quantile(0.5), "p99": spread.quantile(0.99), "max": spread.largest}
+    return {name: round(1000.0 * found[name], 4) for name in wanted}
 
 
 def judge(scene, frames, extra=()):

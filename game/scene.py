@@ -9,11 +9,15 @@ from dataclasses import dataclass
 from random import Random
 
 from game.camera import Camera
+from game.comfort import Comfort
 from game.drag import Drag
+from game.flash import Flash
 from game.inputs import CHANGES
 from game.loop import STEP_SECONDS
 from game.particles import Particles
 from physics import BROADPHASES, SOLVERS, Effects, World
+
+ASSISTS = {"invincible": False, "hit_stop": True}      # name -> how a game starts; they change it, so they come as input
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,16 @@ class Goal:
     due: int
     met: bool
     detail: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    """How a game ended. `lines`: what more there is to say of it."""
+
+    won: bool
+    points: int
+    seconds: float
+    lines: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -81,19 +95,28 @@ class Scene:
     hides_pointer = True
     draggable = False          # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True # False: the scene's worlds have their own
+    music = "lab"              # the tune; a scene may set another on itself, mid-game
+    ranked_by = None           # what its high scores are ordered by: "points", most first, or "seconds", fewest first
+    assists = ()               # those of ASSISTS that it offers
+    takes_level = False        # True: `level` may name a file to play instead of the scene's own
+    level_suffix = ""          # of such files, ".tmj" or ".json": which of the player's own the menu lists
 
     def __init_subclass__(cls):
         missing = [name for name in cls.DEFINED if not hasattr(cls, name)]
         if missing:
             raise TypeError(f"scene {cls.__name__} must define {', '.join(missing)}")
 
-    def __init__(self, seed=0, broadphase=None, solver=None, tier=None):
+    def __init__(self, seed=0, broadphase=None, solver=None, tier=None, level=None):
         self.seed = seed
+        self.level_file = level        # None: the scene's own
         self.broadphase = broadphase or type(self).broadphase
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
         self.values = {slider.name: slider.start for slider in self.sliders}
+        self.assist = {name: ASSISTS[name] for name in self.assists}
+        self.comfort = Comfort()
+        self.ghost = None      # the trail of an earlier run, to be seen beside this one; set from outside
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
@@ -106,6 +129,10 @@ class Scene:
         self.cues = []         # (sound, canvas x, volume) of this step; the app plays them
         self.worlds = []
         self.camera = Camera()
+        self.camera.shake_share = self.comfort.shake
+        self.flash = Flash()
+        self.result = None     # a Result when the game has ended; who plays it decides what comes then
+        self.trail = []        # rows of where the player was in each step, for a ghost in later runs
         self.particles.clear()
         self.drag.release()
         self.build()
@@ -138,6 +165,7 @@ class Scene:
             self.drag.step(inputs, self.views())
         self.update(inputs)
         self.particles.step(STEP_SECONDS)
+        self.flash.step()
         self.frame += 1
 
     def change(self, name, value):
@@ -152,10 +180,12 @@ class Scene:
             self.set_narrowphase(value)
         elif name == "tier" and value in self.tiers:
             self.set_tier(value)
+        elif name.startswith("assist:") and name[7:] in self.assist and isinstance(value, bool):
+            self.assist[name[7:]] = value
         elif name == "restart":
             self.restart()
         else:
-            valid = ", ".join((*CHANGES, *(f"slider:{n}" for n in self.values)))
+            valid = ", ".join((*CHANGES, *(f"slider:{n}" for n in self.values), *(f"assist:{n}" for n in self.assist)))
             raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
 
     def change_slider(self, name, value):
@@ -199,6 +229,11 @@ class Scene:
                 body = world.body(identity)
                 if body.tier is not None:
                     body.tier = name
+
+    def set_comfort(self, comfort):
+        """Take what the player wants of the picture."""
+        self.comfort = comfort
+        self.camera.shake_share = comfort.shake
 
     def play(self, sound, x=None, volume=1.0):
         """Ask for a sound effect. x: canvas position for the pan; None: the middle."""

@@ -104,6 +104,10 @@ class TurnedSprites:
         self.image, self.mask = image, mask
         self.cache = {}
 
+    def __deepcopy__(self, memo):
+        """A copy of a scene draws with the same pictures."""
+        return self
+
     def draw(self, canvas, camera, x, y, angle, alpha=1.0):
         """Draw with the mask's origin at world (x, y), as the physics places it on the pixel grid."""
         image, origin = self.at(angle)

@@ -1,22 +1,29 @@
-"""The title: two planes pass, their boxes meet, and only where pixels meet does it say HIT."""
+"""The title: two planes pass, their boxes meet, and only where pixels meet does it say HIT. Left alone, it shows games."""
 
 from math import pi, sin
 
 import pygame
 
 from game.backdrop import Backdrop
-from game.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED
+from game.boxes import draw_box
+from game.colors import FOG, GREEN, ORANGE, PAPER, RED
 from game.draw import SMALL, TEXT, shorten
+from game.rows import LINE, Row, RowList
 from game.sprites import load_atlas
 
 LOOP = 9.0         # [s] one pass of the planes
-LOGO_Y, LINE_Y, WORD_Y, START_Y, FOOT_Y = 6, 82, 97, 234, 256
+IDLE = 10.0        # [s] without any input before the games play themselves
+LOGO_Y, LINE_Y, WORD_Y, FOOT_Y = 6, 82, 104, 256
+MENU = pygame.Rect(24, 112, 128, 6 * LINE)
+ENTRIES = (("Play", ("menu",)), ("Replays", ("replays",)), ("High scores", ("scores",)),
+           ("Tour of the overlays", ("tour",)), ("Settings", ("settings",)), ("Leave", ("quit",)))
 
 
 class Title:
-    """Waits for any key. `outcome` becomes ("menu",) or ("quit",)."""
+    """The first screen. `outcome` becomes what the chosen entry leads to, or ("attract",) after a while."""
 
-    shows_pointer = False
+    shows_pointer = True
+    tune = "title"
 
     def __init__(self, message=""):
         self.backdrop = Backdrop()
@@ -25,16 +32,34 @@ class Title:
         self.masks = [pygame.mask.from_surface(image) for image in (self.left, self.right)]
         self.logo = load_atlas("ui")["logo"]
         self.message = message
-        self.time = 0.0
+        self.cues = []
+        self.list = RowList(self._rows, MENU, self.cues)
+        self.time = self.idle = 0.0
         self.outcome = None
+
+    def _rows(self):
+        return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in ENTRIES]
+
+    def _leave(self, outcome):
+        self.outcome = outcome
+
+    def resume(self):
+        """Called when the screen is seen again."""
+        self.idle = 0.0
 
     def step(self, inputs, dt):
         """One fixed step."""
         self.time += dt
-        if inputs.pressed("confirm") or inputs.pressed("fire") or inputs.pointer_pressed:
-            self.outcome = ("menu",)
-        elif inputs.pressed("cancel"):
-            self.outcome = ("quit",)
+        busy = inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
+        self.idle = 0.0 if busy else self.idle + dt
+        if inputs.pressed("cancel"):
+            self.cues.append("back")
+            if self.list.mark == len(ENTRIES) - 1:       # Esc marks Leave, and a second one leaves
+                self.outcome = ("quit",)
+            self.list.mark = len(ENTRIES) - 1
+        self.list.step(inputs, dt)
+        if self.idle >= IDLE:
+            self.outcome = ("attract",)
 
     def draw(self, canvas, alpha):
         """Draw the picture."""
@@ -43,9 +68,9 @@ class Title:
         canvas.sprite(self.logo, canvas.rect.centerx, LOGO_Y + self.logo.get_height() // 2)
         canvas.text("collision you can feel, trust and see", canvas.rect.centerx, LINE_Y, PAPER, TEXT, 1, "center",
                     True)
-        if self.time % 1.2 < 0.8:
-            canvas.text("PRESS ENTER", canvas.rect.centerx, START_Y, GOLD, TEXT, 1, "center", True)
-        foot = self.message or "Enter or click: play    Esc: leave"
+        draw_box(canvas, MENU.inflate(16, 16))
+        self.list.draw(canvas)
+        foot = self.message or "\u2191 \u2193 choose   Enter goes   or the mouse, or a controller"
         foot = shorten(foot, canvas.rect.width - 16, SMALL)
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
@@ -53,8 +78,8 @@ class Title:
         """Both planes, their boxes coloured by what pygame's own masks say."""
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
-        a = self.left.get_rect(center=(round(178 + 40 * sway), round(170 + 4 * sin(phase * 4 * pi))))
-        b = self.right.get_rect(center=(round(302 - 40 * sway), round(168 - 4 * sin(phase * 4 * pi))))
+        a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))
+        b = self.right.get_rect(center=(round(372 - 34 * sway), round(178 - 4 * sin(phase * 4 * pi))))
         canvas.surface.blit(self.left, a)
         canvas.surface.blit(self.right, b)
         offset = (b.x - a.x, b.y - a.y)
@@ -66,5 +91,4 @@ class Title:
             shared = hit.to_surface(setcolor=(255, 250, 150, 255), unsetcolor=None)
             canvas.surface.blit(shared, a)
         word = {RED: "HIT", ORANGE: "boxes only", GREEN: "apart"}[color]
-        canvas.text(word, canvas.rect.centerx, WORD_Y, color, TEXT, 1, "center", True)
-
+        canvas.text(word, 316, WORD_Y, color, TEXT, 1, "center", True)

@@ -22,8 +22,9 @@ def draw_boxes(frame, lens, rows, colors):
     wide = np.minimum(wide - (left - np.floor(x0)), clip.right + 2.0 - left)
     high = np.minimum(high - (top - np.floor(y0)), clip.bottom + 2.0 - top)
     surface, rect = frame.surface, pygame.draw.rect
+    tones = {color: frame.tone(color) for color in set(colors)}
     for color, box in zip(colors, np.column_stack((left, top, wide, high)).astype(int).tolist(), strict=True):
-        rect(surface, color, box, 1)
+        rect(surface, tones[color], box, 1)
 
 
 class Bounds:

@@ -39,8 +39,8 @@ class Centers:
         apart = np.hypot(bodies["x"][seen] - bodies["center_x"][seen], bodies["y"][seen] - bodies["center_y"][seen])
         for (x, y, ox, oy, wx, wy, angle), far in zip(columns.tolist(), (apart > APART).tolist(), strict=True):
             if far:
-                pygame.draw.line(frame.surface, FOG, (ox, oy), (x, y))
-                pygame.draw.circle(frame.surface, FOG, (ox, oy), frame.scale, 1)
+                pygame.draw.line(frame.surface, frame.tone(FOG), (ox, oy), (x, y))
+                pygame.draw.circle(frame.surface, frame.tone(FOG), (ox, oy), frame.scale, 1)
             arrow(frame, x, y, wx, wy, GOLD)
             mark(frame.surface, x, y, angle, 2.0 * frame.scale)
 

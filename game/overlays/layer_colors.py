@@ -45,13 +45,14 @@ class Colors:
             moves = can_move(bodies, rows[side][seen])
             cx, cy = lens.points(bodies["center_x"][owner], bodies["center_y"][owner])
             for i in np.flatnonzero(moves).tolist():
-                color = color_of(int(rows["color"][seen[i]]))
+                color = frame.tone(color_of(int(rows["color"][seen[i]])))
                 pygame.draw.line(frame.surface, color, (x[seen[i]], y[seen[i]]), (cx[i], cy[i]))
         for i in seen.tolist():
             color = int(rows["color"][i])
-            pygame.draw.circle(frame.surface, color_of(color), (x[i], y[i]), 2 * frame.scale)
+            tone = frame.tone(color_of(color))
+            pygame.draw.circle(frame.surface, tone, (x[i], y[i]), 2 * frame.scale)
             if len(self.labels) < LABEL_BUDGET:
-                self.labels.append((f"{color}" if color >= 0 else "-", float(x[i]), float(y[i]), color_of(color)))
+                self.labels.append((f"{color}" if color >= 0 else "-", float(x[i]), float(y[i]), tone))
 
     def _count(self, colors):
         self.overflow += int(np.count_nonzero(colors < 0))

@@ -48,10 +48,11 @@ class Contacts:
         end_x, end_y = x + nx * reach, y + ny * reach
         if state in (SPECULATIVE, ASLEEP):       # nothing is pushed here: a short stub, a hollow dot
             end_x, end_y = x + nx * reach / 2, y + ny * reach / 2
-        pygame.draw.line(frame.surface, ORANGE if state in (NEW, PERSISTED) else COLORS[state], (x, y), (end_x, end_y),
+        tone = frame.tone(COLORS[state])
+        pygame.draw.line(frame.surface, frame.tone(ORANGE) if state in (NEW, PERSISTED) else tone, (x, y), (end_x, end_y),
                          max(1, frame.scale - 1))
         hollow = 1 if state in (SPECULATIVE, SENSOR) else 0
-        pygame.draw.circle(frame.surface, COLORS[state], (x, y), frame.scale + 1 + hollow, hollow)
+        pygame.draw.circle(frame.surface, tone, (x, y), frame.scale + 1 + hollow, hollow)
         if depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right"))
 

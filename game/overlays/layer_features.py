@@ -31,7 +31,7 @@ class Features:
         x, y = lens.points(rows["point_x"], rows["point_y"])
         seen = seen_points(lens, x, y)[: self.room]
         for x, y, feature in zip(x[seen].tolist(), y[seen].tolist(), rows["feature"][seen].tolist(), strict=True):
-            color = SERIES[feature % len(SERIES)]
+            color = frame.tone(SERIES[feature % len(SERIES)])
             pygame.draw.circle(frame.surface, color, (x, y), frame.scale)
             self.labels.append((text_of(feature), x, y, color))
 

@@ -38,9 +38,10 @@ class Ghosts:
                 continue
             self.drawn += age == 0
             fading = 0.75 * age / KEPT
-            pygame.draw.line(frame.surface, faded(SKY, 0.3 + fading), place, end)
+            going = faded(frame.tone(SKY), 0.3 + fading)
+            pygame.draw.line(frame.surface, going, place, end)
             for now, then in outlines:
-                draw_outline(frame.surface, lens, then, faded(SKY, 0.3 + fading), 1, frame.scale)
+                draw_outline(frame.surface, lens, then, going, 1, frame.scale)
                 draw_outline(frame.surface, lens, now, faded(WHITE, fading), width if age == 0 else 1, frame.scale)
             if age < KEPT // 3:
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))

@@ -73,7 +73,7 @@ def arrow(frame, x, y, dx, dy, color):
     longest = LONGEST * frame.scale
     if length > longest:
         dx, dy, length = dx * longest / length, dy * longest / length, longest
-    width = max(1, frame.scale - 1)
+    width, color = max(1, frame.scale - 1), frame.tone(color)
     end = (x + dx, y + dy)
     pygame.draw.line(frame.surface, color, (x, y), end, width)
     head = min(2.5 * frame.scale, length) / length

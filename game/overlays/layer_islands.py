@@ -48,7 +48,7 @@ class Islands:
         numbers, sleeps = islands[owner[seen]].tolist(), asleep[owner[seen]].tolist()
         for outline, island, sleeping in zip(debug.outlines(world, seen.tolist()), numbers, sleeps, strict=True):
             color = FOG if sleeping else color_of(island) if island >= 0 else lonely
-            draw_outline(frame.surface, lens, outline, color, 1, frame.scale)
+            draw_outline(frame.surface, lens, outline, frame.tone(color), 1, frame.scale)
         for row in np.unique(owner[seen][asleep[owner[seen]]]).tolist():
             x, y = lens.points(float(bodies["center_x"][row]), float(bodies["center_y"][row]))
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
@@ -67,7 +67,7 @@ class Islands:
             corners = boxes[group][:, [0, 1, 2, 1, 2, 3, 0, 3]].reshape(-1, 2)
             x, y = lens.points(corners[:, 0], corners[:, 1])
             hull = hull_of(np.column_stack((x - lens.clip.x, y - lens.clip.y)))
-            color = SLATE if sleeping else color_of(island)
+            color = frame.tone(SLATE if sleeping else color_of(island))
             pygame.draw.polygon(sheet, (*color, ASLEEP_FILL if sleeping else FILL), hull)
             pygame.draw.polygon(sheet, (*color, 200), hull, max(1, frame.scale - 1))
         frame.surface.blit(sheet, lens.clip)

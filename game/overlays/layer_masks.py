@@ -9,11 +9,11 @@ from collections import OrderedDict
 import numpy as np
 import pygame
 
-from game.colors import BLUE, YELLOW
+from game.colors import BLUE, YELLOW, toned
 from game.compat import blit_many
 from physics import debug
 
-FILL = (70, 140, 230, 96)
+FILL = 96                  # opacity of 255 of a mask's inside
 EDGE = (150, 210, 255, 255)
 HIT = (255, 250, 150, 255)
 CACHE_SIZE = 512           # tinted masks kept; a turning sprite has one per angle bucket
@@ -44,7 +44,7 @@ class Masks:
             self.total += 1
             place = (int(x) - left + view.x, int(y) - top + view.y)
             if view.colliderect((*place, solid.shape[1], solid.shape[0])):
-                pairs.append((self._tinted(solid), place))
+                pairs.append((self._tinted(solid, canvas.palette), place))
         self.drawn += len(pairs)
         canvas.surface.set_clip(view)
         blit_many(canvas.surface, pairs)
@@ -64,16 +64,16 @@ class Masks:
         pixels[x[seen], y[seen]] = surface.map_rgb(HIT)
         del pixels      # unlocks the surface
 
-    def _tinted(self, solid):
+    def _tinted(self, solid, palette):
         """Masks hand out the same array for the same angle; it is kept with its image, so its id stays its own."""
-        kept, image = self.tinted.get(id(solid), (None, None))
+        kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
-            image = mask_image(solid)
-            self.tinted[id(solid)] = (solid, image)
+            image = mask_image(solid, palette)
+            self.tinted[id(solid), palette] = (solid, image)
             if len(self.tinted) > CACHE_SIZE:
                 self.tinted.popitem(last=False)
         else:
-            self.tinted.move_to_end(id(solid))
+            self.tinted.move_to_end((id(solid), palette))
         return image
 
     def notes(self):
@@ -81,15 +81,16 @@ class Masks:
         return [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
 
 
-def mask_image(solid):
+def mask_image(solid, palette="standard"):
     """A translucent image of a (h, w) bool mask with its edge pixels light."""
+    fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
     edge = solid & ~inner
     image = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA)
     colors = np.zeros((solid.shape[1], solid.shape[0], 3), dtype=np.uint8)
     alpha = np.zeros((solid.shape[1], solid.shape[0]), dtype=np.uint8)
-    for part, color in ((solid & ~edge, FILL), (edge, EDGE)):
+    for part, color in ((solid & ~edge, fill), (edge, EDGE)):
         colors[part.T] = color[:3]
         alpha[part.T] = color[3]
     pygame.surfarray.blit_array(image, colors)

@@ -33,13 +33,13 @@ class Outlines:
         width = max(1, frame.scale - 1)
         for outline, kind, sensor in zip(debug.outlines(world, seen.tolist()), rows["kind"].tolist(),
                                          rows["sensor"].tolist(), strict=True):
-            color = PINK if sensor else (STATIC, KINEMATIC, DYNAMIC)[kind]
+            color = frame.tone(PINK if sensor else (STATIC, KINEMATIC, DYNAMIC)[kind])
             if outline[0] == "tiles":
-                self._draw_tiles(frame.surface, lens, world, outline[1], color, width)
+                self._draw_tiles(frame, lens, world, outline[1], color, width)
             else:
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
-    def _draw_tiles(self, surface, lens, world, shape_id, color, width):
+    def _draw_tiles(self, frame, lens, world, shape_id, color, width):
         """The edge of a grid's solid cells; in orange the tops of cells that are open from below."""
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
@@ -47,9 +47,9 @@ class Outlines:
         grid = body.shapes[number]
         if not isinstance(grid, TileGrid):
             return
-        x, y = body.position
+        (x, y), from_below = body.position, frame.tone(ORANGE)
         for start, end, one_way in edges_of(grid, lens, x, y):
-            pygame.draw.line(surface, ORANGE if one_way else color, start, end, width)
+            pygame.draw.line(frame.surface, from_below if one_way else color, start, end, width)
 
     def notes(self):
         """(color, text) lines for the legend."""

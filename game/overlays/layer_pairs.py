@@ -38,8 +38,9 @@ class Pairs:
         x1, y1 = lens.points(rows[seen, 2], rows[seen, 3])
         starts, ends = np.column_stack((x0, y0)).tolist(), np.column_stack((x1, y1)).tolist()
         line, surface = pygame.draw.line, frame.surface
+        hit, miss = frame.tone(RED), frame.tone(MISS)
         for i in reversed(range(len(seen))):         # hits last, on top
-            line(surface, RED if rows[seen[i], 4] else MISS, starts[i], ends[i])
+            line(surface, hit if rows[seen[i], 4] else miss, starts[i], ends[i])
 
     def notes(self):
         """(color, text) lines for the legend."""

@@ -58,16 +58,16 @@ class Structure:
         seen = thinned(np.flatnonzero((high >= start) & (low <= end)), INTERVAL_BUDGET // self.views)
         self.drawn += len(seen)
         thick = max(1, frame.scale - 1)
-        surface = frame.surface
+        surface, yellow, pink = frame.surface, frame.tone(YELLOW), frame.tone(PINK)
         low = np.maximum(low, start).astype(int).tolist()
         high = np.minimum(np.maximum(high, low), end).astype(int).tolist()
         for lane, i in enumerate(seen.tolist()):
             shift = (lane % LANES) * (thick + 1) + 1
             length = max(high[i] - low[i], 1)
             if axis[i] == 0:
-                surface.fill(YELLOW, (low[i], clip.top + shift, length, thick))
+                surface.fill(yellow, (low[i], clip.top + shift, length, thick))
             else:
-                surface.fill(PINK, (clip.left + shift, low[i], thick, length))
+                surface.fill(pink, (clip.left + shift, low[i], thick, length))
 
     def notes(self):
         """(color, text) lines for the legend."""

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded
+from game.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded, toned
 from game.draw import SMALL
 
 HISTORY = 240              # steps kept: four seconds
@@ -78,7 +78,7 @@ class Times:
         totals = sorted(sum(step.values()) for step in self.steps) or [0.0]
         # One slow step (a compiler, a garbage collection) must not flatten all others: it is cut, and capped white.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
-        self._scroll(rect.size, top)
+        self._scroll(rect.size, top, frame.palette)
         frame.surface.blit(self.sheet, rect)
         for part in (0.5, 1.0):
             y = rect.bottom - int(rect.height * part * 0.999)
@@ -87,28 +87,29 @@ class Times:
         frame.text_if_free(f"{sum(self.mean.values()):.2f} ms a step, frame {FRAME_BUDGET:.1f}",
                            rect.x + scale, rect.bottom - 8 * scale, GOLD, SMALL, scale, "left", True)
 
-    def _scroll(self, size, top):
+    def _scroll(self, size, top, palette):
         """Bring the graph's sheet up to date: only the new columns are painted unless its size or scale changed."""
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted
-        if self.sheet_for != (size, top) or new >= len(self.steps):
-            self.sheet, self.sheet_for = pygame.Surface(size), (size, top)
+        if self.sheet_for != (size, top, palette) or new >= len(self.steps):
+            self.sheet, self.sheet_for = pygame.Surface(size), (size, top, palette)
             self.sheet.fill(faded(NIGHT, 0.3))
             new = min(len(self.steps), size[0] // column)
         elif new:
             self.sheet.scroll(-new * column, 0)
             self.sheet.fill(faded(NIGHT, 0.3), (size[0] - new * column, 0, new * column, size[1]))
         for place in range(new):
-            self._paint_column(self.steps[len(self.steps) - new + place], size[0] - (new - place) * column, column, top)
+            self._paint_column(self.steps[len(self.steps) - new + place], size[0] - (new - place) * column, column, top,
+                               palette)
         self.painted = self.noted
 
-    def _paint_column(self, step, x, width, top):
+    def _paint_column(self, step, x, width, top, palette):
         height = self.sheet.get_height()
         base = float(height)
         for name, spent in step.items():
             upper = max(base - spent / top * height, 0.0)
             if int(base) > int(upper):
-                self.sheet.fill(self._color(name), (x, int(upper), width, int(base) - int(upper)))
+                self.sheet.fill(toned(self._color(name), palette), (x, int(upper), width, int(base) - int(upper)))
             base = upper
         if base <= 0.0:
             self.sheet.fill(PAPER, (x, 0, width, 2))
@@ -121,7 +122,7 @@ class Times:
         shown = rows if len(rows) <= room else rows[: max(room - 1, 0)]
         for color, name, value in shown:
             y += height
-            frame.surface.fill(color, (x, y, 2 * scale, 5 * scale))
+            frame.surface.fill(frame.tone(color), (x, y, 2 * scale, 5 * scale))
             frame.text(name.replace("_", " "), x + 4 * scale, y, PAPER, SMALL, scale)
             frame.text(value, x + width, y, PAPER, SMALL, scale, "right")
         if len(shown) < len(rows):

@@ -138,7 +138,7 @@ def draw_legend(frame, lines, x, y, scale):
     """A swatch and a text per line, from the top left (x, y)."""
     for index, (color, text) in enumerate(lines):
         top = y + 3 * scale + index * 7 * scale
-        frame.surface.fill(color, (x + 3 * scale, top, 3 * scale, 5 * scale))
+        frame.surface.fill(frame.tone(color), (x + 3 * scale, top, 3 * scale, 5 * scale))
         frame.text(text, x + 8 * scale, top, PAPER, SMALL, scale)
 
 

@@ -223,9 +223,10 @@ class Conveyor(Scene):
             for name, (x, y) in LABEL_AT.items():
                 color = PAPER if self.worst[name] <= ALLOWED else RED
                 text = f"{name} {self.last[name]:.1f}" if self.taken[name] else name
-                canvas.text(text, view.x + x, view.y + y, color, SMALL, align="center")
+                canvas.text(text, view.x + x, view.y + y, color, SMALL, align="center", outline=True)
         else:
-            canvas.text(f"moved by {self.strayed:.2f} px", view.x + 92, view.y + 98, PAPER, SMALL, align="center")
+            canvas.text(f"moved by {self.strayed:.2f} px", view.x + 92, view.y + 98, PAPER, SMALL, align="center",
+                        outline=True)
 
     def check(self):
         """All shapes reach the speed of every belt; without the effect nothing moves."""

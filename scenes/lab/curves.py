@@ -40,8 +40,6 @@ class Curves:
         for decade in range(1, int(decades) + 1):
             y = plot.bottom - plot.height * decade / decades
             pygame.draw.line(surface, (52, 46, 76), (plot.left, y), (plot.right, y))
-            if y + 7 * scale <= rect.bottom:
-                frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
         for name, color in self.names.items():
             values = self.history[name]
             if len(values) < 2:
@@ -51,6 +49,10 @@ class Curves:
             points = [(x + i * step, plot.bottom - plot.height * log10(value + 1.0) / decades)
                       for i, value in enumerate(values)]
             pygame.draw.lines(surface, color, False, points, max(1, frame.scale - 1))
+        for decade in range(1, int(decades) + 1):            # over the curves
+            y = plot.bottom - plot.height * decade / decades
+            if y + 7 * scale <= rect.bottom:
+                frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
 
 
 def _power(decade):

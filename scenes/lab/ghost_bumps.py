@@ -213,7 +213,6 @@ class GhostBumps(Scene):
             for value, text in marks:
                 y = plot.bottom - plot.height * share(number, value)
                 pygame.draw.line(frame.surface, (52, 46, 76), (plot.left, y), (plot.right, y))
-                frame.text_if_free(text, plot.left + 2 * scale, y + scale, SLATE, SMALL, scale)
             for floor in FLOORS:
                 values = [each[number] for each in self.curves[floor]]
                 if len(values) > 1:
@@ -222,6 +221,9 @@ class GhostBumps(Scene):
                     points = [(x + i * step, plot.bottom - 1 - (plot.height - 2) * share(number, value))
                               for i, value in enumerate(values)]
                     pygame.draw.lines(frame.surface, COLORS[floor], False, points, max(1, frame.scale - 1))
+            for value, text in marks:            # over the curves
+                y = plot.bottom - plot.height * share(number, value)
+                frame.text_if_free(text, plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
 
     def check(self):
         """Seams are felt where nobody merges them, and nowhere else."""

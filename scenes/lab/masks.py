@@ -160,7 +160,8 @@ class Masks(Scene):
         canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
         canvas.surface.fill(color, (box.x, box.y, 2, box.height))
         canvas.text(NAMES[tier], TABLE_X + 2, y, color)
-        canvas.text("HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center")
+        canvas.text("HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center",
+                    outline=verdict)
         cost = self.cost[tier]
         canvas.text(f"{cost:.2f} us" if cost < 100 else f"{cost:,.0f} us", 474, y, PAPER, align="right")
         canvas.text(self._remark(tier), TABLE_X + 2, y + 13, PAPER, SMALL)

@@ -1,6 +1,7 @@
-"""A small scene for the shell's tests: two discs pushed about, one counter, one random number a step."""
+"""Small scenes for the shell's tests: two discs pushed about, one counter, one random number a step."""
 
-from game.scene import Goal, Scene, Slider
+from game.errors import FileError
+from game.scene import Goal, Result, Scene, Slider
 from physics import Circle, Effects
 
 
@@ -29,6 +30,7 @@ class Arena(Scene):
         self.play("hit", 240.0)
 
     def draw(self, canvas, alpha):
+        canvas.surface.fill((24, 30, 44))
         canvas.text(f"met {self.met}", 4, 4)
 
     def check(self):
@@ -42,4 +44,45 @@ class Arena(Scene):
         return (self.frame, self.met, self.drawn)
 
 
+class Race(Arena):
+    """A game: it is won when the discs meet and lost after LAST frames; points for every frame steered."""
+
+    name = "race"
+    title = "Race"
+    ranked_by = "points"
+    assists = ("invincible", "hit_stop")
+    actions = (("arrows", "drive"), ("Space", "jump"))
+    takes_level = True
+    level_suffix = ".json"
+    LAST = 240
+
+    def build(self):
+        if self.level_file is not None and "mistake" in self.level_file.read_text():
+            raise FileError(self.level_file, "line 1", "has a mistake in it")
+        super().build()
+        self.points = 0
+
+    def update(self, inputs):
+        if self.result is not None:
+            return
+        super().update(inputs)
+        self.points += inputs.held("right")
+        x, y = self.disc.position
+        self.trail.append((float(x), float(y), "run_0", 1))
+        if self.met or self.frame >= self.LAST:
+            self.result = Result(bool(self.met), self.points, self.frame / 60, ("a line about it",))
+
+    def state(self):
+        return (*super().state(), self.points)
+
+
+class Dash(Race):
+    """The same, against the clock."""
+
+    name = "dash"
+    title = "Dash"
+    ranked_by = "seconds"
+
+
 LISTING = {"arena": "tests.game.arena:Arena"}
+GAMES = {**LISTING, "race": "tests.game.arena:Race", "dash": "tests.game.arena:Dash"}

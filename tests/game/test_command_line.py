@@ -10,7 +10,7 @@ import pytest
 
 from game.command_line import run
 from game.registry import Registry
-from tests.game.arena import LISTING
+from tests.game.arena import GAMES, LISTING
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADLESS = ["--headless", "--scene", "arena", "--frames", "90"]
@@ -96,6 +96,8 @@ WRONG = [
     (["--headless"], "--headless needs --scene; valid: arena"),
     (["--json"], "--json needs --list or --scene"),
     (["--replay", "/nowhere/run.json"], "/nowhere/run.json: file: No such file"),
+    (["--level", "mine.json"], "--level needs --scene; scenes that take one: none here"),
+    (["--scene", "arena", "--level", "mine.json"], "--level: arena takes none; scenes that take one: none here"),
     (["--fullscreen"], "no flag '--fullscreen'; valid: "),
     (["--scene"], "expected one argument"),
     ([*HEADLESS, "--screenshot", "/nowhere/shot.png"], "/nowhere/shot.png: cannot be written"),
@@ -108,6 +110,36 @@ def test_wrong_use_is_one_line_and_exit_2(capsys, arguments, line):
     assert code == 2 and out == ""
     lines = [each for each in err.splitlines() if "numba is not in use" not in each and "both pygame" not in each]
     assert len(lines) == 1 and line in lines[0] and lines[0].startswith("hitbox: ")
+
+
+@pytest.mark.parametrize("text, line", [("a mistake", "mine.json: line 1: has a mistake in it"),
+                                        (None, "mine.json: file: No such file or directory")])
+def test_a_level_with_a_mistake_is_one_line_and_exit_2(capsys, tmp_path, text, line):
+    level = tmp_path / "mine.json"
+    if text is not None:
+        level.write_text(text)
+    code = run(["--headless", "--scene", "race", "--frames", "5", "--level", str(level)], Registry(GAMES))
+    out, err = capsys.readouterr()
+    assert code == 2 and out == "" and line in err and "Traceback" not in err
+
+
+def test_a_level_of_one_s_own_is_played_and_recorded(capsys, tmp_path):
+    level, path = tmp_path / "mine.json", tmp_path / "run.json"
+    level.write_text("{}")
+    play = ["--headless", "--scene", "race", "--frames", "50", "--bot", "--json"]
+    assert run([*play, "--level", str(level), "--record", str(path)], Registry(GAMES)) == 0
+    first = json.loads(capsys.readouterr().out)
+    assert run(["--headless", "--replay", str(path), "--json"], Registry(GAMES)) == 0
+    assert json.loads(capsys.readouterr().out)["digest"] == first["digest"]
+    level.write_text("{ }")
+    assert run(["--headless", "--replay", str(path), "--json"], Registry(GAMES)) == 2
+    assert "has changed since" in capsys.readouterr().err
+
+
+def test_headless_runs_leave_nothing_behind(capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("HITBOX_DATA", str(tmp_path / "data"))
+    assert run(["--headless", "--scene", "dash", "--frames", "90", "--bot"], Registry(GAMES)) == 0
+    assert not (tmp_path / "data").exists()
 
 
 def test_strict_fails_on_warnings(capsys, monkeypatch):

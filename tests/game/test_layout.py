@@ -1,6 +1,4 @@
-"""On no screen does text overlap text or leave the picture."""
-
-from itertools import combinations
+"""In no scene does text overlap text or leave the picture, whatever overlays and panel are on."""
 
 import pygame
 import pytest
@@ -8,57 +6,17 @@ import pytest
 import physics
 
 from game.devices import DeviceSource
-from game.inputs import BotSource, InputFrame, InputState
-from game.loading import Loading
-from game.menu import Menu
-from game.options import Options
+from game.inputs import BotSource
 from game.overlays import LAYER_NAMES
 from game.overlays.stack import Overlays
 from game.picture import Picture
 from game.play import Play
 from game.registry import Registry
-from game.settings import Settings
 from game.sound import Sounds
-from game.title import Title
 from scenes import SCENES
+from tests.game.reading import Reader, assert_text_is_apart
 
 SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900)]
-
-
-def assert_text_is_apart(boxes, picture):
-    """Each box inside the picture, no two of them meeting."""
-    for rect, text in boxes:
-        assert picture.contains(rect), f"{text!r} at {rect} leaves {picture}"
-    for (a, text_a), (b, text_b) in combinations(boxes, 2):
-        assert not a.colliderect(b), f"{text_a!r} at {a} overlaps {text_b!r} at {b}"
-
-
-def settle(screen, steps=3):
-    inputs = InputState()
-    for _ in range(steps):
-        inputs.set(InputFrame())
-        screen.step(inputs, 1 / 60)
-    return screen
-
-
-def test_title_options_and_loading():
-    message = ("/data/somebody/with/a/long/name/.local/share/hitbox/settings.json: version: must be 1; "
-               "defaults are used, the old file is kept as settings.json.damaged-1")
-    loading = Loading("Broad phases")
-    loading.what = "physics.broadphase.spatial_hash.update_cells_of_moved_proxies_incrementally"
-    for screen in (settle(Title()), settle(Title(message)), settle(Options(Settings())), loading):
-        frame = Picture().draw_screen(screen)
-        assert_text_is_apart(frame.boxes, frame.rect)
-
-
-def test_every_entry_of_the_menu():
-    menu = Menu(Registry(SCENES))
-    for mark in range(len(menu.entries)):
-        menu.mark = mark
-        menu._show_marked()
-        frame = Picture().draw_screen(menu)
-        assert menu.places[mark] is not None and menu.entries[mark][1] in [text for _, text in frame.boxes]
-        assert_text_is_apart(frame.boxes, frame.rect)
 
 
 @pytest.fixture(scope="module", params=SCENES)
@@ -111,3 +69,14 @@ def test_scenes_at_other_moments(play, frames):
         play.step()
     frame = play.draw(Picture())
     assert_text_is_apart(frame.boxes, frame.rect)
+
+
+@pytest.mark.parametrize("frames", [1, 90, 200, 400, 600])
+def test_scenes_are_readable(play, frames):
+    while play.session.report.steps < frames:
+        play.step()
+    with Reader() as reader:
+        play.overlays.on = set()
+        play.panel_open = False
+        play.draw(Picture())
+        reader.assert_readable()

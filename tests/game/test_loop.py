@@ -47,3 +47,17 @@ def test_paused_steps_only_on_request():
     clock.request_step()
     assert clock.advance(0.2) == 1
     assert clock.advance(0.3) == 0 and clock.alpha == 1.0
+
+
+def test_game_speed_and_slow_motion_multiply():
+    clock = FixedStep()
+    clock.pace, clock.speed = 0.5, 0.5
+    steps = sum(clock.advance(i / 60) for i in range(601))
+    assert steps == pytest.approx(150, abs=1)
+
+
+def test_a_rest_does_not_count():
+    clock = FixedStep()
+    clock.advance(0.0)
+    clock.rest()
+    assert clock.advance(100.0) == 0 and clock.advance(100.0 + 1.01 / 60) == 1

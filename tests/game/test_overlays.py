@@ -153,10 +153,10 @@ def test_pause_single_step_and_slow_motion():
     assert play.clock.speed == 0.5 and not play.clock.paused
 
 
-def test_escape_leaves():
+def test_escape_opens_the_pause_menu():
     play = play_screen()
     press(play, pygame.K_ESCAPE)
-    assert play.outcome == ("menu",)
+    assert play.outcome == ("pause", "")
 
 
 def row_number(panel, label):

@@ -7,9 +7,12 @@ import pytest
 from game.digest import scene_digest
 from game.errors import FileError, ReplayDiverged
 from game.inputs import BotSource, InputFrame, ScriptSource
+from game.registry import Registry
 from game.replay import Recorder, load_replay
+from game.replay_check import load_replay_for
+from game.scene import Result
 from game.session import Session
-from tests.game.arena import Arena
+from tests.game.arena import LISTING, Arena, Race
 
 
 def record(path, frames=40, source=None, **chosen):
@@ -68,7 +71,13 @@ def test_a_divergence_names_its_frame(tmp_path):
 DAMAGE = [
     (lambda d: d.pop("seed"), "seed"),
     (lambda d: d.update(seed="one"), "seed"),
-    (lambda d: d.update(version=2), "version"),
+    (lambda d: d.update(version=3), "version"),
+    (lambda d: d.update(version=True), "version"),
+    (lambda d: d.update(level="x"), "level"),
+    (lambda d: d.update(level={"path": 1, "digest": ""}), "level"),
+    (lambda d: d.update(result={"won": 1}), "result"),
+    (lambda d: d.update(result={"won": True, "points": 1, "seconds": float("nan")}), "result"),
+    (lambda d: d.update(date=7), "date"),
     (lambda d: d.update(format="mp3"), "format"),
     (lambda d: d.update(every=0), "every"),
     (lambda d: d.update(frames=7), "inputs"),
@@ -101,3 +110,75 @@ def test_cut_off_and_missing_files_are_named(tmp_path):
         load_replay(path)
     with pytest.raises(FileError, match="No such file"):
         load_replay(tmp_path / "none.json")
+
+
+def test_the_first_version_is_still_read(tmp_path):
+    path = tmp_path / "run.json"
+    first = record(path)
+    data = json.loads(path.read_text())
+    for name in ("level", "date", "result"):
+        del data[name]
+    path.write_text(json.dumps({**data, "version": 1}))
+    old = load_replay(path)
+    assert (old.level, old.date, old.result, old.level_path()) == (None, "", None, None)
+    assert scene_digest(replay(path)) == scene_digest(first)
+
+
+def test_a_level_is_known_by_its_content(tmp_path):
+    level, path = tmp_path / "mine.json", tmp_path / "run.json"
+    level.write_text("{}")
+    recorder = Recorder(Race(level=level))
+    recorder.save(path, Result(True, 12, 3.5))
+    replay = load_replay(path)
+    assert replay.level_path() == level
+    assert replay.result == {"won": True, "points": 12, "seconds": 3.5}
+    level.write_text("{ }")
+    with pytest.raises(FileError, match="mine.json has changed since"):
+        replay.level_path()
+    level.unlink()
+    with pytest.raises(FileError, match="No such file"):
+        replay.level_path()
+
+
+def test_digests_may_be_spaced_out(tmp_path):
+    path = tmp_path / "run.json"
+    scene = Arena(seed=3)
+    recorder = Recorder(scene, True, every=30)
+    session = Session(scene, BotSource(), recorder)
+    for _ in range(95):
+        session.step()
+    recorder.save(path)
+    again = load_replay(path)
+    assert len(again.digests) == 3 and again.every == 30
+    again.digests[1] = "0" * 16
+    other = Session(Arena(seed=3), again, replay=again)
+    with pytest.raises(ReplayDiverged, match=r"diverged at frame 60 \(since frame 30\)"):
+        for _ in range(95):
+            other.step()
+
+
+MISFITS = [
+    ({"scene": "elsewhere"}, "scene"), ({"broadphase": "octree"}, "broadphase"), ({"solver": "soft_step"}, "solver"),
+    ({"tier": "pixels"}, "tier"), ({"level": {"path": "x", "digest": "y"}}, "level"),
+    *(({"changes": [change]}, "frame 3") for change in (
+        ["slider:gravity", 1], ["slider:speed", "fast"], ["slider:speed", True], ["slider:speed", float("inf")],
+        ["slider:speed", [1]],
+        ["assist:invincible", True], ["broadphase", "octree"], ["broadphase", {}], ["solver", "blocking"], ["tier", None],
+        ["narrowphase", 1], ["fly", 1], [3, 1])),
+]
+
+
+@pytest.mark.parametrize("misfit, place", MISFITS)
+def test_a_recording_that_its_scene_cannot_play_is_named(tmp_path, misfit, place):
+    path = tmp_path / "run.json"
+    record(path, 10)
+    data = json.loads(path.read_text())
+    changes = misfit.pop("changes", None)
+    if changes:
+        data["inputs"] = [[2, {}], [1, {"changes": changes}], [7, {}]]
+    path.write_text(json.dumps({**data, **misfit}))
+    with pytest.raises(FileError) as caught:
+        load_replay_for(path, Registry(LISTING))
+    assert caught.value.place == place
+    if changes:
+        misfit["changes"] = changes

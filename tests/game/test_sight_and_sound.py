@@ -1,4 +1,4 @@
-"""Sprites from exactly the mask's pixels, particles that never matter, sounds that may fail."""
+"""Sprites from exactly the mask's pixels, particles that never matter."""
 
 import numpy as np
 import pygame
@@ -7,8 +7,6 @@ import pytest
 from game.camera import Camera
 from game.draw import Canvas
 from game.particles import CAPACITY, Particles
-from game.places import SOUNDS
-from game.sound import Sounds, pan
 from game.sprites import TurnedSprites, load_atlas
 
 RAMP = ((255, 255, 255), (255, 100, 0), (90, 0, 0))
@@ -55,46 +53,3 @@ def test_particles_never_grow():
     for _ in range(10):
         particles.burst(0, 0, CAPACITY, RAMP)
     assert particles.count == CAPACITY
-
-
-def test_pan_follows_the_picture():
-    assert pan(None) == (1.0, 1.0)
-    assert pan(0)[0] > pan(0)[1] and pan(480)[0] < pan(480)[1]
-
-
-def test_every_sound_of_the_folder_plays(monkeypatch):
-    sounds = Sounds()
-    if sounds.silent_because:
-        pytest.skip(sounds.silent_because)
-    for path in sorted(SOUNDS.glob("*.wav")):
-        sounds.now += 10
-        assert sounds.play(path.stem, 240.0)
-    assert not sounds.play("coin", 1.0, 0.5) or sounds.now
-
-
-def test_voices_are_limited():
-    sounds = Sounds()
-    if sounds.silent_because:
-        pytest.skip(sounds.silent_because)
-    for _ in range(12):
-        sounds.now += 10
-        sounds.play("explosion")
-    assert len(sounds.voices["explosion"]) <= 3
-
-
-def test_no_device_is_silence(monkeypatch):
-    def refuse(*arguments):
-        raise pygame.error("no such device")
-
-    monkeypatch.setattr(pygame.mixer, "init", refuse)
-    sounds = Sounds()
-    assert "no such device" in sounds.silent_because
-    sounds.play_cues([("laser", 1.0, 1.0)])
-
-
-def test_an_unknown_sound_is_named():
-    sounds = Sounds()
-    if sounds.silent_because:
-        pytest.skip(sounds.silent_because)
-    with pytest.raises(ValueError, match="no sound 'boing'"):
-        sounds.play("boing")

@@ -1,0 +1,22 @@
+"""The shell's tests have a data folder of their own."""
+
+import pygame
+import pytest
+
+from tests.game.driving import Driver
+
+
+@pytest.fixture(autouse=True)
+def data_folder_of_the_test(tmp_path, monkeypatch):
+    """No test reads or writes what belongs to the person who runs it."""
+    monkeypatch.setenv("HITBOX_DATA", str(tmp_path))
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+
+
+@pytest.fixture
+def drive(monkeypatch):
+    """drive(*arguments) starts the whole program under the dummy driver."""
+    pygame.display.init()
+    yield lambda *arguments, **more: Driver(monkeypatch, *arguments, **more)
+    pygame.event.clear()

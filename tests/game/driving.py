@@ -1,0 +1,130 @@
+"""Drives the whole program in tests: posted events in, turns of its loop, the screen that is on top out."""
+
+import pygame
+
+from game.app import App
+from game.command_line import read_options
+from game.registry import Registry
+from game.settings import Settings
+from game.window import open_window
+from tests.game.arena import GAMES
+
+BUTTONS = {"a": pygame.CONTROLLER_BUTTON_A, "b": pygame.CONTROLLER_BUTTON_B, "x": pygame.CONTROLLER_BUTTON_X,
+           "y": pygame.CONTROLLER_BUTTON_Y, "start": pygame.CONTROLLER_BUTTON_START, "back": pygame.CONTROLLER_BUTTON_BACK,
+           "up": pygame.CONTROLLER_BUTTON_DPAD_UP, "down": pygame.CONTROLLER_BUTTON_DPAD_DOWN,
+           "left": pygame.CONTROLLER_BUTTON_DPAD_LEFT, "right": pygame.CONTROLLER_BUTTON_DPAD_RIGHT,
+           "rb": pygame.CONTROLLER_BUTTON_RIGHTSHOULDER}
+PAD = 5                # instance id of the pad
+
+
+class Driver:
+    """An App under the dummy driver whose clock moves one step a turn, so that a test is as fast as it can be."""
+
+    def __init__(self, monkeypatch, *arguments, listing=GAMES, settings=None):
+        self.now = 100.0
+        monkeypatch.setattr("game.app.perf_counter", self.time)
+        monkeypatch.setattr("pygame.time.wait", lambda milliseconds: 0)
+        self.settings = settings or Settings(window_scale=1)
+        registry = Registry(listing)
+        pygame.event.clear()
+        self.app = App(read_options(list(arguments), registry), registry, self.settings, open_window(self.settings))
+
+    def time(self):
+        """The clock of the app: it stands still within a turn."""
+        return self.now
+
+    @property
+    def screen(self):
+        """The screen on top."""
+        return self.app.screen
+
+    @property
+    def name(self):
+        """The class name of the screen on top."""
+        return type(self.app.screen).__name__
+
+    def turns(self, count=1):
+        """So many turns of the loop, a step of 1/60 s each."""
+        for _ in range(count):
+            if self.app.running:
+                self.now += 1.0001 / 60
+                self.app.turn()
+
+    def post(self, kind, **values):
+        """Post one event."""
+        pygame.event.post(pygame.event.Event(kind, **values))
+
+    def key(self, *keys, turns=2):
+        """Tap keys, one after the other."""
+        for key in keys:
+            self.post(pygame.KEYDOWN, key=key, mod=0, unicode="")
+            self.post(pygame.KEYUP, key=key, mod=0)
+            self.turns(turns)
+
+    def hold(self, key, turns):
+        """Hold a key."""
+        self.post(pygame.KEYDOWN, key=key, mod=0, unicode="")
+        self.turns(turns)
+        self.post(pygame.KEYUP, key=key, mod=0)
+        self.turns(1)
+
+    def pad(self, *buttons, turns=2):
+        """Tap buttons of a controller, one after the other."""
+        for button in buttons:
+            self.post(pygame.CONTROLLERBUTTONDOWN, instance_id=PAD, button=BUTTONS[button])
+            self.post(pygame.CONTROLLERBUTTONUP, instance_id=PAD, button=BUTTONS[button])
+            self.turns(turns)
+
+    def hold_pad(self, button, turns):
+        """Hold a button of a controller."""
+        self.post(pygame.CONTROLLERBUTTONDOWN, instance_id=PAD, button=BUTTONS[button])
+        self.turns(turns)
+        self.post(pygame.CONTROLLERBUTTONUP, instance_id=PAD, button=BUTTONS[button])
+        self.turns(1)
+
+    def move(self, place):
+        """Move the mouse to a canvas place."""
+        self.post(pygame.MOUSEMOTION, pos=self.to_window(place), rel=(0, 0), buttons=(0, 0, 0))
+        self.turns(1)
+
+    def click(self, place):
+        """Click on a canvas place."""
+        self.move(place)
+        self.press(place)
+
+    def press(self, place):
+        """Press and let go of the mouse on a canvas place."""
+        position = self.to_window(place)
+        self.post(pygame.MOUSEBUTTONDOWN, button=1, pos=position)
+        self.turns(2)
+        self.post(pygame.MOUSEBUTTONUP, button=1, pos=position)
+        self.turns(2)
+
+    def to_window(self, place):
+        """The window position of a canvas place."""
+        frame = self.app.picture.presenter.frame
+        return frame.area.x + place[0] * frame.scale, frame.area.y + place[1] * frame.scale
+
+    def click_row(self, label, rows=None):
+        """Click on the row with that label in a list of the screen."""
+        rows = rows or self.screen.list
+        number = next(i for i, row in enumerate(rows.rows()) if row.label.strip() == label)
+        while rows.place(number) is None:
+            self.post(pygame.MOUSEWHEEL, x=0, y=-1)
+            self.turns(1)
+        place = rows.place(number)
+        self.click((place.x + 12, place.centery))
+
+    def mark(self, label, by=None):
+        """Go down to the row with that label by key or pad, and say yes."""
+        down, yes = by or (lambda: self.key(pygame.K_DOWN), lambda: self.key(pygame.K_RETURN))
+        for _ in range(40):
+            row = self.screen.list.marked
+            if row is not None and row.label.strip() == label:
+                return yes()
+            down()
+        raise AssertionError(f"no row {label!r} on {self.name}")
+
+    def by_pad(self, label):
+        """The same with the controller."""
+        self.mark(label, (lambda: self.pad("down"), lambda: self.pad("a")))

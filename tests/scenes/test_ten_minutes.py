@@ -1,0 +1,55 @@
+"""Ten minutes of each game by its bot, one game after another as it ends: the memory of the process stays flat.
+
+In a process of its own, headless as `main.py --headless` runs it, so that nothing but the game is counted.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import physics
+
+MINUTE = 3600
+PLAY = """
+import gc, json, sys
+from pathlib import Path
+from game.headless import start_dummy_display
+start_dummy_display()
+from game.inputs import BotSource
+from game.registry import Registry
+from game.session import Session
+from scenes import SCENES
+
+def resident():
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1])
+
+scene = Registry(SCENES).scene_class(sys.argv[1])(1)
+session = Session(scene, BotSource())
+pages, games = [], 0
+for frame in range(int(sys.argv[2])):
+    session.step()
+    if scene.result is not None:
+        games += 1
+        scene.restart()
+    if frame % 3600 == 3599:
+        pages.append(resident())
+print(json.dumps({"pages": pages, "games": games}))
+"""
+
+
+@pytest.mark.deep
+@pytest.mark.skipif(not physics.JIT, reason="ten minutes of uncompiled physics take an hour")
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="resident memory is read from /proc")
+@pytest.mark.parametrize("name", ["shooter", "platformer"])
+def test_memory_is_flat(name):
+    run = subprocess.run([sys.executable, "-c", PLAY, name, str(10 * MINUTE)], capture_output=True, text=True, check=True,
+                         env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"})
+    found = json.loads(run.stdout.splitlines()[-1])
+    first, *later = found["pages"]
+    assert found["games"] >= 1, "the bot ended no game in ten minutes"
+    assert max(later) <= 1.01 * first, f"{name}: resident pages after each minute: {found['pages']}"
