@@ -9,6 +9,7 @@ import pygame
 
 from game.command_line import DEFAULT_FRAMES, make_scene
 from game.errors import UsageError
+from game.garbage import set_loaded_aside
 from game.inputs import BotSource, IdleSource
 from game.overlays.stack import Overlays
 from game.picture import Picture, save_png
@@ -41,6 +42,7 @@ def run_headless(options, registry):
     overlays = Overlays(scene.overlays if options.overlay is None else options.overlay)
     picture = Picture()
     draws = bool(options.overlay) or options.profile
+    set_loaded_aside()
     try:
         for frame in range(frames):
             session.step()

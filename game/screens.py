@@ -12,6 +12,7 @@ from game.best_run import keep_ghost, load_ghost
 from game.bindings import help_pairs
 from game.command_line import make_scene
 from game.errors import UsageError
+from game.garbage import set_loaded_aside
 from game.ground import SceneGround
 from game.loading import LoadingStopped
 from game.menu import Menu
@@ -180,6 +181,7 @@ class Screens:
     def _begin(self, play):
         scene_class = type(play.scene)
         self.last_played = play.scene.name
+        set_loaded_aside()
         play.prepare = lambda solver: self.app.compile_for(scene_class, solver)
         play.run_ended = self._keep_run
         play.settings_changed = self.app.save_settings

@@ -1,18 +1,22 @@
 """AABBs and bounding motion rectangles: what the broad phase looks at."""
 
+from functools import lru_cache
+
 import numpy as np
 import pygame
 
 from game.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
+from game.compat import blit_many
 from physics import debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4
 COLORS = {ALONE: GREEN, STILL: faded(FOG, 0.35), PAIRED: ORANGE, TOUCHING: RED, SENSOR: PINK}
+STAMPED = 48               # [frame px] boxes up to this size are stamped
 BOX_BUDGET = 3000          # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame, lens, rows, colors):
-    """Outline (n, 4) world boxes, colors[i] each; what is outside the view is skipped."""
+    """Outline (n, 4) world boxes, colors[i] each, small ones on top; what is outside the view is skipped."""
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
     wide, high = np.maximum(np.ceil(x1 - x0), 1.0) + 1.0, np.maximum(np.ceil(y1 - y0), 1.0) + 1.0
@@ -21,10 +25,25 @@ def draw_boxes(frame, lens, rows, colors):
     left, top = np.maximum(np.floor(x0), clip.left - 2.0), np.maximum(np.floor(y0), clip.top - 2.0)
     wide = np.minimum(wide - (left - np.floor(x0)), clip.right + 2.0 - left)
     high = np.minimum(high - (top - np.floor(y0)), clip.bottom + 2.0 - top)
-    surface, rect = frame.surface, pygame.draw.rect
     tones = {color: frame.tone(color) for color in set(colors)}
-    for color, box in zip(colors, np.column_stack((left, top, wide, high)).astype(int).tolist(), strict=True):
-        rect(surface, tones[color], box, 1)
+    colors = [tones[color] for color in colors]
+    boxes = np.column_stack((left, top, wide, high)).astype(int)
+    large = (boxes[:, 2:] > STAMPED).any(axis=1)
+    for i in np.flatnonzero(large).tolist():
+        pygame.draw.rect(frame.surface, colors[i], boxes[i].tolist(), 1)
+    blit_many(frame.surface, [(outline(color, width, height), (x, y)) for color, (x, y, width, height), is_large
+                              in zip(colors, boxes.tolist(), large.tolist(), strict=True) if not is_large])
+
+
+@lru_cache(maxsize=2048)
+def outline(color, width, height):
+    """The picture of a small box's outline: a swarm of equal boxes is one call."""
+    image = pygame.Surface((width, height))
+    clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
+    image.fill(clear)
+    image.set_colorkey(clear, pygame.RLEACCEL)
+    pygame.draw.rect(image, color, image.get_rect(), 1)
+    return image
 
 
 class Bounds:

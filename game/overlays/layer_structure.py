@@ -57,17 +57,16 @@ class Structure:
         end = np.where(axis == 0, clip.right, clip.bottom)
         seen = thinned(np.flatnonzero((high >= start) & (low <= end)), INTERVAL_BUDGET // self.views)
         self.drawn += len(seen)
+        low = np.maximum(low, start).astype(int)[seen]
+        high = np.minimum(np.maximum(high[seen], low + 1), end[seen]).astype(int)
+        lanes, along_x = np.arange(len(seen)) % LANES, axis[seen] == 0
         thick = max(1, frame.scale - 1)
-        surface, yellow, pink = frame.surface, frame.tone(YELLOW), frame.tone(PINK)
-        low = np.maximum(low, start).astype(int).tolist()
-        high = np.minimum(np.maximum(high, low), end).astype(int).tolist()
-        for lane, i in enumerate(seen.tolist()):
-            shift = (lane % LANES) * (thick + 1) + 1
-            length = max(high[i] - low[i], 1)
-            if axis[i] == 0:
-                surface.fill(yellow, (low[i], clip.top + shift, length, thick))
-            else:
-                surface.fill(pink, (clip.left + shift, low[i], thick, length))
+        for lane in range(LANES):
+            shift = lane * (thick + 1) + 1
+            for first, last in joined(low, high, along_x & (lanes == lane)):
+                frame.surface.fill(frame.tone(YELLOW), (first, clip.top + shift, last - first, thick))
+            for first, last in joined(low, high, ~along_x & (lanes == lane)):
+                frame.surface.fill(frame.tone(PINK), (clip.left + shift, first, thick, last - first))
 
     def notes(self):
         """(color, text) lines for the legend."""
@@ -77,6 +76,15 @@ class Structure:
         parts = {"hash": "cells", "tree": "tree boxes", "sweep": "intervals"}
         what = parts[self.kinds[0]] if len(set(self.kinds)) == 1 and self.kinds[0] in parts else "parts"
         return [(self.color, f"{kinds}: {self.drawn} of {self.total} {what}")]
+
+
+def joined(low, high, chosen):
+    """(first, last) of the stretches that the chosen intervals cover together: bars that overlap are one bar."""
+    order = np.argsort(low[chosen], kind="stable")
+    low, reach = low[chosen][order], np.maximum.accumulate(high[chosen][order]) if len(order) else low[:0]
+    begins = np.flatnonzero(np.concatenate(([True], low[1:] > reach[:-1]))) if len(low) else low
+    ends = np.append(begins[1:] - 1, len(low) - 1) if len(low) else low
+    return zip(low[begins].tolist(), reach[ends].tolist(), strict=True)
 
 
 def thinned(rows, room):

@@ -1,7 +1,11 @@
 """The accumulator: whole steps, nothing lost, nothing run away."""
 
+import gc
+import weakref
+
 import pytest
 
+from game.garbage import set_loaded_aside
 from game.loop import LONGEST_FRAME, SPEEDS, STEP_SECONDS, FixedStep
 
 
@@ -61,3 +65,19 @@ def test_a_rest_does_not_count():
     clock.advance(0.0)
     clock.rest()
     assert clock.advance(100.0) == 0 and clock.advance(100.0 + 1.01 / 60) == 1
+
+
+def test_what_is_loaded_is_set_aside_and_a_later_call_still_frees_what_was():
+    class Node:
+        pass
+
+    first = Node()
+    first.itself, gone = first, weakref.ref(first)
+    set_loaded_aside()
+    assert gc.get_freeze_count() > 1000
+    del first
+    gc.collect()
+    assert gone() is not None          # set aside: a collection does not even look at it
+    set_loaded_aside()
+    assert gone() is None
+    gc.unfreeze()
