@@ -52,10 +52,11 @@ def add_rows(world, shapes, positions, velocities, angles, kind, angular_velocit
     set_mass(rows, mass, used)
     refresh_centers(rows)
     add_shapes(world, rows, world._bodies.count - n, used, material, filter, sensor)
+    source = tuple(shapes)             # one for all: a swarm costs two entries each, and no object
     for identity in ids.tolist():
         world._shapes_of[identity] = used
         if user is not None:
             world._users[identity] = user
         if tier is not None:
-            world._tiers[identity], world._sources[identity] = tier, tuple(shapes)
+            world._tiers[identity], world._sources[identity] = tier, source
     return ids

@@ -263,9 +263,8 @@ class Table:
 
     def keep(self, flags):
         """Drop the rows whose flag is False; the others keep their order."""
-        if not len(flags) or flags.all():
-            return
-        first = int(np.argmin(flags))          # what stands before the first dropped row stays where it is
-        kept = self.rows[first:][flags[first:]]
-        self.data[first:first + len(kept)] = kept
-        self.count = first + len(kept)
+        kept = np.flatnonzero(flags)
+        first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))   # what stands before stays where it is
+        whole = self.data.view(np.dtype((np.void, self.data.itemsize)))           # rows in one piece, not field by field
+        whole[first:len(kept)] = whole[kept[first:]]
+        self.count = len(kept)

