@@ -22,27 +22,12 @@ HOME_SPEED = 120.0           # [px/s]
 HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
 
 
-class Walker:
-    """Walks to and fro around its home and turns at walls and crates. Where it is carried, its home comes along."""
+class Creature:
+    """A box that goes its own way: what walkers and bats have in common. It pushes nothing: walkers turn at crates."""
 
-    def __init__(self, world, thing, way):
-        self.kind = thing.kind
-        width, height = self.size = BOXES[self.kind]
-        self.start = (thing.x + thing.width / 2, thing.y + thing.height - height / 2)
-        self.home = self.start[0]            # [px] the middle of its beat
-        self.range = float(thing.properties.get("range", 0))
-        self.character = Character(world, Polygon.box(width, height), self.start, filter=ENEMY_FILTER, user=self.kind,
-                                   push=0.0)        # it turns at crates
-        self.way = self.first_way = way
-        self.vy = 0.0
-        self.left_at = self.character.position[0]   # where its own last move ended
-        self.squeezed = False
-        self.riding = -1                     # id of the body under its feet
-
-    @property
-    def stompable(self):
-        """Whether its back is a step."""
-        return self.kind == "walker"
+    def __init__(self, world, kind, start):
+        self.kind, self.size, self.start = kind, BOXES[kind], start
+        self.character = Character(world, Polygon.box(*self.size), start, filter=ENEMY_FILTER, user=kind, push=0.0)
 
     @property
     def body(self):
@@ -58,6 +43,26 @@ class Walker:
     def bottom(self):
         """The lower edge of its box [px]."""
         return self.character.position[1] + self.size[1] / 2
+
+
+class Walker(Creature):
+    """Walks to and fro around its home and turns at walls and crates. Where it is carried, its home comes along."""
+
+    def __init__(self, world, thing, way):
+        height = BOXES[thing.kind][1]
+        super().__init__(world, thing.kind, (thing.x + thing.width / 2, thing.y + thing.height - height / 2))
+        self.home = self.start[0]            # [px] the middle of its beat
+        self.range = float(thing.properties.get("range", 0))
+        self.way = self.first_way = way
+        self.vy = 0.0
+        self.left_at = self.character.position[0]   # where its own last move ended
+        self.squeezed = False
+        self.riding = -1                     # id of the body under its feet
+
+    @property
+    def stompable(self):
+        """Whether its back is a step."""
+        return self.kind == "walker"
 
     def step(self, seen):
         """One step of walking. seen: where the hero is [px]. Returns False: it never wakes up."""
@@ -104,18 +109,15 @@ class Walker:
         return self.way, self.home, self.vy, self.left_at, self.riding
 
 
-class Bat:
+class Bat(Creature):
     """Hangs until the hero comes into its lair, dives to his height, flies on in a wave, and goes back to hang."""
 
-    kind = "bat"
     stompable = True
     riding = -1
     squeezed = False
 
     def __init__(self, world, thing):
-        width, height = self.size = BOXES["bat"]
-        self.start = (thing.x + thing.width / 2, thing.y + height / 2 + 1.0)
-        self.character = Character(world, Polygon.box(width, height), self.start, filter=ENEMY_FILTER, user="bat", push=0.0)
+        super().__init__(world, "bat", (thing.x + thing.width / 2, thing.y + BOXES["bat"][1] / 2 + 1.0))
         self.lair = world.add_body(Polygon.box(2 * LAIR[0], LAIR[1]), position=(self.start[0], self.start[1] + LAIR[1] / 2),
                                    kind="static", sensor=True, filter=TRIGGER_FILTER, user="lair")
         self.seen = False                    # the hero is in its lair
@@ -123,21 +125,6 @@ class Bat:
 
     def _hang(self):
         self.phase, self.count, self.way, self.from_y, self.to_y = HANGING, 0, 1, 0.0, 0.0
-
-    @property
-    def body(self):
-        """The body by which the world knows it."""
-        return self.character.body
-
-    @property
-    def top(self):
-        """The upper edge of its box [px]."""
-        return self.character.position[1] - self.size[1] / 2
-
-    @property
-    def bottom(self):
-        """The lower edge of its box [px]."""
-        return self.character.position[1] + self.size[1] / 2
 
     def step(self, seen):
         """One step of flight. seen: where the hero is [px]. Returns whether it has just woken up."""
