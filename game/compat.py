@@ -1,6 +1,13 @@
 """The one place that knows pygame 2.6.1 lacks what pygame-ce has."""
 
+import copy
+import copyreg
+
 import pygame
+
+if not hasattr(pygame.Surface, "__deepcopy__"):
+    # pygame 2.6.1 cannot copy pictures. A reduction that is a name tells copy to hand on the thing itself.
+    copyreg.pickle(pygame.Surface, lambda picture: "picture")
 
 
 def blit_many(surface, pairs, flags=0):
@@ -11,6 +18,11 @@ def blit_many(surface, pairs, flags=0):
         surface.blits([(image, place, None, flags) for image, place in pairs], doreturn=False)
     else:
         surface.blits(pairs, doreturn=False)
+
+
+def copied(thing):
+    """A deep copy, under either pygame; no rule of a game paints, so its pictures may be shared."""
+    return copy.deepcopy(thing)
 
 
 def pygame_name():

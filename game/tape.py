@@ -4,9 +4,9 @@ A key frame is a deep copy of the scene and its input. They lie KEY_SECONDS apar
 there would be more than MOST_KEYS: `spacing` says how far.
 """
 
-from copy import deepcopy
 from time import perf_counter
 
+from game.compat import copied
 from game.errors import ReplayDiverged
 from game.session import Session
 
@@ -58,7 +58,7 @@ class Tape:
 
     def _note_key(self):
         if self.position % self.spacing == 0 and self.position not in self.keys:
-            self.keys[self.position] = deepcopy((self.scene, self.session.inputs))
+            self.keys[self.position] = copied((self.scene, self.session.inputs))
 
     def seek(self, frame):
         """Go to a frame, whatever it takes."""
@@ -71,7 +71,7 @@ class Tape:
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
         if frame < self.position or nearest > self.position:
-            self.session.scene, self.session.inputs = deepcopy(self.keys[nearest])
+            self.session.scene, self.session.inputs = copied(self.keys[nearest])
             self.recording.index = nearest
         self.goal = frame if frame != self.position else None
 
