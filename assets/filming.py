@@ -1,6 +1,6 @@
 """Pictures of the game itself: its scenes are run by their bots without a window, and frames are kept.
 
-    python -m assets.filming shooter 1 0 3600 60 /tmp/reel.png    frames 0, 60, ... of a run, small, to choose moments from
+    python -m assets.filming shooter 1 0 3600 60 reel.png    frames 0, 60, ... of a run, small, to choose moments from
 
 Two things are made of them: the small picture that the menu shows of every scene (a product of assets/build.py), and
 the moments of docs/moments.png (assets/contact_sheet.py). A scene is deterministic, so a frame's number names it.

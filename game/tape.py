@@ -78,12 +78,9 @@ class Tape:
     def seek_on(self, seconds):
         """Play on towards the frame that is sought, for so long at most."""
         started = perf_counter()
-        while self.goal is not None:
-            if self.position >= self.goal:
-                self.goal = None
-            else:
-                self.step()
-                if perf_counter() - started > seconds:
-                    break
+        while self.goal is not None and self.position < self.goal:
+            self.step()
+            if perf_counter() - started > seconds:
+                break
         if self.goal is not None and self.position >= self.goal:
             self.goal = None

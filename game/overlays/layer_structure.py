@@ -60,13 +60,13 @@ class Structure:
         low = np.maximum(low, start).astype(int)[seen]
         high = np.minimum(np.maximum(high[seen], low + 1), end[seen]).astype(int)
         lanes, along_x = np.arange(len(seen)) % LANES, axis[seen] == 0
-        thick = max(1, frame.scale - 1)
+        thick, yellow, pink = max(1, frame.scale - 1), frame.tone(YELLOW), frame.tone(PINK)
         for lane in range(LANES):
             shift = lane * (thick + 1) + 1
             for first, last in joined(low, high, along_x & (lanes == lane)):
-                frame.surface.fill(frame.tone(YELLOW), (first, clip.top + shift, last - first, thick))
+                frame.surface.fill(yellow, (first, clip.top + shift, last - first, thick))
             for first, last in joined(low, high, ~along_x & (lanes == lane)):
-                frame.surface.fill(frame.tone(PINK), (clip.left + shift, first, thick, last - first))
+                frame.surface.fill(pink, (clip.left + shift, first, thick, last - first))
 
     def notes(self):
         """(color, text) lines for the legend."""
@@ -80,11 +80,12 @@ class Structure:
 
 def joined(low, high, chosen):
     """(first, last) of the stretches that the chosen intervals cover together: bars that overlap are one bar."""
+    if not chosen.any():
+        return ()
     order = np.argsort(low[chosen], kind="stable")
-    low, reach = low[chosen][order], np.maximum.accumulate(high[chosen][order]) if len(order) else low[:0]
-    begins = np.flatnonzero(np.concatenate(([True], low[1:] > reach[:-1]))) if len(low) else low
-    ends = np.append(begins[1:] - 1, len(low) - 1) if len(low) else low
-    return zip(low[begins].tolist(), reach[ends].tolist(), strict=True)
+    low, reach = low[chosen][order], np.maximum.accumulate(high[chosen][order])
+    apart = np.flatnonzero(low[1:] > reach[:-1])           # after these a new stretch begins
+    return zip(low[np.append(0, apart + 1)].tolist(), reach[np.append(apart, len(reach) - 1)].tolist(), strict=True)
 
 
 def thinned(rows, room):
