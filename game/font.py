@@ -1,7 +1,7 @@
-"""Bitmap text: measures a line and draws it glyph by glyph from a sheet.
+"""Bitmap text: measures a line and draws it from a sheet of glyphs.
 
-Glyphs are tinted and scaled once per (color, scale, outline) and blitted in one call per line: a panel
-full of changing numbers costs no rendering.
+Glyphs are tinted and scaled once per (color, scale, outline), and put together to a picture of a line that is kept
+while it is in use: a panel of names and changing numbers costs one blit per line.
 """
 
 import json
@@ -15,6 +15,7 @@ from game.errors import FileError
 from game.places import FONTS
 
 MEASURED = 4096    # lines of text whose size is remembered
+KEPT = 1024        # lines of text whose picture is kept
 UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
@@ -27,6 +28,7 @@ class Font:
         self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
         self.sheet = sheet
         self.tinted = {}
+        self.line = lru_cache(maxsize=KEPT)(self._line)                # names, and figures that come again
         self.measure = lru_cache(maxsize=MEASURED)(self._measure)      # labels ask for the same text picture by picture
 
     def _measure(self, text, scale=1):
@@ -37,15 +39,23 @@ class Font:
 
     def draw(self, surface, text, x, y, color, scale=1, outline=False):
         """Draw one line with its top left at whole pixels (x, y)."""
-        glyphs = self._glyphs(tuple(color), scale, outline)
         edge = scale if outline else 0
-        pairs = []
+        surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
+
+    def _line(self, text, color, scale, outline):
+        """A picture of the whole line; an outline lies around it."""
+        glyphs = self._glyphs(color, scale, outline)
+        width, height = self.measure(text, scale)
+        edge = 2 * scale if outline else 0
+        picture = pygame.Surface((width + edge, height + edge), pygame.SRCALPHA)
+        x, pairs = 0, []
         for letter in text:
             image, advance = glyphs.get(letter) or glyphs[UNKNOWN]
             if image is not None:
-                pairs.append((image, (x - edge, y - edge)))
+                pairs.append((image, (x, 0)))
             x += advance
-        blit_many(surface, pairs)
+        blit_many(picture, pairs)
+        return picture
 
     def _glyphs(self, color, scale, outline):
         key = (color, scale, outline)

@@ -10,10 +10,9 @@ from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.distance import gjk_steps
 from physics.narrowphase.axes import sat_axes
-from physics.narrowphase.placement import refresh_aabbs
-from physics.rasters import add_missing_rasters
+from physics.settings import MASK_ANGLE_BUCKETS
 
-__all__ = ["bounds", "contact_points", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
+__all__ = ["bounds", "contact_points", "drawn_masks", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
            "pairs", "sat_axes", "shape_rows", "structure"]
 
 ROW = np.dtype([("shape", np.int64), ("body", np.int64), ("kind", np.int64), ("membership", np.int64),
@@ -33,8 +32,7 @@ class Structure(NamedTuple):
 
 def bounds(world) -> np.ndarray:
     """(n, 4) tight AABB of every shape at the present poses, in the order of shape ids."""
-    add_missing_rasters(world, 0.0)
-    refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+    world.queries.refresh(world)
     return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
 
 
@@ -104,25 +102,24 @@ def outlines(world, rows=None) -> list:
     """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
     ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask", shape id)
     or ("tiles", shape id)."""
+    shapes = world.shapes if rows is None else world.shapes[rows]
+    bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
+    cosine, sine = np.cos(bodies["angle"]), np.sin(bodies["angle"])
+    circles = np.column_stack((bodies["x"] + cosine * shapes["local_x"] - sine * shapes["local_y"],
+                               bodies["y"] + sine * shapes["local_x"] + cosine * shapes["local_y"], shapes["radius"])).tolist()
     found = []
-    boxes = bounds(world)
-    for row in range(len(world.shapes)) if rows is None else rows:
-        shape = world.shapes[row]
-        body = world.bodies[shape["body_row"]]
-        cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
-        origin = np.array([body["x"], body["y"]])
-        turn = np.array([[cosine, sine], [-sine, cosine]])
-        if shape["kind"] == tables.CIRCLE:
-            center = origin + np.array([shape["local_x"], shape["local_y"]]) @ turn
-            found.append(("circle", float(center[0]), float(center[1]), float(shape["radius"])))
-        elif shape["kind"] in LINES:
-            drawn = (world.library.chain_shapes if shape["kind"] == tables.CHAIN else world.library.outlines)[shape["geometry"]]
-            found.append(_line(drawn, int(shape["kind"]), origin + np.array(drawn.points) @ turn))
-        elif shape["kind"] == tables.BOUNDS:
-            x0, y0, x1, y1 = boxes[row]
+    for k, (kind, identity, geometry) in enumerate(zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))):
+        if kind == tables.CIRCLE:
+            found.append(("circle", *circles[k]))
+        elif kind in LINES:
+            drawn = (world.library.chain_shapes if kind == tables.CHAIN else world.library.outlines)[geometry]
+            turn = np.array([[cosine[k], sine[k]], [-sine[k], cosine[k]]])
+            found.append(_line(drawn, kind, (bodies["x"][k], bodies["y"][k]) + np.array(drawn.points) @ turn))
+        elif kind == tables.BOUNDS:
+            x0, y0, x1, y1 = boxes[k]
             found.append(("polygon", np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])))
         else:
-            found.append(("mask" if shape["kind"] == tables.MASK else "tiles", int(shape["id"])))
+            found.append(("mask" if kind == tables.MASK else "tiles", identity))
     return found
 
 
@@ -137,30 +134,51 @@ def _line(shape, kind, points):
     return "segment" if kind == tables.SEGMENT else "polygon", points
 
 
+class Drawn(NamedTuple):
+    """Masks as they stand in the world; those drawn alike share their pixels."""
+    solids: list                # of bool arrays [row, col]
+    which: np.ndarray           # (n,) each mask's number in solids
+    left: np.ndarray            # (n,) [px]
+    top: np.ndarray             # (n,) [px]
+
+
 def masks(world) -> list:
     """(shape id, left, top, solid[row, col]) of every mask as drawn."""
-    bounds(world)
-    rows = np.flatnonzero(world.shapes["kind"] == tables.MASK)
-    return [(identity, *drawn) for identity, drawn in zip(world.shapes["id"][rows].tolist(), _drawn(world, rows))]
+    ids = world.shapes["id"][world.shapes["kind"] == tables.MASK].tolist()
+    found = drawn_masks(world)
+    return [(each, left, top, found.solids[k]) for each, left, top, k in
+            zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist())]
+
+
+def drawn_masks(world) -> Drawn:
+    """What masks() tells, as columns: thousands of masks cost what few do."""
+    world.queries.refresh(world)
+    return _drawn(world, np.flatnonzero(world.shapes["kind"] == tables.MASK))
 
 
 def _drawn(world, rows):
-    """(left, top, solid[row, col]) of the masks at these shape rows, whose rasters are up to date."""
+    """The masks at these shape rows, whose rasters are up to date."""
     shapes, library = world.shapes[rows], world.library
-    mask_of, bucket_of = np.nonzero(library.raster_of[:len(library.masks)] >= 0)
-    solids = {int(library.raster_of[mask, bucket]): (mask, bucket) for mask, bucket in zip(mask_of.tolist(), bucket_of.tolist())}
-    return [(left, top, library.masks[solids[raster][0]].turned_to(solids[raster][1]).solid)
-            for left, top, raster in zip(shapes["left"].tolist(), shapes["top"].tolist(), shapes["raster"].tolist())]
+    raster_of = library.raster_of[:len(library.masks)].ravel()
+    drawn = np.flatnonzero(raster_of >= 0)
+    place = np.zeros(library.rasters.count, np.int64)
+    place[raster_of[drawn]] = drawn
+    used, which = np.unique(shapes["raster"], return_inverse=True)
+    mask_of, bucket_of = np.divmod(place[used], MASK_ANGLE_BUCKETS)
+    solids = [library.masks[mask].turned_to(bucket).solid for mask, bucket in zip(mask_of.tolist(), bucket_of.tolist())]
+    return Drawn(solids, which, shapes["left"], shapes["top"])
 
 
 def mask_hits(world) -> list:
     """(left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the ANDed pixels."""
     found = []
     rows = _candidate_rows(world)
-    both = (world.shapes["kind"][rows] == tables.MASK).all(axis=1) if len(rows) else np.zeros(0, bool)
-    bounds(world)
-    rows = rows[both]
-    for (left_a, top_a, solid_a), (left_b, top_b, solid_b) in zip(_drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])):
+    world.queries.refresh(world)
+    rows = rows[(world.shapes["kind"][rows] == tables.MASK).all(axis=1)]
+    a, b = _drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])
+    for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(a.left.tolist(), a.top.tolist(), a.which.tolist(),
+                                                              b.left.tolist(), b.top.tolist(), b.which.tolist()):
+        solid_a, solid_b = a.solids[solid_a], b.solids[solid_b]
         left, top = max(left_a, left_b), max(top_a, top_b)
         right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
         bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])
@@ -187,6 +205,8 @@ def contact_points(world) -> np.ndarray:
     sensed = world.sensed if world.sensed is not None else found[found["sensor"]]
     parts = []
     for rows, state in ((found[~found["sensor"]], None), (sensed, SENSOR), (world.parked, ASLEEP)):
+        if not len(rows):
+            continue
         points = np.zeros(len(rows), POINT)
         for name in POINT.names:
             if name != "state":
@@ -202,7 +222,7 @@ def contact_points(world) -> np.ndarray:
         else:
             points["state"] = state
         parts.append(points)
-    return np.concatenate(parts)
+    return np.concatenate(parts) if parts else np.zeros(0, POINT)
 
 
 def islands(world) -> np.ndarray:

@@ -105,6 +105,10 @@ class QueryIndex:
     def begin(self, world):
         """Start a query: counters to zero, AABBs and loose rows up to date."""
         self.work[:] = 0
+        self.refresh(world)
+
+    def refresh(self, world):
+        """Bring AABBs and loose rows up to date; where nothing has changed since the last time, that is all that is found."""
         bodies, shapes = world.bodies, world.shapes
         if len(self.poses) != len(bodies):
             self.poses = np.full((len(bodies), 3), np.nan)

@@ -10,13 +10,16 @@ from game.compat import blit_many
 from physics import debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4
-COLORS = {ALONE: GREEN, STILL: faded(FOG, 0.35), PAIRED: ORANGE, TOUCHING: RED, SENSOR: PINK}
+COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)      # by state
 STAMPED = 48               # [frame px] boxes up to this size are stamped
 BOX_BUDGET = 3000          # boxes drawn per picture; the note says how many there are
 
 
-def draw_boxes(frame, lens, rows, colors):
-    """Outline (n, 4) world boxes, colors[i] each, small ones on top; what is outside the view is skipped."""
+def draw_boxes(frame, lens, rows, palette, colors):
+    """Outline (n, 4) world boxes, each in the palette's colour of its number, small ones on top.
+
+    colors: (n,) whole numbers into palette.
+    """
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
     wide, high = np.maximum(np.ceil(x1 - x0), 1.0) + 1.0, np.maximum(np.ceil(y1 - y0), 1.0) + 1.0
@@ -25,14 +28,16 @@ def draw_boxes(frame, lens, rows, colors):
     left, top = np.maximum(np.floor(x0), clip.left - 2.0), np.maximum(np.floor(y0), clip.top - 2.0)
     wide = np.minimum(wide - (left - np.floor(x0)), clip.right + 2.0 - left)
     high = np.minimum(high - (top - np.floor(y0)), clip.bottom + 2.0 - top)
-    tones = {color: frame.tone(color) for color in set(colors)}
-    colors = [tones[color] for color in colors]
-    boxes = np.column_stack((left, top, wide, high)).astype(int)
-    large = (boxes[:, 2:] > STAMPED).any(axis=1)
+    tones = [frame.tone(color) for color in palette]
+    left, top, wide, high = (each.astype(int) for each in (left, top, wide, high))
+    large = (wide > STAMPED) | (high > STAMPED)
     for i in np.flatnonzero(large).tolist():
-        pygame.draw.rect(frame.surface, colors[i], boxes[i].tolist(), 1)
-    blit_many(frame.surface, [(outline(color, width, height), (x, y)) for color, (x, y, width, height), is_large
-                              in zip(colors, boxes.tolist(), large.tolist(), strict=True) if not is_large])
+        pygame.draw.rect(frame.surface, tones[colors[i]], (left[i], top[i], wide[i], high[i]), 1)
+    # Each size and colour is looked up once, however many boxes share it.
+    small = np.flatnonzero(~large)
+    kinds, which = np.unique((colors[small] << 16) | (wide[small] << 8) | high[small], return_inverse=True)
+    images = [outline(tones[kind >> 16], kind >> 8 & 255, kind & 255) for kind in kinds.tolist()]
+    blit_many(frame.surface, list(zip(map(images.__getitem__, which.tolist()), zip(left[small].tolist(), top[small].tolist()))))
 
 
 @lru_cache(maxsize=2048)
@@ -66,7 +71,7 @@ class Bounds:
         self.drawn += len(seen)
         state = _states(world, debug.shape_rows(world))[seen]
         order = np.argsort(state, kind="stable")     # red last, over its neighbours
-        draw_boxes(frame, lens, rows[seen][order], [COLORS[s] for s in state[order].tolist()])
+        draw_boxes(frame, lens, rows[seen][order], COLORS, state[order])
 
     def notes(self):
         """(color, text) lines for the legend."""
@@ -74,13 +79,14 @@ class Bounds:
 
 
 def _states(world, shapes):
-    ids = shapes["shape"]
+    ids = np.ascontiguousarray(shapes["shape"])
     state = np.where(shapes["kind"] == 0, STILL, ALONE)
     state[shapes["sensor"].astype(bool)] = SENSOR
-    state[np.isin(ids, world.candidates)] = PAIRED
     contacts = world.contacts
     touching = np.concatenate((contacts["shape_a"], contacts["shape_b"]))
-    state[np.isin(ids, touching)] = TOUCHING
+    for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
+        rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)
+        state[rows[ids[rows] == among]] = value        # what is gone since the step has no row
     return state
 
 
@@ -102,7 +108,7 @@ class Motion:
             return
         seen = np.flatnonzero(lens.seen(rows))[: self.room]
         self.drawn += len(seen)
-        draw_boxes(frame, lens, rows[seen], [self.color] * len(seen))
+        draw_boxes(frame, lens, rows[seen], (self.color,), np.zeros(len(seen), int))
 
     def notes(self):
         """(color, text) lines for the legend."""

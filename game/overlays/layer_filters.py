@@ -27,21 +27,19 @@ class Filters:
         self.filtered += int(world.profile.counters["filtered"])
         if len(rows) == 0:
             return
-        colors = np.empty(len(rows), dtype=object)
-        pairs = np.column_stack((shapes["membership"].astype(np.int64), shapes["mask"].astype(np.int64)))
-        kinds, which, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
-        which = which.reshape(-1)
-        for index, (membership, mask) in enumerate(kinds.tolist()):
-            kind = self.kinds.setdefault((membership, mask), [SERIES[len(self.kinds) % len(SERIES)], 0])
-            kind[1] += int(counts[index])
-            for row in np.flatnonzero(which == index):
-                colors[row] = kind[0]
+        words = shapes["membership"].astype(np.uint64) << np.uint64(32) | shapes["mask"].astype(np.uint64)
+        kinds, which, counts = np.unique(words, return_inverse=True, return_counts=True)
+        colors = []                # of this world's kinds; another view may have named them before
+        for word, count in zip(kinds.tolist(), counts.tolist(), strict=True):
+            kind = self.kinds.setdefault((word >> 32, word & 0xFFFFFFFF), [SERIES[len(self.kinds) % len(SERIES)], 0])
+            kind[1] += count
+            colors.append(kind[0])
         seen = np.flatnonzero(lens.seen(rows))[: self.room]
         self.drawn += len(seen)
         inset = 1.0 / max(lens.scale, 1.0)
         inner = rows[seen] + np.array([inset, inset, -inset, -inset])
         inner[:, 2:] = np.maximum(inner[:, 2:], inner[:, :2])
-        draw_boxes(frame, lens, inner, colors[seen].tolist())
+        draw_boxes(frame, lens, inner, colors, which[seen])
 
     def notes(self):
         """(color, text) lines for the legend."""

@@ -39,13 +39,14 @@ class Masks:
             return
         left, top = camera.view()
         view = camera.viewport
-        pairs = []
-        for _, x, y, solid in debug.masks(world):
-            self.total += 1
-            place = (int(x) - left + view.x, int(y) - top + view.y)
-            if view.colliderect((*place, solid.shape[1], solid.shape[0])):
-                pairs.append((self._tinted(solid, canvas.palette), place))
-        self.drawn += len(pairs)
+        found = debug.drawn_masks(world)
+        images = [self._tinted(solid, canvas.palette) for solid in found.solids]
+        sizes = np.array([image.get_size() for image in images], int).reshape(-1, 2)[found.which]
+        x, y = found.left.astype(int) - left + view.x, found.top.astype(int) - top + view.y
+        seen = np.flatnonzero((x < view.right) & (y < view.bottom) & (x + sizes[:, 0] > view.left) & (y + sizes[:, 1] > view.top))
+        self.total += len(x)
+        self.drawn += len(seen)
+        pairs = list(zip(map(images.__getitem__, found.which[seen].tolist()), zip(x[seen].tolist(), y[seen].tolist())))
         canvas.surface.set_clip(view)
         blit_many(canvas.surface, pairs)
         canvas.surface.set_clip(None)

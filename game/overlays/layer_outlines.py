@@ -1,4 +1,4 @@
-"""Outlines: the exact shapes that collide, whatever is drawn over them."""
+"""Outlines: the exact shapes that collide, whatever is drawn over them. Masks have a layer of their own."""
 
 import numpy as np
 import pygame
@@ -6,6 +6,7 @@ import pygame
 from game.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
 from game.overlays.outlines import draw_outline
 from physics import TileGrid, debug
+from physics.tables import MASK
 
 OUTLINE_BUDGET = 900       # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
@@ -27,13 +28,14 @@ class Outlines:
         self.total += len(boxes)
         if len(boxes) == 0:
             return
-        seen = np.flatnonzero(lens.seen(boxes))[: self.room]
+        seen = np.flatnonzero(lens.seen(boxes) & (world.shapes["kind"] != MASK))[: self.room]
         self.drawn += len(seen)
         rows = debug.shape_rows(world)[seen]
         width = max(1, frame.scale - 1)
+        tones = [frame.tone(color) for color in (STATIC, KINEMATIC, DYNAMIC)]
         for outline, kind, sensor in zip(debug.outlines(world, seen.tolist()), rows["kind"].tolist(),
                                          rows["sensor"].tolist(), strict=True):
-            color = frame.tone(PINK if sensor else (STATIC, KINEMATIC, DYNAMIC)[kind])
+            color = frame.tone(PINK) if sensor else tones[kind]
             if outline[0] == "tiles":
                 self._draw_tiles(frame, lens, world, outline[1], color, width)
             else:

@@ -40,9 +40,7 @@ class Structure:
         seen = seen[np.argsort(found.depth[seen], kind="stable")] if found.kind == "tree" else seen
         seen = seen[: RECT_BUDGET // self.views] if found.kind == "tree" else thinned(seen, RECT_BUDGET // self.views)
         self.drawn += len(seen)
-        depth = found.depth[seen]
-        colors = [DEPTHS[d % len(DEPTHS)] for d in depth.tolist()]
-        draw_boxes(frame, lens, rows[seen], colors)
+        draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
         """Bars along the top (x axis) and the left (y axis) of the view."""

@@ -28,6 +28,7 @@ class Times:
     def clear(self):
         """Forget the history (another scene)."""
         self.steps = []            # per step: {stage: ms}
+        self.totals = []           # [ms] of the same steps
         self.mean = {}
         self.counters = {}
         self.noted = self.painted = 0      # steps since the start, and how many of them the sheet shows
@@ -42,7 +43,8 @@ class Times:
             for name, count in world.profile.counters.items():
                 counters[name] = counters.get(name, 0) + int(count)
         self.steps.append(step)
-        del self.steps[:-HISTORY]
+        self.totals.append(sum(step.values()))
+        del self.steps[:-HISTORY], self.totals[:-HISTORY]
         self.noted += 1
         self.counters = counters
         self.mean = {
@@ -75,7 +77,7 @@ class Times:
         return SERIES[names.index(name) % len(SERIES)] if name in self.mean else FOG
 
     def _graph(self, frame, rect, scale):
-        totals = sorted(sum(step.values()) for step in self.steps) or [0.0]
+        totals = sorted(self.totals) or [0.0]
         # One slow step (a compiler, a garbage collection) must not flatten all others: it is cut, and capped white.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
         self._scroll(rect.size, top, frame.palette)
