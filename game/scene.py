@@ -12,6 +12,7 @@ from game.camera import Camera
 from game.comfort import Comfort
 from game.drag import Drag
 from game.flash import Flash
+from game.garbage import set_loaded_aside
 from game.inputs import CHANGES
 from game.loop import STEP_SECONDS
 from game.particles import Particles
@@ -120,10 +121,13 @@ class Scene:
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
+        self.built = set()     # names of the attributes that build() made
         self.restart()
 
     def restart(self):
         """Back to the first frame with the same seed. Sliders and switches keep what was chosen."""
+        self.drag.release()
+        self._drop_last_run()
         self.frame = 0
         self.random = Random(self.seed)
         self.cues = []         # (sound, canvas x, volume) of this step; the app plays them
@@ -134,8 +138,17 @@ class Scene:
         self.result = None     # a Result when the game has ended; who plays it decides what comes then
         self.trail = []        # rows of where the player was in each step, for a ghost in later runs
         self.particles.clear()
-        self.drag.release()
+        before = set(vars(self))
         self.build()
+        self.built = set(vars(self)) - before
+
+    def _drop_last_run(self):
+        """Let go of what build() made: two runs at once would be the most memory that a game ever takes."""
+        if self.built:
+            for name in self.built:
+                vars(self).pop(name, None)
+            self.worlds = []
+            set_loaded_aside()
 
     def add_world(self, effects=None, broadphase=None, solver=None, **settings):
         """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.

@@ -52,6 +52,7 @@ def test_memory_is_flat(name):
     found = json.loads(run.stdout.splitlines()[-1])
     first, *later = found["pages"]
     assert found["games"] >= 1, "the bot ended no game in ten minutes"
-    # A thousand and more bullets, met in the fourth minute only, keep a megabyte or two of the heap; then nothing grows.
-    assert max(later) <= 1.025 * first, f"{name}: resident pages after each minute: {found['pages']}"
+    # A thousand and more bullets, met in the fourth minute only, keep two arenas of Python's heap, a megabyte each (1.1 %
+    # of the shooter's 180 MB); then nothing grows, over two and more games.
+    assert max(later) <= 1.015 * first, f"{name}: resident pages after each minute: {found['pages']}"
     assert max(later[5:]) <= 1.002 * max(later[:5]), f"{name}: it goes on growing: {found['pages']}"
