@@ -15,10 +15,10 @@ import pygame
 
 from assets import png
 from assets.moments import SEED, Moment, done, leader
+from game.drawing.picture import Picture
 from game.headless import start_dummy_display
 from game.inputs import BotSource
 from game.overlays.stack import Overlays
-from game.picture import Picture
 from game.registry import Registry
 from game.session import Session
 from scenes import SCENES

@@ -1,30 +1,30 @@
-"""The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens.py."""
+"""The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens/stack.py."""
 
 from time import perf_counter, strftime
 
 import pygame
 
-from game.colors import GOLD
-from game.data_folder import data_folder
 from game.devices import DeviceSource, Pads
-from game.draw import SMALL
+from game.drawing.colors import GOLD
+from game.drawing.draw import SMALL
+from game.drawing.picture import Picture, save_png
 from game.errors import UsageError
+from game.files.data_folder import data_folder
+from game.files.records import load_records
+from game.files.settings import load_settings, save_settings
 from game.headless import finish, save_or_fail
 from game.inputs import InputState
-from game.loading import Loading
 from game.loop import STEP_SECONDS, FixedStep
-from game.pause_menu import PauseMenu
-from game.picture import Picture, save_png
-from game.play import Play
-from game.records import load_records
-from game.screens import Screens
-from game.settings import load_settings, save_settings
+from game.screens.loading import Loading
+from game.screens.pause_menu import PauseMenu
+from game.screens.play import Play
+from game.screens.stack import Screens
+from game.screens.watch import Watch
+from game.screens.wipe import Wipe
 from game.sound import Sounds
 from game.startup import say
 from game.warmup import warm_up_scene
-from game.watch import Watch
 from game.window import mode_of, open_window, set_mode
-from game.wipe import Wipe
 
 IDLE_SECONDS = 0.002       # rest between frames when the display does not wait for its refresh
 QUIET = 0.3                # of the music's volume while nobody plays

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
+from game.files.own_levels import level_digest
+from game.files.replay_check import load_replay_for
 from game.overlays import LAYER_NAMES
-from game.own_levels import level_digest
-from game.replay_check import load_replay_for
 
 DEFAULT_FRAMES = 600       # of a headless run that names no number: ten seconds
 

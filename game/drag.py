@@ -9,7 +9,7 @@ from math import cos, hypot, pi, sin
 
 import pygame
 
-from game.colors import GOLD, INK, WHITE
+from game.drawing.colors import GOLD, INK, WHITE
 from physics import Circle
 
 HERTZ = 5.0              # [1/s] of the spring: in 0.2 s the body is where the pointer is

@@ -8,12 +8,12 @@ from time import perf_counter
 import pygame
 
 from game.command_line import DEFAULT_FRAMES, make_scene
+from game.drawing.picture import Picture, save_png
 from game.errors import UsageError
+from game.files.replay import Recorder
 from game.garbage import set_loaded_aside
 from game.inputs import BotSource, IdleSource
 from game.overlays.stack import Overlays
-from game.picture import Picture, save_png
-from game.replay import Recorder
 from game.run_report import judge, not_judged
 from game.session import Session
 from game.warmup import warm_up_scene

@@ -8,14 +8,14 @@ and reads no clock. draw() changes nothing: not the state, not the random number
 from dataclasses import dataclass
 from random import Random
 
-from game.camera import Camera
 from game.comfort import Comfort
 from game.drag import Drag
-from game.flash import Flash
+from game.drawing.camera import Camera
+from game.drawing.flash import Flash
+from game.drawing.particles import Particles
 from game.garbage import set_loaded_aside
 from game.inputs import CHANGES
 from game.loop import STEP_SECONDS
-from game.particles import Particles
 from physics import BROADPHASES, SOLVERS, Effects, World
 
 ASSISTS = {"invincible": False, "hit_stop": True}      # name -> how a game starts; they change it, so they come as input

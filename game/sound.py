@@ -13,7 +13,7 @@ from time import perf_counter
 import numpy as np
 import pygame
 
-from game.draw import CANVAS_SIZE
+from game.drawing.draw import CANVAS_SIZE
 from game.music import Music
 from game.places import MUSIC, SOUNDS
 from game.startup import say

@@ -6,7 +6,7 @@ import warnings
 
 import pygame
 
-from game.draw import CANVAS_SIZE
+from game.drawing.draw import CANVAS_SIZE
 from game.errors import UsageError
 
 LARGEST_SHARE = 0.9        # of the desktop that a window opened without a chosen size may take

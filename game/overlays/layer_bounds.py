@@ -5,8 +5,8 @@ from functools import lru_cache
 import numpy as np
 import pygame
 
-from game.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
 from game.compat import blit_many
+from game.drawing.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
 from physics import debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4

@@ -3,7 +3,7 @@
 import numpy as np
 import pygame
 
-from game.colors import FOG, GOLD, INK, PAPER
+from game.drawing.colors import FOG, GOLD, INK, PAPER
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import arrow
 from physics.tables import DYNAMIC

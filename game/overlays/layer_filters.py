@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from game.colors import FOG, PINK, SERIES
+from game.drawing.colors import FOG, PINK, SERIES
 from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
 from physics import debug
 

@@ -5,7 +5,7 @@ from math import hypot, log10
 import numpy as np
 import pygame
 
-from game.colors import RED, YELLOW
+from game.drawing.colors import RED, YELLOW
 from game.overlays.layer_contacts import seen_points
 from physics import debug
 

@@ -9,8 +9,8 @@ from collections import OrderedDict
 import numpy as np
 import pygame
 
-from game.colors import BLUE, YELLOW, toned
 from game.compat import blit_many
+from game.drawing.colors import BLUE, YELLOW, toned
 from physics import debug
 
 FILL = 96                  # opacity of 255 of a mask's inside

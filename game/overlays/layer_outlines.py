@@ -3,7 +3,7 @@
 import numpy as np
 import pygame
 
-from game.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
+from game.drawing.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
 from game.overlays.outlines import draw_outline
 from physics import TileGrid, debug
 from physics.tables import MASK

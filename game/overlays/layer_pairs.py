@@ -3,7 +3,7 @@
 import numpy as np
 import pygame
 
-from game.colors import RED
+from game.drawing.colors import RED
 from physics import debug
 
 PAIR_BUDGET = 1500         # lines per picture; the note says how many pairs there are

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from game.colors import BLUE, FOG, GREEN, PINK, SKY, YELLOW, faded
+from game.drawing.colors import BLUE, FOG, GREEN, PINK, SKY, YELLOW, faded
 from game.overlays.layer_bounds import draw_boxes
 from physics import debug
 

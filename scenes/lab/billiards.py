@@ -11,12 +11,12 @@ from random import Random
 import numpy as np
 import pygame
 
-from game.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
-from game.draw import SMALL
+from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
+from game.drawing.draw import SMALL
+from game.drawing.sprites import load_atlas
+from game.drawing.turned import Cast
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas
-from game.turned import Cast
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.piles import kinetic_energy
 from scenes.lab.yard import draw_head, plate

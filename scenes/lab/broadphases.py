@@ -9,9 +9,9 @@ from random import Random
 import numpy as np
 import pygame
 
-from game.camera import Camera
-from game.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
-from game.draw import SMALL
+from game.drawing.camera import Camera
+from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
+from game.drawing.draw import SMALL
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects

@@ -9,13 +9,13 @@ from math import cos, hypot, pi, sin
 
 import pygame
 
-from game.camera import Camera
-from game.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
-from game.draw import SMALL
+from game.drawing.camera import Camera
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.draw import SMALL
+from game.drawing.sprites import load_atlas, load_backdrop
+from game.drawing.turned import Cast
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas, load_backdrop
-from game.turned import Cast
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.pieces import piece
 

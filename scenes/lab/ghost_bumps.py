@@ -10,12 +10,12 @@ from math import log10
 
 import pygame
 
-from game.camera import Camera
-from game.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
-from game.draw import SMALL
+from game.drawing.camera import Camera
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
+from game.drawing.draw import SMALL
+from game.drawing.sprites import load_atlas, load_backdrop
+from game.drawing.turned import Cast
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas, load_backdrop
-from game.turned import Cast
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.pieces import piece
 

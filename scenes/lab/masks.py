@@ -9,11 +9,11 @@ from math import hypot, pi
 import numpy as np
 import pygame
 
-from game.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
-from game.draw import SMALL
+from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.draw import SMALL
+from game.drawing.sprites import TurnedSprites, load_atlas, load_backdrop
 from game.inputs import InputFrame
 from game.scene import Goal, Scene
-from game.sprites import TurnedSprites, load_atlas, load_backdrop
 from physics import Effects, debug
 
 SPRITES = ("large_plane_a", "large_plane_b")

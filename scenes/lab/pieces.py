@@ -9,8 +9,8 @@ from math import ceil
 import numpy as np
 import pygame
 
-from game.colors import INK
-from game.turned import TurnedPicture
+from game.drawing.colors import INK
+from game.drawing.turned import TurnedPicture
 from physics import Capsule, Circle
 
 OUTLINE, RIM = 1.0, 2.6         # [px] inwards from the edge

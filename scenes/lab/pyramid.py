@@ -6,13 +6,13 @@ substeps or take another solver and the overlap grows and the top starts to wand
 
 import pygame
 
-from game.camera import Camera
-from game.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
-from game.draw import SMALL
+from game.drawing.camera import Camera
+from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
+from game.drawing.draw import SMALL
+from game.drawing.sprites import load_atlas
+from game.drawing.turned import Cast
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas
-from game.turned import Cast
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.curves import Curves
 from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds

@@ -10,12 +10,12 @@ from math import pi, sin
 import numpy as np
 import pygame
 
-from game.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
-from game.draw import SMALL, whole
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.draw import SMALL, whole
+from game.drawing.sprites import load_atlas, load_backdrop
+from game.drawing.turned import TurnedPicture
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas, load_backdrop
-from game.turned import TurnedPicture
 from physics import Circle, Effects, Filter, Polygon
 
 ZONES = {                                  # name: (width, height) [px], middle at the start, colour

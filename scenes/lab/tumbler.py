@@ -11,13 +11,13 @@ from random import Random
 import numpy as np
 import pygame
 
-from game.camera import Camera
-from game.colors import FOG, GOLD, GREEN, INK, PAPER, RED
-from game.draw import SMALL
+from game.drawing.camera import Camera
+from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
+from game.drawing.draw import SMALL
+from game.drawing.sprites import load_atlas
+from game.drawing.turned import Cast
 from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from game.sprites import load_atlas
-from game.turned import Cast
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.piles import deepest, kinetic_energy, step_seconds
 from scenes.lab.yard import Yard, plate

@@ -2,10 +2,10 @@
 
 import pygame
 
-from game.backdrop import Backdrop
-from game.colors import FOG, GOLD, INK
-from game.draw import CANVAS_SIZE, SMALL, Canvas
-from game.sprites import load_atlas
+from game.drawing.backdrop import Backdrop
+from game.drawing.colors import FOG, GOLD, INK
+from game.drawing.draw import CANVAS_SIZE, SMALL, Canvas
+from game.drawing.sprites import load_atlas
 
 TILE = 16
 HEAD = 16          # [canvas px] of the dark head line

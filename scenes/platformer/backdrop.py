@@ -2,8 +2,8 @@
 
 import pygame
 
-from game.draw import CANVAS_SIZE, whole
-from game.sprites import load_backdrop
+from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.sprites import load_backdrop
 
 FADE = 0.9                   # [s] from one act's backdrop to the next
 CLOUDS_TOP = 14              # [canvas px]

@@ -4,11 +4,11 @@ from functools import lru_cache
 
 import pygame
 
-from game.boxes import draw_box
-from game.colors import FOG, GOLD, GREEN, INK, PAPER, RED
-from game.draw import CANVAS_SIZE, SMALL, TEXT, whole, wrap
-from game.hud import MARGIN
-from game.sprites import load_atlas
+from game.drawing.boxes import draw_box
+from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
+from game.drawing.draw import CANVAS_SIZE, SMALL, TEXT, whole, wrap
+from game.drawing.hud import MARGIN
+from game.drawing.sprites import load_atlas
 from scenes.platformer.feel import steps
 
 SIGN_REACH = (40, 44)        # [px] how near the hero must be to read a sign

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from game.drawing.tilemap import load_tilemap
 from game.places import LEVELS
-from game.tilemap import load_tilemap
 from physics import Filter
 from scenes.platformer.level_rules import check_level, tileset_picture
 

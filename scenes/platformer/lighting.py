@@ -4,8 +4,8 @@ from functools import lru_cache
 
 import pygame
 
-from game.draw import CANVAS_SIZE, whole
-from game.sprites import load_atlas
+from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.sprites import load_atlas
 
 AMBIENT = (136, 132, 180)    # what is left of each colour where the cave is darkest
 STEPS = 12                   # of darkness between day and that, each with light discs of its own

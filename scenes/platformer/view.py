@@ -7,11 +7,11 @@ from functools import lru_cache
 
 import pygame
 
-from game.camera import Camera
-from game.draw import CANVAS_SIZE, Canvas, whole
-from game.sprites import load_atlas, load_image
-from game.tile_picture import TilePicture
-from game.turned import TurnedPicture
+from game.drawing.camera import Camera
+from game.drawing.draw import CANVAS_SIZE, Canvas, whole
+from game.drawing.sprites import load_atlas, load_image
+from game.drawing.tile_picture import TilePicture
+from game.drawing.turned import TurnedPicture
 from scenes.platformer import board
 from scenes.platformer.backdrop import Backdrops
 from scenes.platformer.feel import APEX_SPEED, HEIGHT, steps

@@ -4,9 +4,9 @@ from functools import lru_cache
 
 import pygame
 
-from game.colors import GOLD, INK, PAPER, RED, SKY
-from game.draw import TEXT, whole
-from game.hud import banner
+from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
+from game.drawing.draw import TEXT, whole
+from game.drawing.hud import banner
 from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
 

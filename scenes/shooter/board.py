@@ -1,9 +1,9 @@
 """What is written over the sky all the time: score, chain, lives, bombs, power, hits, and the leader's health."""
 
-from game.colors import GOLD, INK, PAPER, RED, SKY
-from game.draw import SMALL, TEXT, whole
-from game.hud import MARGIN, icons
-from game.sprites import load_atlas
+from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
+from game.drawing.draw import SMALL, TEXT, whole
+from game.drawing.hud import MARGIN, icons
+from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import ALMOST
 from scenes.shooter.plane import TOP_POWER
 from scenes.shooter.score import HOLD, TOP_CHAIN

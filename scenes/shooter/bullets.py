@@ -4,7 +4,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from physics.tables import Table
 from scenes.shooter.cast import HEIGHT, MARGIN, WIDTH
 

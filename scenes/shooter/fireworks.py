@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from scenes.shooter.cast import GROUND_SPEED, HEIGHT
 
 FIRE = ((255, 255, 240), (255, 226, 130), (255, 160, 50), (216, 78, 40), (120, 40, 52), (60, 34, 50))

@@ -2,7 +2,7 @@
 
 from math import pi
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import LOOKS, Leader
 from scenes.shooter.cast import GROUNDED
 from scenes.shooter.enemies import NOTCH, Dart, Gunship, Saucer

@@ -10,8 +10,8 @@ import numpy as np
 import pygame
 
 from game.compat import blit_many
-from game.draw import CANVAS_SIZE, whole
-from game.sprites import load_backdrop
+from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.sprites import load_backdrop
 from scenes.shooter.cast import GROUND_SPEED, steps
 
 # Layer over the ground, its way down [px/s], px it shifts for each px that the plane is off the middle, a fixed shift [px].

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import pygame
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from scenes.shooter.bomb import BURN, GROW
 from scenes.shooter.fireworks import RING_LIFE
 

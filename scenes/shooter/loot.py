@@ -2,7 +2,7 @@
 
 from math import cos, hypot, pi
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from scenes.shooter.cast import LOOT, WIDTH
 
 FALL, SWAY, SWINGS = 34.0, 26.0, 0.5      # [px/s], [px/s], swings per second

@@ -6,7 +6,7 @@ sensor. The world tests all three; which of core and hull a hit hurts is the sce
 
 from math import pi
 
-from game.sprites import load_atlas
+from game.drawing.sprites import load_atlas
 from physics import Circle
 from scenes.shooter.bullets import UP
 from scenes.shooter.cast import AT_RISK, GHOST, HEIGHT, WIDTH, steps

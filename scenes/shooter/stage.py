@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
-from game.json_file import read_json
+from game.files.json_file import read_json
 from game.places import ASSETS
 from scenes.shooter.bullets import HOSTILE_LOOKS
 from scenes.shooter.stage_fields import Choice, List, Number, Reader, Record, Text, Variant

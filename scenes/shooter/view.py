@@ -12,8 +12,8 @@ import numpy as np
 import pygame
 
 from game.compat import blit_many
-from game.draw import CANVAS_SIZE
-from game.sprites import TurnedSprites, lit, load_atlas
+from game.drawing.draw import CANVAS_SIZE
+from game.drawing.sprites import TurnedSprites, lit, load_atlas
 from scenes.shooter import banners, board, light
 from scenes.shooter.bullets import LOOKS, NAMES
 from scenes.shooter.cast import GROUNDED

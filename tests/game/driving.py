@@ -4,8 +4,8 @@ import pygame
 
 from game.app import App
 from game.command_line import read_options
+from game.files.settings import Settings
 from game.registry import Registry
-from game.settings import Settings
 from game.window import open_window
 from tests.game.arena import GAMES
 

@@ -5,10 +5,10 @@ import json
 import pygame
 import pytest
 
-from game.records import load_records
-from game.replay import load_replay
-from game.replay_shelf import recent_folder, replays_folder
-from game.settings import Settings, load_settings
+from game.files.records import load_records
+from game.files.replay import load_replay
+from game.files.replay_shelf import recent_folder, replays_folder
+from game.files.settings import Settings, load_settings
 
 K = pygame
 

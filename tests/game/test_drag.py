@@ -4,18 +4,18 @@ from math import hypot
 
 import pytest
 
-from game.camera import Camera
+from game.devices import DeviceSource
 from game.digest import scene_digest
 from game.drag import MOST_PULL
+from game.drawing.camera import Camera
+from game.drawing.picture import Picture
+from game.files.replay import Recorder, load_replay
 from game.inputs import BotSource, InputFrame, ScriptSource
-from game.picture import Picture
-from game.play import Play
-from game.replay import Recorder, load_replay
-from game.scene import Scene
-from game.session import Session
 from game.overlays.stack import Overlays
+from game.scene import Scene
+from game.screens.play import Play
+from game.session import Session
 from game.sound import Sounds
-from game.devices import DeviceSource
 from physics import BROADPHASES, Circle, Effects, Material, Polygon
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)

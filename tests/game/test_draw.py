@@ -3,10 +3,10 @@
 import pygame
 import pytest
 
-from game.camera import Camera
-from game.draw import SMALL, TEXT, Canvas, shorten, whole, wrap
-from game.font import load_font
-from game.presenter import Presenter
+from game.drawing.camera import Camera
+from game.drawing.draw import SMALL, TEXT, Canvas, shorten, whole, wrap
+from game.drawing.font import load_font
+from game.drawing.presenter import Presenter
 
 
 @pytest.mark.parametrize("font", [TEXT, SMALL])

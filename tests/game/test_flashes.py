@@ -9,13 +9,13 @@ import pygame
 import pytest
 
 from game.comfort import Comfort
-from game.draw import Canvas
-from game.flash import MOST, SPAN, Flash
+from game.drawing.draw import Canvas
+from game.drawing.flash import MOST, SPAN, Flash
+from game.drawing.picture import Picture
 from game.inputs import BotSource, InputState
 from game.overlays.stack import Overlays
-from game.picture import Picture
 from game.registry import Registry
-from game.wipe import Wipe
+from game.screens.wipe import Wipe
 from scenes import SCENES
 from tests.game.reading import luminance
 

@@ -6,12 +6,12 @@ import pytest
 import physics
 
 from game.devices import DeviceSource
+from game.drawing.picture import Picture
 from game.inputs import BotSource
 from game.overlays import LAYER_NAMES
 from game.overlays.stack import Overlays
-from game.picture import Picture
-from game.play import Play
 from game.registry import Registry
+from game.screens.play import Play
 from game.sound import Sounds
 from scenes import SCENES
 from tests.game.reading import Reader, assert_text_is_apart

@@ -6,11 +6,11 @@ import numpy as np
 import pygame
 import pytest
 
-from game.colors import SERIES, toned
 from game.comfort import PALETTES, Comfort
+from game.drawing.colors import SERIES, toned
+from game.drawing.picture import Picture
 from game.overlays import LAYER_NAMES
 from game.overlays.stack import Overlays
-from game.picture import Picture
 from tests.game.test_overlays import Crowd, stepped
 
 # Machado, Oliveira and Fernandes, "A Physiologically-based Model for Simulation of Color Vision Deficiency", 2009,

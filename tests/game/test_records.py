@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from game.best_run import ghost_path, keep_ghost, load_ghost
-from game.records import PLACES, Entry, load_records, ranks, table_of
+from game.files.best_run import ghost_path, keep_ghost, load_ghost
+from game.files.records import PLACES, Entry, load_records, ranks, table_of
 from game.scene import Result
 
 

@@ -6,10 +6,10 @@ import pytest
 
 from game.digest import scene_digest
 from game.errors import FileError, ReplayDiverged
+from game.files.replay import Recorder, load_replay
+from game.files.replay_check import load_replay_for
 from game.inputs import BotSource, InputFrame, ScriptSource
 from game.registry import Registry
-from game.replay import Recorder, load_replay
-from game.replay_check import load_replay_for
 from game.scene import Result
 from game.session import Session
 from tests.game.arena import LISTING, Arena, Race

@@ -5,17 +5,17 @@ import json
 import pygame
 import pytest
 
-from game.best_run import load_ghost
 from game.devices import DeviceSource
 from game.digest import scene_digest
 from game.errors import FileError
+from game.files.best_run import load_ghost
+from game.files.records import load_records
+from game.files.replay import load_replay
+from game.files.replay_shelf import recent_folder, replays_folder
+from game.files.settings import Settings
 from game.inputs import InputFrame, ScriptSource
-from game.play import Play
-from game.records import load_records
-from game.replay import load_replay
-from game.replay_shelf import recent_folder, replays_folder
+from game.screens.play import Play
 from game.session import Session
-from game.settings import Settings
 from game.sound import Sounds
 from tests.game.arena import Arena, Race
 

@@ -6,34 +6,34 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
-from game.attract import Attract
 from game.comfort import Comfort
 from game.devices import DeviceSource
+from game.drawing.picture import Picture
 from game.errors import FileError, UsageError
-from game.first_hint import HintCard
-from game.ground import SceneGround
-from game.loading import Loading
-from game.menu import Menu
-from game.message_screen import file_message
-from game.pause_menu import PauseMenu
-from game.picture import Picture
-from game.play import Play
-from game.records import Entry, Records
+from game.files.records import Entry, Records
+from game.files.replay import load_replay
+from game.files.replay_shelf import recent_folder, replays_folder
+from game.files.settings import Settings
+from game.files.tape import Tape
 from game.registry import Registry
-from game.replay import load_replay
-from game.replay_shelf import recent_folder, replays_folder
-from game.replays_screen import ReplaysScreen
-from game.result_screen import ResultScreen
 from game.scene import Result
-from game.scores_screen import ScoresScreen
-from game.settings import Settings
-from game.settings_rows import PAGES
-from game.settings_screen import SettingsScreen
+from game.screens.attract import Attract
+from game.screens.first_hint import HintCard
+from game.screens.ground import SceneGround
+from game.screens.loading import Loading
+from game.screens.menu import Menu
+from game.screens.message_screen import file_message
+from game.screens.pause_menu import PauseMenu
+from game.screens.play import Play
+from game.screens.replays_screen import ReplaysScreen
+from game.screens.result_screen import ResultScreen
+from game.screens.scores_screen import ScoresScreen
+from game.screens.settings_rows import PAGES
+from game.screens.settings_screen import SettingsScreen
+from game.screens.title import Title
+from game.screens.tour import STOPS, Tour
+from game.screens.watch import Watch
 from game.sound import Sounds
-from game.tape import Tape
-from game.title import Title
-from game.tour import STOPS, Tour
-from game.watch import Watch
 from scenes import SCENES
 from tests.game.arena import GAMES, Arena, Race
 from tests.game.reading import Reader, assert_text_is_apart

@@ -4,10 +4,10 @@ import numpy as np
 import pygame
 import pytest
 
-from game.camera import Camera
-from game.draw import Canvas
-from game.particles import CAPACITY, Particles
-from game.sprites import TurnedSprites, load_atlas
+from game.drawing.camera import Camera
+from game.drawing.draw import Canvas
+from game.drawing.particles import CAPACITY, Particles
+from game.drawing.sprites import TurnedSprites, load_atlas
 
 RAMP = ((255, 255, 255), (255, 100, 0), (90, 0, 0))
 

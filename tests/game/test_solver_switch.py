@@ -5,8 +5,8 @@ import pytest
 
 from game.devices import DeviceSource
 from game.headless import start_dummy_display
-from game.panel_rows import play_rows
-from game.play import Play
+from game.screens.panel_rows import play_rows
+from game.screens.play import Play
 from game.sound import Sounds
 from physics import Effects, Polygon
 from tests.game.arena import Arena

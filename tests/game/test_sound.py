@@ -7,7 +7,7 @@ import numpy as np
 import pygame
 import pytest
 
-from game.draw import CANVAS_SIZE
+from game.drawing.draw import CANVAS_SIZE
 from game.places import ASSETS, SOUNDS
 from game.sound import CHANNELS, PITCHES, RATE, SPACING, STEADY, VOICES, Sounds, Voice, pan, resampled
 

@@ -8,8 +8,8 @@ import zlib
 
 import pytest
 
+from game.drawing.tilemap import load_tilemap
 from game.errors import FileError
-from game.tilemap import load_tilemap
 
 LEVEL = {
     "type": "map", "orientation": "orthogonal", "infinite": False, "width": 3, "height": 2, "tilewidth": 16,

@@ -8,15 +8,15 @@ import pytest
 from game.comfort import Comfort
 from game.devices import DeviceSource
 from game.digest import scene_digest
+from game.drawing.picture import Picture
+from game.files.replay import Recorder, load_replay
+from game.files.replay_shelf import RECENT, keep, put_recent, recent_folder, replays_folder, shelf
+from game.files.tape import KEY_SECONDS, MOST_KEYS, Tape
 from game.inputs import BotSource, InputFrame, ScriptSource
-from game.picture import Picture
 from game.registry import Registry
-from game.replay import Recorder, load_replay
-from game.replay_shelf import RECENT, keep, put_recent, recent_folder, replays_folder, shelf
+from game.screens.watch import Watch
 from game.session import Session
 from game.sound import Sounds
-from game.tape import KEY_SECONDS, MOST_KEYS, Tape
-from game.watch import Watch
 from scenes import SCENES
 from tests.game.arena import Arena
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from game.drawing.tilemap import Thing, TileMap
 from game.inputs import InputFrame, InputState
-from game.tilemap import Thing, TileMap
 from physics import World
 from scenes.platformer.feel import GRAVITY, HEIGHT
 from scenes.platformer.hero import Hero

@@ -6,10 +6,10 @@ import pygame
 import pytest
 
 import physics
+from game.drawing.turned import TurnedPicture
 from game.inputs import BotSource, InputFrame, ScriptSource
 from game.run_report import judge
 from game.session import Session
-from game.turned import TurnedPicture
 from scenes.lab.billiards import CLOTH, HEAD_SPOT, HOLES, Billiards
 from scenes.lab.card_house import NEEDED, CardHouse
 from scenes.lab.cradle import SPEED, Cradle

@@ -2,7 +2,7 @@
 
 import pytest
 
-from game.draw import Canvas
+from game.drawing.draw import Canvas
 from game.inputs import InputFrame, ScriptSource
 from game.session import Session
 from scenes.platformer.feel import HEIGHT, steps

@@ -2,7 +2,7 @@
 
 import pytest
 
-from game.draw import CANVAS_SIZE
+from game.drawing.draw import CANVAS_SIZE
 from game.inputs import BotSource, ScriptSource
 from game.session import Session
 from scenes.platformer.feel import HEIGHT

@@ -4,7 +4,7 @@ import pytest
 
 import physics
 from game.digest import scene_digest
-from game.draw import Canvas
+from game.drawing.draw import Canvas
 from game.inputs import BotSource
 from game.registry import Registry
 from game.run_report import judge

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import physics
+from game.drawing.sprites import load_atlas
 from game.inputs import BotSource
 from game.session import Session
-from game.sprites import load_atlas
 from physics import debug
 from scenes.shooter.bomb import BURN, LEADER_DAMAGE, REACH
 from scenes.shooter.cast import BLAST, BULLET, CORE, ENEMY, HULL, ITEM, RING, SHOT

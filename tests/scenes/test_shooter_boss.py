@@ -5,7 +5,7 @@ import pytest
 
 import physics
 from game.digest import scene_digest
-from game.draw import Canvas
+from game.drawing.draw import Canvas
 from game.inputs import BotSource
 from game.session import Session
 from scenes.shooter.boss import CHANGE, FALL

@@ -7,9 +7,9 @@ import pygame
 import pytest
 
 from game.comfort import Comfort
-from game.draw import Canvas
+from game.drawing.draw import Canvas
+from game.drawing.sprites import load_atlas
 from game.places import SOUNDS
-from game.sprites import load_atlas
 from scenes.shooter.bullets import HOSTILE_LOOKS, LOOKS
 from scenes.shooter.cast import GROUND_SPEED
 from scenes.shooter.director import READY

@@ -1,0 +1,31 @@
+"""Dusk, mountains and clouds that drift: the ground of the title and menu, and of any scene that wants it."""
+
+import pygame
+
+from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.sprites import load_backdrop
+
+# (picture, share of the camera's motion it takes part in, how far its bottom hangs below the canvas)
+DUSK = (("clouds", 0.06, None), ("mountains_far", 0.1, 0), ("mountains_mid", 0.2, 0), ("mountains_near", 0.45, 0))
+CLOUD_TOP = 18
+
+
+class Backdrop:
+    """Parallax layers that repeat in x."""
+
+    def __init__(self, layers=DUSK, sky="sky_dusk"):
+        self.sky = load_backdrop(sky)
+        self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
+
+    def draw(self, canvas, distance, dim=0):
+        """Draw for a camera that has travelled `distance` px to the right. dim 0..255 darkens it for text."""
+        canvas.surface.blit(self.sky, (0, 0))
+        for picture, share, low in self.layers:
+            y = CLOUD_TOP if low is None else CANVAS_SIZE[1] - picture.get_height() + low
+            width = picture.get_width()
+            x = -whole(distance * share) % width - width
+            while x < CANVAS_SIZE[0]:
+                canvas.surface.blit(picture, (x, y))
+                x += width
+        if dim:
+            canvas.surface.fill((dim, dim, dim), special_flags=pygame.BLEND_RGB_SUB)

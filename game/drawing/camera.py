@@ -1,0 +1,100 @@
+"""World to canvas: a position, a zoom and the part of the canvas it draws into."""
+
+from math import exp, sin
+
+import pygame
+
+from game.drawing.draw import CANVAS_SIZE, whole
+
+SHAKE_PIXELS = 5.0      # [canvas px] at full trauma; more hides bullets
+SHAKE_DECAY = 0.75      # [1/s] trauma lost per second: a full shake is over in 1.3 s
+
+
+class Camera:
+    """`x, y`: the world point at the top left of `viewport` (a canvas Rect); `zoom`: canvas px per world px.
+
+    update() once per step moves it; view(alpha) gives the drawn top left, rounded once at zoom 1 so that
+    everything in the picture steps together.
+    """
+
+    def __init__(self, viewport=None, zoom=1.0, x=0.0, y=0.0):
+        self.viewport = pygame.Rect(viewport if viewport is not None else ((0, 0), CANVAS_SIZE))
+        self.zoom = zoom
+        self.x = self.previous_x = float(x)
+        self.y = self.previous_y = float(y)
+        self.trauma = 0.0
+        self.shake_share = 1.0     # of the shake that is drawn
+        self.clock = 0.0
+        self.limits = None
+
+    @property
+    def size(self):
+        """Width and height of the seen part of the world [world px]."""
+        return self.viewport.width / self.zoom, self.viewport.height / self.zoom
+
+    def keep_within(self, left, top, right, bottom):
+        """Never show anything outside these world limits (a level's edges)."""
+        self.limits = (left, top, right, bottom)
+
+    def place(self, x, y):
+        """Jump to a top left without a move in between (a restart, a door)."""
+        self.x, self.y = self._limited(x, y)
+        self.previous_x, self.previous_y = self.x, self.y
+
+    def center_on(self, x, y):
+        """Jump so that the world point is in the middle."""
+        width, height = self.size
+        self.place(x - width / 2, y - height / 2)
+
+    def begin_step(self, dt):
+        """Remember where the camera was, for interpolation, and let a shake fade. Once per step."""
+        self.previous_x, self.previous_y = self.x, self.y
+        self.clock += dt
+        self.trauma = max(0.0, self.trauma - SHAKE_DECAY * dt)
+
+    def follow(self, x, y, dt, rate=8.0, dead_zone=(0.0, 0.0)):
+        """Move towards having the world point in the middle, at `rate` [1/s], inside a dead zone not at all."""
+        width, height = self.size
+        share = 1.0 - exp(-rate * dt)
+        off_x = _outside(x - (self.x + width / 2), dead_zone[0])
+        off_y = _outside(y - (self.y + height / 2), dead_zone[1])
+        self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
+
+    def shake(self, trauma):
+        """Add trauma 0..1; the offset grows with its square, so small hits stay small."""
+        self.trauma = min(1.0, self.trauma + trauma)
+
+    def view(self, alpha=1.0):
+        """The drawn world top left (x, y); whole numbers at zoom 1."""
+        x = self.previous_x + (self.x - self.previous_x) * alpha
+        y = self.previous_y + (self.y - self.previous_y) * alpha
+        if self.trauma > 0.0 and self.shake_share > 0.0:
+            reach = SHAKE_PIXELS * self.shake_share * self.trauma * self.trauma / self.zoom
+            # Two slow sines that do not repeat together: smooth, and the same in every run.
+            x += reach * sin(self.clock * 61.0)
+            y += reach * sin(self.clock * 47.0 + 1.3)
+        return (whole(x), whole(y)) if self.zoom == 1.0 else (x, y)
+
+    def to_canvas(self, x, y, alpha=1.0):
+        """Canvas position of world points; scalars or arrays."""
+        left, top = self.view(alpha)
+        return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
+
+    def to_world(self, x, y):
+        """World position of a canvas point, as last drawn without interpolation."""
+        left, top = self.view()
+        return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
+
+    def _limited(self, x, y):
+        if self.limits is None:
+            return x, y
+        left, top, right, bottom = self.limits
+        width, height = self.size
+        return max(left, min(x, right - width)), max(top, min(y, bottom - height))
+
+
+def _outside(offset, zone):
+    """How far an offset leaves a zone of +-zone around 0."""
+    if offset > zone:
+        return offset - zone
+    return offset + zone if offset < -zone else 0.0

@@ -1,0 +1,120 @@
+"""Canvas: what scenes draw on. It knows every text box it holds, so text can keep out of text's way.
+
+Positions are canvas pixels. Sprites are rounded with floor(x + 0.5), once, so that a sprite and the
+ground under it always step together.
+"""
+
+from math import floor
+
+import pygame
+
+from game.drawing.colors import PAPER, toned
+from game.drawing.font import load_font
+
+CANVAS_SIZE = (480, 270)
+TEXT, SMALL = "font5x7", "font3x5"
+
+
+def whole(value):
+    """The one rounding rule for drawing: floor(value + 0.5)."""
+    return floor(value + 0.5)
+
+
+class Canvas:
+    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` rects that text keeps out of."""
+
+    def __init__(self, surface=None):
+        self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
+        self.boxes = []
+        self.reserved = []
+        self.palette = "standard"      # of the overlays, as the player wants it
+
+    def tone(self, color):
+        """An overlay's colour in the palette of this picture."""
+        return toned(color, self.palette)
+
+    @property
+    def rect(self):
+        """The whole canvas as a Rect at (0, 0)."""
+        return self.surface.get_rect()
+
+    def begin(self, color=None):
+        """Start a picture: forget the last one's text boxes; fill with `color` when given."""
+        self.boxes.clear()
+        self.reserved.clear()
+        if color is not None:
+            self.surface.fill(color)
+
+    def sprite(self, image, x, y):
+        """Draw an image centred on (x, y)."""
+        width, height = image.get_size()
+        self.surface.blit(image, (whole(x) - width // 2, whole(y) - height // 2))
+
+    def measure(self, text, font=TEXT, scale=1):
+        """Width and height of a line of text in pixels."""
+        return load_font(font).measure(text, scale)
+
+    def text_rect(self, text, x, y, font=TEXT, scale=1, align="left"):
+        """Where text() would put the line. `align` says what x is: left, center or right."""
+        width, height = load_font(font).measure(text, scale)
+        left = {"left": x, "center": x - width / 2, "right": x - width}[align]
+        return pygame.Rect(whole(left), whole(y), width, height)
+
+    def text(self, text, x, y, color=PAPER, font=TEXT, scale=1, align="left", outline=False):
+        """Draw one line of text, y its top, and return its rect. Its place is the caller's promise."""
+        rect = self.text_rect(text, x, y, font, scale, align)
+        load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
+        self.boxes.append((rect, text))
+        return rect
+
+    def text_if_free(self, text, x, y, color=PAPER, font=TEXT, scale=1, align="left", outline=False):
+        """Draw the line only where it is on the screen and touches no other text. Returns True if drawn.
+
+        For labels that follow things: the caller counts the ones left out and says so in a fixed place.
+        """
+        rect = self.text_rect(text, x, y, font, scale, align)
+        if not self.is_free(rect):
+            return False
+        load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
+        self.boxes.append((rect, text))
+        return True
+
+    def is_free(self, rect):
+        """True if the rect is on the canvas and meets no text box and no reserved rect."""
+        taken = [box for box, _ in self.boxes] + self.reserved
+        return self.rect.contains(rect) and rect.collidelist(taken) < 0
+
+    def reserve(self, rect):
+        """Keep text_if_free and free_place out of a rect (a graph, a panel, a life bar)."""
+        self.reserved.append(pygame.Rect(rect))
+
+    def free_place(self, size, places):
+        """The first (x, y) of `places` where a box of that size is free, or None."""
+        for x, y in places:
+            if self.is_free(pygame.Rect(whole(x), whole(y), *size)):
+                return whole(x), whole(y)
+        return None
+
+
+def wrap(text, width, font=TEXT, scale=1):
+    """Break a sentence into lines of at most `width` pixels; a longer word stands alone."""
+    measure = load_font(font).measure
+    lines, line = [], ""
+    for word in text.split():
+        longer = f"{line} {word}" if line else word
+        if line and measure(longer, scale)[0] > width:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return [*lines, line] if line else lines
+
+
+def shorten(text, width, font=TEXT, scale=1):
+    """The text, or as much of it as fits in `width` pixels with two dots behind."""
+    measure = load_font(font).measure
+    if measure(text, scale)[0] <= width:
+        return text
+    while text and measure(text + "..", scale)[0] > width:
+        text = text[:-1]
+    return text.rstrip() + ".."

@@ -1,0 +1,103 @@
+"""Bitmap text: measures a line and draws it from a sheet of glyphs.
+
+Glyphs are tinted and scaled once per (color, scale, outline), and put together to a picture of a line that is kept
+while it is in use: a panel of names and changing numbers costs one blit per line.
+"""
+
+import json
+from functools import lru_cache
+
+import pygame
+
+from game.compat import blit_many
+from game.drawing.colors import INK
+from game.errors import FileError
+from game.places import FONTS
+
+MEASURED = 4096    # lines of text whose size is remembered
+KEPT = 1024        # lines of text whose picture is kept
+UNKNOWN = "?"  # drawn for a character that the sheet lacks
+
+
+class Font:
+    """One sheet of glyphs. `height` is a line's height in font pixels."""
+
+    def __init__(self, sheet, height, glyphs):
+        self.height = height
+        self.advance = {c: g["w"] for c, g in glyphs.items()}
+        self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
+        self.sheet = sheet
+        self.tinted = {}
+        self.line = lru_cache(maxsize=KEPT)(self._line)                # names, and figures that come again
+        self.measure = lru_cache(maxsize=MEASURED)(self._measure)      # labels ask for the same text picture by picture
+
+    def _measure(self, text, scale=1):
+        """Width and height of one line in pixels. The gap behind the last letter does not count."""
+        unknown = self.advance[UNKNOWN]
+        width = sum(self.advance.get(c, unknown) for c in text)
+        return (max(width - 1, 0) * scale, self.height * scale)
+
+    def draw(self, surface, text, x, y, color, scale=1, outline=False):
+        """Draw one line with its top left at whole pixels (x, y)."""
+        edge = scale if outline else 0
+        surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
+
+    def _line(self, text, color, scale, outline):
+        """A picture of the whole line; an outline lies around it."""
+        glyphs = self._glyphs(color, scale, outline)
+        width, height = self.measure(text, scale)
+        edge = 2 * scale if outline else 0
+        picture = pygame.Surface((width + edge, height + edge), pygame.SRCALPHA)
+        x, pairs = 0, []
+        for letter in text:
+            image, advance = glyphs.get(letter) or glyphs[UNKNOWN]
+            if image is not None:
+                pairs.append((image, (x, 0)))
+            x += advance
+        blit_many(picture, pairs)
+        return picture
+
+    def _glyphs(self, color, scale, outline):
+        key = (color, scale, outline)
+        if key not in self.tinted:
+            self.tinted[key] = {c: self._glyph(c, color, scale, outline) for c in self.places}
+        return self.tinted[key]
+
+    def _glyph(self, letter, color, scale, outline):
+        x, y, width = self.places[letter]
+        if letter == " ":
+            return None, width * scale
+        pixels = self.sheet.subsurface((x, y, width, self.height))
+        face = tint(pixels, color)
+        if outline:
+            image = pygame.Surface((width + 2, self.height + 2), pygame.SRCALPHA)
+            edge = tint(pixels, INK)
+            for dx in (0, 1, 2):
+                for dy in (0, 1, 2):
+                    image.blit(edge, (dx, dy))
+            image.blit(face, (1, 1))
+        else:
+            image = face
+        size = (image.get_width() * scale, image.get_height() * scale)
+        return pygame.transform.scale(image, size), width * scale
+
+
+def tint(image, color):
+    """A copy of a white image in one colour; its alpha is kept."""
+    copy = image.copy()
+    copy.fill((*color[:3], 255), special_flags=pygame.BLEND_RGBA_MULT)
+    return copy
+
+
+@lru_cache(maxsize=None)
+def load_font(name):
+    """The font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
+    path = FONTS / f"{name}.json"
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+        sheet = pygame.image.load(str(FONTS / f"{name}.png"))
+        plain = pygame.Surface(sheet.get_size(), pygame.SRCALPHA)
+        plain.blit(sheet, (0, 0))
+        return Font(plain, table["height"], table["glyphs"])
+    except (OSError, pygame.error, ValueError, KeyError) as error:
+        raise FileError(path, "font", f"{error}; rebuild it with: python -m assets.build") from error

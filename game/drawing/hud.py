@@ -1,0 +1,60 @@
+"""Score, lives, bars and banners on the canvas. Each returns the rect it took."""
+
+import pygame
+
+from game.drawing.colors import GOLD, INK, PAPER, SLATE
+from game.drawing.draw import TEXT
+
+MARGIN = 6             # [canvas px] between the HUD and the edge of the picture
+BANNER_GROUND = (20, 16, 32, 150)
+
+
+def label(canvas, text, x, y, value="", align="left", color=PAPER):
+    """A word and a number: the word grey-gold, the number bright. Returns the rect of both."""
+    if align == "right":
+        right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
+        left = canvas.text(text, right.left - 4, y, GOLD, TEXT, align="right", outline=True)
+    else:
+        left = canvas.text(text, x, y, GOLD, TEXT, outline=True)
+        right = canvas.text(value, left.right + 4, y, color, TEXT, outline=True)
+    return left.union(right)
+
+
+def icons(canvas, image, count, x, y, gap=2, most=8):
+    """A row of small pictures, as many as there are lives; more than `most` are written as a number."""
+    width, height = image.get_size()
+    shown = min(count, most)
+    for number in range(shown):
+        canvas.surface.blit(image, (x + number * (width + gap), y))
+    rect = pygame.Rect(x, y, max(shown * (width + gap) - gap, 0), height)
+    canvas.reserve(rect)
+    if count > most:
+        text = canvas.text(f"x{count}", rect.right + 3, y + height // 2 - 4, PAPER, TEXT, outline=True)
+        return rect.union(text)
+    return rect
+
+
+def bar(canvas, rect, share, color, ground=INK):
+    """A bar filled to `share` 0..1."""
+    rect = pygame.Rect(rect)
+    canvas.surface.fill(ground, rect)
+    canvas.surface.fill(color, (rect.x + 1, rect.y + 1, round((rect.width - 2) * max(0.0, min(1.0, share))),
+                                rect.height - 2))
+    pygame.draw.rect(canvas.surface, SLATE, rect, 1)
+    canvas.reserve(rect)
+    return rect
+
+
+def banner(canvas, title, lines=(), color=GOLD, y=None):
+    """A large title over a dark band in the middle of the picture, with small lines under it."""
+    width, height = canvas.measure(title, TEXT, 3)
+    total = height + 6 + 13 * len(lines)
+    top = (canvas.rect.height - total) // 2 if y is None else y
+    shade = pygame.Surface((canvas.rect.width, total + 20), pygame.SRCALPHA)
+    shade.fill(BANNER_GROUND)
+    canvas.surface.blit(shade, (0, top - 10))
+    rect = canvas.text(title, canvas.rect.centerx, top, color, TEXT, 3, "center", True)
+    for number, line in enumerate(lines):
+        text = canvas.text(line, canvas.rect.centerx, top + height + 8 + 13 * number, PAPER, TEXT, 1, "center", True)
+        rect = rect.union(text)
+    return rect

@@ -1,0 +1,131 @@
+"""From the 480 x 270 canvas to the window: integer scale, letterbox, and the frame that overlays draw on.
+
+Our own presenter, since SCALED and OpenGL fail under SDL's dummy driver and SCALED fullscreen is not
+integer-scaled.
+"""
+
+import pygame
+
+from game.drawing.colors import INK
+from game.drawing.draw import CANVAS_SIZE, Canvas
+
+PANEL_SHARE = 1 / 3        # of the window's width, for the docked panel
+SCREENSHOT_SCALE = 3       # 1440 x 810
+
+
+class Lens:
+    """World to frame for one view: X = x * scale + dx, Y = y * scale + dy; `clip` is the viewport."""
+
+    def __init__(self, scale, dx, dy, clip):
+        self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
+
+    def points(self, x, y):
+        """Frame positions of world points (scalars or arrays)."""
+        return x * self.scale + self.dx, y * self.scale + self.dy
+
+    def seen(self, rows):
+        """Which (n, 4) world boxes reach into the view, as a bool array."""
+        clip = self.clip
+        left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
+        right, bottom = (clip.right - self.dx) / self.scale, (clip.bottom - self.dy) / self.scale
+        return (rows[:, 2] >= left) & (rows[:, 0] <= right) & (rows[:, 3] >= top) & (rows[:, 1] <= bottom)
+
+
+class Frame(Canvas):
+    """The presented picture at window resolution: a Canvas that knows where the game canvas lies on it."""
+
+    def __init__(self, surface):
+        super().__init__(surface)
+        self.scale = 1
+        self.area = pygame.Rect((0, 0), CANVAS_SIZE)      # the game canvas on the frame
+
+    @property
+    def text_scale(self):
+        """Whole-number scale at which small text can be read at this resolution."""
+        return max(1, (self.surface.get_height() + 140) // 340)
+
+    def scale_for(self, width):
+        """Whole-number scale at which something `width` text px wide fits over the game."""
+        return max(1, min(self.text_scale, self.area.width // width))
+
+    def lens(self, camera):
+        """World to frame for a camera, drawn at the last step's poses."""
+        left, top = camera.view()
+        scale = camera.zoom * self.scale
+        view = camera.viewport
+        corner_x = self.area.x + view.x * self.scale
+        corner_y = self.area.y + view.y * self.scale
+        clip = pygame.Rect(corner_x, corner_y, view.width * self.scale, view.height * self.scale)
+        return Lens(scale, corner_x - left * scale, corner_y - top * scale, clip)
+
+    def from_canvas(self, rect):
+        """The frame rect of a canvas rect."""
+        s, area = self.scale, self.area
+        return pygame.Rect(area.x + rect[0] * s, area.y + rect[1] * s, rect[2] * s, rect[3] * s)
+
+
+class Presenter:
+    """Scales a canvas onto a frame. `docked` makes room for the panel on the right and graphs below."""
+
+    def __init__(self, surface):
+        self.frame = Frame(surface)
+        self.docked = False
+
+    def place(self):
+        """Choose the scale and the canvas's place for the surface's present size."""
+        frame = self.frame
+        width, height = frame.surface.get_size()
+        free = width - self.panel_width if self.docked and not self.crowded else width
+        frame.scale = max(1, min(free // CANVAS_SIZE[0], height // CANVAS_SIZE[1]))
+        size = (CANVAS_SIZE[0] * frame.scale, CANVAS_SIZE[1] * frame.scale)
+        if self.docked and not self.crowded:
+            frame.area = pygame.Rect((0, 0), size)
+        else:
+            frame.area = pygame.Rect(((width - size[0]) // 2, (height - size[1]) // 2), size)
+
+    @property
+    def crowded(self):
+        """True when canvas and panel do not fit side by side: the panel then takes the whole picture."""
+        return self.frame.surface.get_width() - self.panel_width < CANVAS_SIZE[0]
+
+    @property
+    def panel_width(self):
+        """Frame pixels kept for the docked panel."""
+        return int(self.frame.surface.get_width() * PANEL_SHARE)
+
+    @property
+    def panel_rect(self):
+        """Where the docked panel goes."""
+        width, height = self.frame.surface.get_size()
+        if self.crowded:
+            return pygame.Rect(0, 0, width, height)
+        return pygame.Rect(width - self.panel_width, 0, self.panel_width, height)
+
+    @property
+    def strip_rect(self):
+        """The strip under the docked canvas; empty when there is none."""
+        width, height = self.frame.surface.get_size()
+        if self.crowded:
+            return pygame.Rect(0, 0, 0, 0)
+        return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
+
+    def present(self, canvas):
+        """Scale the canvas onto the frame and hand the frame on, its text boxes known."""
+        self.place()
+        frame = self.frame
+        frame.begin()
+        if frame.area.size != frame.surface.get_size():
+            frame.surface.fill(INK)
+        visible = frame.area.clip(frame.surface.get_rect())
+        if visible == frame.area:
+            pygame.transform.scale(canvas.surface, frame.area.size, frame.surface.subsurface(frame.area))
+        else:  # a window smaller than the canvas: shown cut, so that the scale stays whole
+            frame.surface.blit(canvas.surface, frame.area)
+        frame.boxes.extend((frame.from_canvas(rect), text) for rect, text in canvas.boxes)
+        frame.reserved.extend(frame.from_canvas(rect) for rect in canvas.reserved)
+        return frame
+
+    def to_canvas(self, position):
+        """Canvas pixel under a window position; may lie outside the canvas."""
+        area = self.frame.area
+        return (position[0] - area.x) // self.frame.scale, (position[1] - area.y) // self.frame.scale

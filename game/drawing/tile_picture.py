@@ -1,0 +1,70 @@
+"""A tile layer as pictures: drawn once in chunks, then blitted, so a level of any length costs the same."""
+
+import pygame
+
+from game.drawing.sprites import load_image
+from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y
+from game.errors import FileError
+
+CHUNK = 32       # tiles along a side of a chunk: 512 px, so at most four of them are on the screen
+
+
+class TilePicture:
+    """draw() paints one layer of a TileMap through a camera."""
+
+    def __init__(self, tilemap, layer, tiles=None):
+        self.map, self.layer = tilemap, layer
+        self.sheet = tiles if tiles is not None else _sheet(tilemap)
+        self.chunks = {}
+
+    def draw(self, canvas, camera, alpha=1.0):
+        """Blit the chunks in view."""
+        left, top = camera.view(alpha)
+        size = CHUNK * self.map.tile_size
+        view = camera.viewport
+        for column in range(int(left // size), int((left + view.width) // size) + 1):
+            for row in range(int(top // size), int((top + view.height) // size) + 1):
+                chunk = self._chunk(column, row)
+                if chunk is not None:
+                    canvas.surface.blit(chunk, (column * size - left + view.x, row * size - top + view.y))
+
+    def _chunk(self, column, row):
+        if (column, row) not in self.chunks:
+            self.chunks[column, row] = self._paint(column * CHUNK, row * CHUNK)
+        return self.chunks[column, row]
+
+    def _paint(self, first_column, first_row):
+        """One chunk's picture, or None where it has no tile."""
+        numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
+        if first_column < 0 or first_row < 0:
+            return None
+        part = numbers[first_row : first_row + CHUNK, first_column : first_column + CHUNK]
+        if part.size == 0 or (part < 0).all():
+            return None
+        size = self.map.tile_size
+        picture = pygame.Surface((CHUNK * size, CHUNK * size), pygame.SRCALPHA)
+        for row in range(part.shape[0]):
+            for column in range(part.shape[1]):
+                if part[row, column] >= 0:
+                    flip = int(flips[first_row + row, first_column + column])
+                    picture.blit(self._tile(int(part[row, column]), flip), (column * size, row * size))
+        return picture
+
+    def _tile(self, number, flip):
+        size, columns = self.map.tile_size, self.map.image_columns
+        place = (number % columns * size, number // columns * size, size, size)
+        tile = self.sheet.subsurface(place)
+        if flip & FLIP_DIAGONAL:
+            tile = pygame.transform.flip(pygame.transform.rotate(tile, 90), False, True)
+        return pygame.transform.flip(tile, bool(flip & FLIP_X), bool(flip & FLIP_Y)) if flip else tile
+
+
+def _sheet(tilemap):
+    """The tileset's picture, which must hold every tile of the map."""
+    sheet = load_image(tilemap.path.parent / tilemap.image)
+    most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
+    size = tilemap.tile_size
+    rows = sheet.get_height() // size
+    if most >= rows * tilemap.image_columns or tilemap.image_columns * size > sheet.get_width():
+        raise FileError(tilemap.path, "tilesets[0].image", f"{tilemap.image} is too small for tile {most}")
+    return sheet

@@ -1,0 +1,245 @@
+"""Levels made with Tiled (.tmj): tile layers, tile properties, objects. Damage is named by file, place, reason.
+
+Read: orthogonal maps of one embedded tileset, finite, layer data as CSV or as base64 (plain, zlib, gzip).
+Refused with the cure: infinite maps, tilesets in files of their own, other encodings.
+"""
+
+import base64
+import gzip
+import zlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from game.errors import FileError
+from game.files.json_file import read_json
+from physics import TileGrid
+
+FLIPS = 0xF0000000          # the top bits of a tile number say how it is mirrored
+FLIP_X, FLIP_Y, FLIP_DIAGONAL = 0x80000000, 0x40000000, 0x20000000
+LARGEST = 10_000            # tiles along a side; a larger number is damage, not a level
+KINDS = ("solid", "one_way", "slope", "spikes", "decor")
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object of the map: kind, name, rect in world pixels, own properties; `place` names it in its file."""
+
+    kind: str
+    name: str
+    x: float
+    y: float
+    width: float
+    height: float
+    properties: dict = field(default_factory=dict)
+    place: str = ""
+
+
+@dataclass(frozen=True)
+class TileMap:
+    """A level. `layers[name]`: (rows, columns) tile numbers, -1 empty. `tiles[number]`: properties."""
+
+    path: object
+    columns: int
+    rows: int
+    tile_size: int
+    layers: dict
+    flips: dict                # layer name -> (rows, columns) flip bits
+    tiles: dict
+    image: str                 # the tileset's picture, relative to the map
+    image_columns: int
+    things: tuple
+    properties: dict
+
+    @property
+    def size(self):
+        """Width and height in world pixels."""
+        return self.columns * self.tile_size, self.rows * self.tile_size
+
+    def kind_of(self, number):
+        """What a tile is: one of KINDS; a tile without the property is decor."""
+        return self.tiles.get(int(number), {}).get("kind", "decor")
+
+    def grid(self, layer="solid"):
+        """The layer as a physics.TileGrid with its one-way tiles and slopes."""
+        numbers = self._layer(layer)
+        solid, one_way = np.zeros(numbers.shape, bool), np.zeros(numbers.shape, bool)
+        slopes = np.zeros((*numbers.shape, 2))
+        for number in np.unique(numbers[numbers >= 0]).tolist():
+            here, kind = numbers == number, self.kind_of(number)
+            solid |= here & (kind == "solid")
+            one_way |= here & (kind == "one_way")
+            if kind == "slope":
+                sides, flips = (self.tiles[number].get("left", 0.0), self.tiles[number].get("right", 0.0)), self._flips(layer)
+                slopes[here] = sides
+                slopes[here & (flips & FLIP_X > 0)] = sides[::-1]
+                self._refuse_turned(layer, here & (flips & (FLIP_Y | FLIP_DIAGONAL) > 0))
+        return TileGrid(solid, self.tile_size, one_way, slopes)
+
+    def cells(self, kind, layer="solid"):
+        """(column, row) of every tile of a kind, for what is no solid (spikes)."""
+        numbers = self._layer(layer)
+        matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
+        return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
+
+    def things_of(self, kind):
+        """The objects of a kind, in the file's order."""
+        return [thing for thing in self.things if thing.kind == kind]
+
+    def one(self, kind):
+        """The only object of a kind. Raises FileError when there is none or more than one."""
+        found = self.things_of(kind)
+        if len(found) != 1:
+            raise FileError(self.path, "objects", f"must hold one {kind}, hold {len(found)}")
+        return found[0]
+
+    def _flips(self, layer):
+        return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
+
+    def _refuse_turned(self, layer, turned):
+        """A slope is mirrored left and right only: it would hold at its upper edge what the picture shows below."""
+        for row, column in np.argwhere(turned)[:1].tolist():
+            raise FileError(self.path, f"layer {layer}", f"the slope at column {column} row {row} is turned or upside down; "
+                            "mirror slopes left and right only")
+
+    def _layer(self, name):
+        if name not in self.layers:
+            raise FileError(self.path, "layers", f"no tile layer {name!r}; there are {', '.join(self.layers)}")
+        return self.layers[name]
+
+
+def load_tilemap(path):
+    """Read a .tmj file. Raises FileError naming file, place and reason."""
+    data = read_json(path)
+    reader = _Reader(path)
+    return reader.read(data)
+
+
+class _Reader:
+    """Checks while it reads; `fail` names the place."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def fail(self, place, reason):
+        raise FileError(self.path, place, reason)
+
+    def read(self, data):
+        if not isinstance(data, dict):
+            self.fail("map", "is not an object")
+        if data.get("infinite"):
+            self.fail("infinite", "infinite maps are not read; untick Map > Infinite in Tiled")
+        if data.get("orientation", "orthogonal") != "orthogonal":
+            self.fail("orientation", f"must be orthogonal (got {data['orientation']!r})")
+        columns = self.whole(data, "map", "width", LARGEST)
+        rows = self.whole(data, "map", "height", LARGEST)
+        size = self.whole(data, "map", "tilewidth", 1024)
+        if self.whole(data, "map", "tileheight", 1024) != size:
+            self.fail("tileheight", "tiles must be square")
+        first, count, tileset = self.tileset(data)
+        layers, flips, things = {}, {}, []
+        for index, layer in enumerate(self.listing(data, "map", "layers")):
+            place = f"layers[{index}]"
+            if not isinstance(layer, dict):
+                self.fail(place, "is not an object")
+            name = str(layer.get("name", index))
+            if layer.get("type") == "tilelayer":
+                layers[name], flips[name] = self.tiles(layer, place, (rows, columns), first, count)
+            elif layer.get("type") == "objectgroup":
+                things += self.things(layer, place)
+        return TileMap(self.path, columns, rows, size, layers, flips, self.tile_properties(tileset),
+                       str(tileset.get("image", "")), self.whole(tileset, "tilesets[0]", "columns", LARGEST),
+                       tuple(things), self.properties(data, "map"))
+
+    def whole(self, data, place, name, largest):
+        value = data.get(name)
+        if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= largest:
+            self.fail(f"{place}.{name}", f"must be a whole number 1..{largest} (got {value!r})")
+        return value
+
+    def number(self, data, place, name):
+        value = data.get(name, 0.0)
+        if not isinstance(value, (int, float)) or isinstance(value, bool) or value != value or abs(value) > 1e9:
+            self.fail(f"{place}.{name}", f"must be a number (got {value!r})")
+        return float(value)
+
+    def listing(self, data, place, name):
+        value = data.get(name)
+        if not isinstance(value, list):
+            self.fail(f"{place}.{name}", "is missing or not a list")
+        return value
+
+    def tileset(self, data):
+        tilesets = self.listing(data, "map", "tilesets")
+        if len(tilesets) != 1 or not isinstance(tilesets[0], dict):
+            self.fail("tilesets", f"must hold one tileset (holds {len(tilesets)})")
+        if "source" in tilesets[0]:
+            self.fail("tilesets[0].source", "the tileset is in a file of its own; embed it in Tiled (Embed Tileset)")
+        first = self.whole(tilesets[0], "tilesets[0]", "firstgid", LARGEST)
+        return first, self.whole(tilesets[0], "tilesets[0]", "tilecount", LARGEST), tilesets[0]
+
+    def tiles(self, layer, place, shape, first, count):
+        raw = self.layer_numbers(layer, place)
+        if len(raw) != shape[0] * shape[1]:
+            self.fail(f"{place}.data", f"must hold {shape[0] * shape[1]} tiles, holds {len(raw)}")
+        numbers, flip = raw & ~FLIPS & 0xFFFFFFFF, raw & FLIPS
+        bad = np.flatnonzero((numbers != 0) & ((numbers < first) | (numbers >= first + count)))
+        if len(bad):
+            at = int(bad[0])
+            self.fail(f"{place}.data[{at}]", f"tile {int(numbers[at])} is not in the tileset "
+                      f"({first}..{first + count - 1}), column {at % shape[1]} row {at // shape[1]}")
+        tiles = np.where(numbers == 0, -1, numbers - first)
+        return tiles.reshape(shape), flip.reshape(shape)
+
+    def layer_numbers(self, layer, place):
+        data, encoding = layer.get("data"), layer.get("encoding", "csv")
+        if encoding == "csv":
+            if not isinstance(data, list):
+                self.fail(f"{place}.data", "is missing or not a list")
+            for at, value in enumerate(data):
+                if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= 0xFFFFFFFF:
+                    self.fail(f"{place}.data[{at}]", f"must be a tile number (got {value!r})")
+            return np.array(data, dtype=np.int64)
+        if encoding != "base64":
+            self.fail(f"{place}.encoding", f"must be csv or base64 (got {encoding!r})")
+        unpack = {"": bytes, "zlib": zlib.decompress, "gzip": gzip.decompress}.get(layer.get("compression", ""))
+        if unpack is None:
+            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {layer['compression']!r})")
+        try:
+            packed = unpack(base64.b64decode(data, validate=True))
+            return np.frombuffer(packed, dtype="<u4").astype(np.int64)
+        except (TypeError, ValueError, zlib.error, OSError, EOFError) as error:
+            self.fail(f"{place}.data", f"cannot be unpacked: {error}")
+
+    def properties(self, data, place):
+        found = {}
+        for index, entry in enumerate(data.get("properties", [])):
+            if not isinstance(entry, dict) or "name" not in entry or "value" not in entry:
+                self.fail(f"{place}.properties[{index}]", "must have a name and a value")
+            found[entry["name"]] = entry["value"]
+        return found
+
+    def tile_properties(self, tileset):
+        found = {}
+        for index, tile in enumerate(tileset.get("tiles", [])):
+            place = f"tilesets[0].tiles[{index}]"
+            if not isinstance(tile, dict) or not isinstance(tile.get("id"), int):
+                self.fail(place, "must have a whole number as id")
+            found[tile["id"]] = properties = self.properties(tile, place)
+            if properties.get("kind", "decor") not in KINDS:
+                self.fail(f"{place}.kind", f"must be one of {', '.join(KINDS)} (got {properties['kind']!r})")
+            for side in ("left", "right"):
+                if not 0.0 <= self.number(properties, place, side) <= 1.0:
+                    self.fail(f"{place}.{side}", f"must be 0..1 (got {properties[side]!r})")
+        return found
+
+    def things(self, layer, place):
+        found = []
+        for index, entry in enumerate(self.listing(layer, place, "objects")):
+            here = f"{place}.objects[{index}]"
+            if not isinstance(entry, dict):
+                self.fail(here, "is not an object")
+            kind = entry.get("type") or entry.get("class") or ""
+            numbers = [self.number(entry, here, name) for name in ("x", "y", "width", "height")]
+            found.append(Thing(str(kind), str(entry.get("name", "")), *numbers, self.properties(entry, here), here))
+        return found

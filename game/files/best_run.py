@@ -1,0 +1,66 @@
+"""The trail of a scene's fastest won run, kept as a file, to be seen as a ghost beside later runs.
+
+A trail is a list of (x, y, frame name, way) rows, one per step. A ghost that cannot be used is kept and left out: it
+never stops a game.
+"""
+
+import json
+
+from game.errors import FileError
+from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.json_file import read_json
+
+FORMAT, VERSION = "hitbox ghost", 1
+LONGEST = 60 * 60 * 60         # rows: an hour
+FARTHEST = 1e7                 # [px] from the origin; drawing turns places into whole numbers
+
+
+def ghost_path(table):
+    """The file of a table's ghost (see records.table_of)."""
+    return data_folder() / "ghosts" / f"{table.replace('/', '-')}.json"
+
+
+def load_ghost(table):
+    """(rows or None, seconds or None, message) of the best run so far."""
+    path = ghost_path(table)
+    if not path.exists():
+        return None, None, ""
+    try:
+        data = read_json(path)
+        _check(path, data)
+    except FileError as error:
+        why = "newer" if error.place == "version" else "damaged"
+        return None, None, refusal(path, error.place, error.reason, "there is no ghost", why)
+    return [tuple(row) for row in data["rows"]], data["seconds"], ""
+
+
+def keep_ghost(table, trail, seconds):
+    """Save a trail if it is the fastest; returns True if it is. Raises OSError when it cannot be written."""
+    best = load_ghost(table)[1]
+    if not trail or (best is not None and best <= seconds):
+        return False
+    head = json.dumps({"format": FORMAT, "version": VERSION, "table": table, "seconds": seconds})
+    rows = ",\n".join(json.dumps(list(row)) for row in trail)
+    write_atomically(ghost_path(table), f'{head[:-1]}, "rows": [\n{rows}\n]}}\n')
+    return True
+
+
+def _check(path, data):
+    if not isinstance(data, dict) or data.get("format") != FORMAT:
+        raise FileError(path, "format", f"is not {FORMAT!r}")
+    if data.get("version") != VERSION or isinstance(data["version"], bool):
+        raise FileError(path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads {VERSION}")
+    if not _number(data.get("seconds")) or not 0 < data["seconds"] < 1e6:
+        raise FileError(path, "seconds", "must be a number above 0")
+    rows = data.get("rows")
+    if not isinstance(rows, list) or not 0 < len(rows) <= LONGEST:
+        raise FileError(path, "rows", f"must be a list of 1 to {LONGEST} rows")
+    for number, row in enumerate(rows):
+        fits = (isinstance(row, list) and len(row) == 4 and _number(row[0]) and _number(row[1])
+                and isinstance(row[2], str) and _number(row[3]))
+        if not fits or not (abs(row[0]) < FARTHEST and abs(row[1]) < FARTHEST):
+            raise FileError(path, f"rows[{number}]", "must be [x, y, frame name, way]")
+
+
+def _number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

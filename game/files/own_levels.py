@@ -1,0 +1,31 @@
+"""Levels of the player's own: files in the data folder's levels/, listed under the game that can play them."""
+
+from hashlib import blake2b
+from pathlib import Path
+
+from game.errors import FileError
+from game.files.data_folder import data_folder
+
+SUFFIXES = (".tmj", ".json")
+
+
+def levels_folder():
+    """Where this user's levels are looked for."""
+    return data_folder() / "levels"
+
+
+def own_levels(scene_class):
+    """Paths of the files that a scene could play, by name; () where it takes none or there is no such folder."""
+    folder = levels_folder()
+    if not scene_class.takes_level or not folder.is_dir():
+        return ()
+    suffixes = (scene_class.level_suffix,) if scene_class.level_suffix else SUFFIXES
+    return tuple(sorted(path for path in folder.iterdir() if path.suffix in suffixes and path.is_file()))
+
+
+def level_digest(path):
+    """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
+    try:
+        return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()
+    except OSError as error:
+        raise FileError(path, "file", error.strerror or str(error)) from error

@@ -1,0 +1,143 @@
+"""High scores: ten of each ranked scene, in one JSON file, written whole or not at all.
+
+A damaged entry is left out and the file kept beside; a file of a newer program is kept and not read.
+"""
+
+import json
+from dataclasses import asdict, dataclass, fields
+
+from game.errors import FileError
+from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.json_file import read_json
+from game.files.own_levels import level_digest
+from game.files.settings import LETTERS
+
+VERSION = 1
+FILE = "records.json"
+PLACES = 10
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One line of a table. `assisted`: played slower, invincible, or with a rule changed in the panel."""
+
+    name: str
+    points: int
+    seconds: float
+    date: str                  # 2026-01-31
+    seed: int = 0
+    assisted: bool = False
+
+
+class Records:
+    """`tables`: key of a scene (see table_of) -> entries, best first."""
+
+    def __init__(self, path=None):
+        self.path = path or records_path()
+        self.tables = {}
+
+    def entries(self, key):
+        """The entries of a table, best first."""
+        return self.tables.get(key, [])
+
+    def best(self, key):
+        """The first entry of a table, or None."""
+        found = self.entries(key)
+        return found[0] if found else None
+
+    def place(self, key, ranked_by, entry):
+        """The place 1..10 that an entry would take, or None. Who came first keeps a shared place's upper half."""
+        better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
+        return better + 1 if better < PLACES else None
+
+    def add(self, key, ranked_by, entry):
+        """Put an entry in its place; what falls off the end is gone. Returns the place or None."""
+        place = self.place(key, ranked_by, entry)
+        if place is not None:
+            table = self.tables.setdefault(key, [])
+            table.insert(place - 1, entry)
+            del table[PLACES:]
+        return place
+
+    def save(self):
+        """Write the file; raises OSError when that is not possible."""
+        tables = {key: [asdict(entry) for entry in table] for key, table in sorted(self.tables.items())}
+        write_atomically(self.path, json.dumps({"version": VERSION, "tables": tables}, indent=1) + "\n")
+
+
+def order(entry, ranked_by):
+    """Sorts entries: most points first, then least time; or least time first, then most points."""
+    if ranked_by == "seconds":
+        return entry.seconds, -entry.points
+    return -entry.points, entry.seconds
+
+
+def ranks(result, ranked_by):
+    """True if a run that ended so belongs into a table at all."""
+    if ranked_by == "seconds":
+        return result.won
+    return ranked_by == "points" and result.points > 0
+
+
+def table_of(scene_name, level=None):
+    """The key of a scene's table. A level of the player's own has one of its own, by its content."""
+    return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
+
+
+def records_path():
+    """Where this user's high scores are."""
+    return data_folder() / FILE
+
+
+def load_records(path=None):
+    """(records, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
+    path = path or records_path()
+    records = Records(path)
+    if not path.exists():
+        return records, ""
+    try:
+        data = read_json(path)
+        _check_head(path, data)
+    except FileError as error:
+        why = "newer" if error.place == "version" else "damaged"
+        return records, refusal(path, error.place, error.reason, "the tables start empty", why)
+    problem = None
+    for key, rows in data["tables"].items():
+        if not isinstance(rows, list):
+            problem = problem or (f"tables.{key}", "must be a list")
+            continue
+        for number, row in enumerate(rows):
+            reason = _refusal_of(row)
+            if reason:
+                problem = problem or (f"tables.{key}[{number}]", reason)
+            else:
+                records.tables.setdefault(key, []).append(Entry(**row))
+        if key in records.tables:
+            del records.tables[key][PLACES:]
+    return records, refusal(path, *problem, "that is left out") if problem else ""
+
+
+def _check_head(path, data):
+    version = data.get("version") if isinstance(data, dict) else None
+    if version != VERSION or isinstance(version, bool):
+        raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads {VERSION}")
+    if not isinstance(data.get("tables"), dict):
+        raise FileError(path, "tables", "must be an object of lists")
+
+
+def _refusal_of(row):
+    """Why an entry cannot be used, or ""."""
+    names = [entry.name for entry in fields(Entry)]
+    if not isinstance(row, dict) or set(row) != set(names):
+        return f"must have {', '.join(names)}"
+    if not (isinstance(row["name"], str) and len(row["name"]) == 3 and all(c in LETTERS for c in row["name"])):
+        return f"name must be three of {LETTERS}"
+    for name in ("points", "seed"):
+        if not isinstance(row[name], int) or isinstance(row[name], bool) or row[name] < 0:
+            return f"{name} must be a whole number of 0 or more (got {row[name]!r:.40})"
+    seconds = row["seconds"]
+    if not isinstance(seconds, (int, float)) or isinstance(seconds, bool) or not 0 <= seconds < 1e6:
+        return f"seconds must be a number of 0 or more (got {seconds!r:.40})"
+    if not isinstance(row["date"], str) or len(row["date"]) > 10 or not row["date"].isascii():
+        return "date must be like 2026-01-31"
+    return "" if isinstance(row["assisted"], bool) else "assisted must be true or false"

@@ -1,0 +1,148 @@
+"""Settings: JSON with a version, written whole or not at all, read with patience.
+
+A damaged file never stops the game: what cannot be used falls back to its default, the file is kept beside under
+another name, and one line says where and why. The file of a newer program is not guessed at: it is kept too.
+"""
+
+import json
+from dataclasses import asdict, dataclass, field, fields
+
+from game.bindings import REBOUND, button_actions, key_codes
+from game.comfort import PALETTES, Comfort
+from game.errors import FileError
+from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.json_file import read_json
+from game.screens.rebinding import FIXED, clash, completed, default_table
+
+VERSION = 2
+FILE = "settings.json"
+LARGEST_SCALE = 8
+FRAME_CAPS = (60, 120, 30, 0)          # pictures a second; 0: as many as there are
+SLOWEST = 0.5                          # of real time, for players who want more of it
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"      # of initials
+
+
+@dataclass
+class Settings:
+    """What the player chose. Shares and volumes 0..1."""
+
+    master: float = 0.8
+    music: float = 0.6
+    effects: float = 0.8
+    window_scale: int = 0          # 0: the largest that fits the desktop; else 1..8
+    fullscreen: bool = False
+    vsync: bool = True
+    frame_cap: int = FRAME_CAPS[0]
+    show_fps: bool = False
+    shake: float = 1.0
+    hit_stop: bool = True
+    reduced_flashing: bool = False
+    palette: str = PALETTES[0]
+    speed: float = 1.0             # of real time
+    invincible: bool = False
+    ghost: bool = True             # the best run is seen beside this one
+    rumble: bool = True
+    hint_seen: bool = False        # the card of the first game was put away
+    initials: str = "AAA"          # those entered last
+    keys: dict = field(default_factory=lambda: default_table("keys"))
+    buttons: dict = field(default_factory=lambda: default_table("buttons"))
+
+    def comfort(self):
+        """What a scene's drawing is told."""
+        return Comfort(self.shake, not self.reduced_flashing, self.palette)
+
+    def assists(self):
+        """What a scene's rules are told, by the names of game.scene.ASSISTS."""
+        return {"invincible": self.invincible, "hit_stop": self.hit_stop}
+
+
+def settings_path():
+    """Where this user's settings are."""
+    return data_folder() / FILE
+
+
+def load_settings(path=None):
+    """(settings, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
+    path = path or settings_path()
+    if not path.exists():
+        return Settings(), ""
+    try:
+        data = _upgraded(path, read_json(path))
+    except FileError as error:
+        why = "newer" if error.place == "version" else "damaged"
+        return Settings(), refusal(path, error.place, error.reason, "defaults are used", why)
+    settings, problem = Settings(), None
+    for entry in fields(Settings):
+        if entry.name not in data:
+            continue
+        reason = _refusal_of(entry.name, data[entry.name])
+        if reason:
+            problem = problem or (entry.name, reason)
+        else:
+            setattr(settings, entry.name, data[entry.name])
+    return settings, refusal(path, *problem, "the default is used") if problem else ""
+
+
+def save_settings(settings, path=None):
+    """Write the settings; raises OSError when that is not possible."""
+    data = {"version": VERSION, **asdict(settings)}
+    write_atomically(path or settings_path(), json.dumps(data, indent=2) + "\n")
+
+
+def _upgraded(path, data):
+    """The entries of a file of this version or the first. Raises FileError for any other."""
+    version = data.get("version") if isinstance(data, dict) else None
+    if version not in (1, VERSION) or isinstance(version, bool):
+        raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads 1 to {VERSION}")
+    data = dict(data)
+    if version == 1:
+        # One volume, of the effects; shake was on or off; keys named those that are fixed now, and lacked some.
+        if "volume" in data:
+            data["effects"] = data.pop("volume")
+        if isinstance(data.get("shake"), bool):
+            data["shake"] = 1.0 if data["shake"] else 0.0
+        if isinstance(data.get("keys"), dict):
+            kept = {action: [key for key in keys if key not in FIXED["keys"]] if isinstance(keys, list) else keys
+                    for action, keys in data["keys"].items() if action in REBOUND}
+            if all(isinstance(keys, list) for keys in kept.values()):
+                data["keys"] = completed(kept, "keys")
+    return data
+
+
+def _refusal_of(name, value):
+    """Why a value cannot be used, or ""."""
+    if name in ("keys", "buttons"):
+        return _table_refusal(name, value)
+    default = getattr(Settings, name)
+    if isinstance(default, bool):
+        return "" if isinstance(value, bool) else f"must be true or false (got {value!r:.60})"
+    if isinstance(default, float):
+        least = SLOWEST if name == "speed" else 0
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return "" if number and least <= value <= 1 else f"must be a number {least}..1 (got {value!r:.60})"
+    if name == "window_scale":
+        whole = isinstance(value, int) and not isinstance(value, bool)
+        return "" if whole and 0 <= value <= LARGEST_SCALE else f"must be a whole number 0..8 (got {value!r:.60})"
+    if name == "initials":
+        fits = isinstance(value, str) and len(value) == 3 and all(letter in LETTERS for letter in value)
+        return "" if fits else f"must be three of {LETTERS} (got {value!r:.60})"
+    valid = {"frame_cap": FRAME_CAPS, "palette": PALETTES}[name]
+    known = isinstance(value, type(valid[0])) and not isinstance(value, bool) and value in valid
+    return "" if known else f"must be one of {', '.join(map(str, valid))} (got {value!r:.60})"
+
+
+def _table_refusal(device, value):
+    if not isinstance(value, dict) or set(value) != set(REBOUND):
+        return f"must name each of {', '.join(REBOUND)}"
+    for action, controls in value.items():
+        if not isinstance(controls, list) or not controls or not all(isinstance(each, str) for each in controls):
+            return f"{action} must be a list of names"
+        taken = [each for each in controls if each in FIXED[device]]
+        if taken:
+            return f"{action} cannot have {taken[0]}, which always does the same"
+    try:
+        (key_codes if device == "keys" else button_actions)(value)
+    except ValueError as error:
+        return str(error)
+    found = clash(value)
+    return f"{found[0]} and {found[1]} both have {found[2]}" if found else ""

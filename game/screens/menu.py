@@ -1,0 +1,127 @@
+"""The scene menu: games and labs with a picture, what they are about, and the best result so far."""
+
+import pygame
+
+from game.drawing.boxes import draw_box
+from game.drawing.clock_text import clock, points_text
+from game.drawing.colors import FOG, GOLD, PAPER, SKY
+from game.drawing.draw import SMALL, TEXT, shorten, wrap
+from game.drawing.pictures import SIZE, draw_picture
+from game.files.own_levels import own_levels
+from game.files.records import table_of
+from game.screens.ground import MARGIN, DuskGround, draw_page
+from game.screens.rows import Row, RowList
+
+LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
+ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
+GROUPS = {"": "GAMES", "lab": "LAB"}   # by the part of a scene's name before the slash
+FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
+
+
+class Menu:
+    """Chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
+
+    shows_pointer = True
+    tune = "title"
+
+    def __init__(self, registry, records=None, chosen=None):
+        self.registry, self.records = registry, records
+        self.ground = DuskGround()
+        self.cues = []
+        self.entries = self._entries()             # (scene class or None for Back, level file or None) of each row
+        inside = LIST.inflate(-32, 0)
+        self.list = RowList(lambda: self.rows, (inside.x, LIST.y + 36, inside.width, 192), self.cues)
+        names = [getattr(each[0], "name", None) for each in self.entries]
+        if chosen in names:
+            self.list.mark = names.index(chosen)
+        self.list.show_marked()
+        self.time = 0.0
+        self.outcome = None
+
+    def _entries(self):
+        """One entry per row, built together with the rows."""
+        entries, self.rows, group = [], [], None
+        for scene_class in self.registry.all_classes():
+            own = scene_class.name.split("/")[0] if "/" in scene_class.name else ""
+            if own != group and own in GROUPS:
+                self._put(entries, Row(GROUPS[own], head=True), None, None)
+            group = own
+            self._put(entries, Row(scene_class.title, press=self._play), scene_class, None)
+            for path in own_levels(scene_class):
+                self._put(entries, Row(f"  {path.stem}", press=self._play, color=SKY), scene_class, path)
+        self._put(entries, Row("Back", press=self._back), None, None)
+        return entries
+
+    def _put(self, entries, row, scene_class, level):
+        self.rows.append(row)
+        entries.append((scene_class, level))
+
+    def _play(self):
+        scene_class, level = self.entries[self.list.mark]
+        self.outcome = ("play", scene_class.name, level)
+
+    def _back(self):
+        self.outcome = ("back",)
+
+    def resume(self):
+        """Called when the screen is seen again: levels may have been put into the folder meanwhile."""
+        mark = self.list.mark
+        self.entries = self._entries()
+        self.list.mark = min(mark, len(self.entries) - 1)
+        self.list.show_marked()
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        if inputs.pressed("cancel"):
+            self.cues.append("back")
+            self.outcome = ("back",)
+        self.list.step(inputs, dt)
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.ground.draw(canvas, self.time)
+        draw_page(canvas, LIST, "Play", FOOT)
+        self.list.draw(canvas)
+        scene_class, level = self.entries[self.list.mark]
+        if scene_class is not None:
+            self._draw_about(canvas, scene_class, level)
+
+    def _draw_about(self, canvas, scene_class, level):
+        draw_box(canvas, ABOUT)
+        x, y = ABOUT.x + 16, ABOUT.y + 14
+        width = ABOUT.width - 32
+        picture = draw_picture(canvas, scene_class.name, scene_class.title, x + 2, y)
+        self._draw_best(canvas, scene_class, level, picture.right + 10, y)
+        y += SIZE[1] + 10
+        lines = [(scene_class.title if level is None else level.name, GOLD, TEXT, 13)]
+        lines += [(line, PAPER, TEXT, 11) for line in wrap(scene_class.about, width)]
+        lines += [("", FOG, SMALL, 4)]
+        for feature in scene_class.features:
+            first, *rest = wrap(feature, width - 8, SMALL)
+            lines += [(f"- {first}", PAPER, SMALL, 8), *((f"  {line}", PAPER, SMALL, 8) for line in rest)]
+        lines += [("", FOG, SMALL, 4)] if scene_class.features else []
+        effects = "effects: " + (", ".join(scene_class.effects.names()) or "none")
+        lines += [(line, SKY, SMALL, 8) for line in wrap(effects, width, SMALL)]
+        for text, color, font, height in lines:
+            if text:
+                canvas.text(shorten(text, width, font), x, y, color, font)
+            y += height
+
+    def _draw_best(self, canvas, scene_class, level, x, y):
+        """The first place of the scene's table, beside the picture."""
+        if scene_class.ranked_by is None or self.records is None:
+            return
+        best = self.records.best(table_of(scene_class.name, level))
+        canvas.text("BEST", x, y, GOLD, SMALL)
+        if best is None:
+            canvas.text("nobody yet", x, y + 12, FOG, SMALL)
+            return
+        canvas.text(best.name, x, y + 12, PAPER, TEXT)
+        first, second = points_text(best.points), clock(best.seconds)
+        if scene_class.ranked_by == "seconds":
+            first, second = second, first
+        canvas.text(first, x, y + 26, SKY, TEXT)
+        canvas.text(second, x, y + 39, FOG, SMALL)
+        if best.assisted:
+            canvas.text("assisted", x, y + 50, FOG, SMALL)

@@ -1,0 +1,68 @@
+"""One thing to be told: a file that cannot be used, with its place and the reason. Any yes or no goes back."""
+
+from game.drawing.colors import GOLD, PAPER, RED
+from game.drawing.draw import SMALL, TEXT, wrap
+from game.errors import FileError
+from game.screens.ground import DuskGround, draw_page
+from game.screens.rows import confirmed
+
+WIDTH = 400
+MOST_LINES = 6         # of one part; a longer one is cut where it ends
+
+
+class MessageScreen:
+    """`parts`: (label, text) pairs. `outcome` becomes ("back",)."""
+
+    shows_pointer = True
+    tune = None
+
+    def __init__(self, title, parts, ground=None):
+        self.title, self.parts = title, parts
+        self.ground = ground or DuskGround()
+        self.cues = []
+        self.time = 0.0
+        self.outcome = None
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        if confirmed(inputs) or inputs.pressed("cancel") or inputs.pointer_pressed:
+            self.cues.append("back")
+            self.outcome = ("back",)
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.ground.draw(canvas, self.time)
+        lines = []
+        for label, text in self.parts:
+            wrapped = [piece for line in wrap(text, WIDTH - 96) for piece in _broken(canvas, line, WIDTH - 96)]
+            if len(wrapped) > MOST_LINES:
+                wrapped = [*wrapped[: MOST_LINES - 1], wrapped[MOST_LINES - 1][:-2] + ".."]
+            lines += [(label if number == 0 else "", line) for number, line in enumerate(wrapped)]
+        height = 60 + 12 * len(lines)
+        rect = ((canvas.rect.width - WIDTH) // 2, (canvas.rect.height - height) // 2, WIDTH, height)
+        inside = draw_page(canvas, rect, self.title, "Enter or a click goes back")
+        for number, (label, line) in enumerate(lines):
+            y = inside.y + 12 * number
+            if label:
+                canvas.text(label, inside.x, y + 2, GOLD if label != "reason" else RED, SMALL)
+            canvas.text(line, inside.x + 56, y, PAPER, TEXT)
+
+
+def _broken(canvas, line, width):
+    """A line without a space that is too long (a path), in pieces that fit."""
+    while canvas.measure(line)[0] > width:
+        end = len(line)
+        while canvas.measure(line[:end])[0] > width:
+            end -= 1
+        yield line[:end]
+        line = line[end:]
+    yield line
+
+
+def file_message(error, ground=None):
+    """The screen for a UsageError: a FileError in its three parts."""
+    if isinstance(error, FileError):
+        parts = (("file", str(error.path)), ("place", str(error.place)), ("reason", str(error.reason)))
+        return MessageScreen("This file cannot be used", parts, ground)
+    return MessageScreen("That does not work", (("reason", str(error)),), ground)

@@ -1,0 +1,75 @@
+"""The pause menu over the darkened game."""
+
+from game.drawing.boxes import draw_box
+from game.drawing.colors import FOG, GOLD, PAPER
+from game.drawing.draw import SMALL, TEXT, wrap
+from game.screens.ground import SceneGround
+from game.screens.rows import LINE, Row, RowList
+
+WIDTH = 192
+
+
+class PauseMenu:
+    """`outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
+
+    can_save: a replay of this run can be saved. message: why the game stopped by itself, or "".
+    pairs: (key, what it does) of the game.
+    """
+
+    shows_pointer = True
+    tune = None
+
+    def __init__(self, scene, can_save=True, message="", pairs=()):
+        self.scene, self.can_save, self.message, self.pairs = scene, can_save, message, pairs
+        self.ground = SceneGround(scene)
+        self.cues = []
+        self.list = RowList(self._rows, self._place(), self.cues)
+        self.time = 0.0
+        self.outcome = None
+
+    def _rows(self):
+        entries = [("Resume", ("back",)), ("Restart", ("restart",)), ("Settings", ("settings", None)),
+                   ("Keys", ("settings", "Keyboard")), ("Save replay", ("save_replay",)),
+                   ("Tour of the overlays", ("tour",)), ("Leave", ("menu",))]
+        return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in entries
+                if self.can_save or outcome[0] != "save_replay"]
+
+    def _leave(self, outcome):
+        self.outcome = outcome
+
+    def _place(self):
+        high = len(self._rows()) * LINE
+        return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        if inputs.pressed("cancel") or inputs.pressed("pause"):
+            self.cues.append("back")
+            self.outcome = ("back",)
+        self.list.step(inputs, dt)
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.ground.draw(canvas, self.time)
+        lines = wrap(self.message, WIDTH - 24, TEXT)
+        rect = self.list.rect.inflate(32, 24)
+        rect.y, rect.height = rect.y - 26, rect.height + 30
+        draw_box(canvas, rect)
+        canvas.text("PAUSED", rect.centerx, rect.y + 12, GOLD, TEXT, 2, "center")
+        self.list.draw(canvas)
+        if lines:
+            note = rect.move(0, rect.height + 4)
+            note.height = 12 * len(lines) + 12
+            draw_box(canvas, note)
+            for number, line in enumerate(lines):
+                canvas.text(line, note.centerx, note.y + 7 + 12 * number, PAPER, TEXT, 1, "center")
+        elif self.pairs:
+            keys = ",  ".join(f"{key} {what}" for key, what in self.pairs)
+            rows = wrap(keys, canvas.rect.width - 48, SMALL)
+            box = rect.move(0, rect.height + 4)
+            box.width = max(canvas.measure(row, SMALL)[0] for row in rows) + 24
+            box.height, box.centerx = 9 * len(rows) + 13, rect.centerx
+            draw_box(canvas, box)
+            for number, row in enumerate(rows):
+                canvas.text(row, box.centerx, box.y + 7 + 9 * number, FOG, SMALL, 1, "center")

@@ -1,0 +1,272 @@
+"""The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
+
+import pygame
+
+from game.files.replay import KEPT_EVERY, Recorder
+from game.inputs import BotSource
+from game.loop import FixedStep
+from game.overlays.stack import Overlays
+from game.run_report import solver_name
+from game.scene import ASSISTS
+from game.screens.first_hint import HintCard
+from game.screens.panel import Panel
+from game.screens.panel_rows import following, play_rows
+from game.screens.status_line import RESULT_WAIT, draw_status
+from game.session import Session
+from physics import BROADPHASES
+
+RECORDED_ON = 120      # steps that are still recorded after the end, so that a replay shows it
+RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0.8, 0.5, 300)}    # low, high 0..1, [ms]
+PANEL_BUTTONS = {"dpad up": pygame.K_UP, "dpad down": pygame.K_DOWN, "dpad left": pygame.K_LEFT,
+                 "dpad right": pygame.K_RIGHT, "a": pygame.K_RETURN}
+EASIER = ("tier", "narrowphase", "slider:")      # changes that make a score an assisted one
+KEPT_ACTIONS = {"confirm", "cancel", "pause"}    # a key that means more than these is a move, whatever else it does
+
+
+class Play:
+    """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
+
+    settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
+    """
+
+    def __init__(self, scene, devices, sounds, bot=False, recording=None, records=False, overlays=None, settings=None):
+        self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
+        self.person = not bot and recording is None
+        source = recording or (BotSource(devices) if bot else devices)
+        self.renews = self.person and not records       # each attempt is a recording of its own
+        self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
+        self.session = Session(scene, source, self.recorder, recording)
+        self.overlays = Overlays(scene.overlays if overlays is None else overlays)
+        self.clock = FixedStep()
+        self.panel = Panel(lambda: play_rows(self))
+        self.panel_open = False
+        self.outcome = None
+        self.wants_screenshot = False
+        self.prepare = lambda solver: None     # called before a solver is switched to; the app compiles it then
+        self.run_ended = lambda recorder, result: None       # called with each run that ends, to keep it
+        self.settings_changed = lambda: None
+        self.assisted = False
+        self.since_result = 0
+        self.hint = HintCard() if self.person and settings is not None and not settings.hint_seen else None
+        self.apply_settings()
+
+    @property
+    def tune(self):
+        """The music for this moment."""
+        return self.scene.music
+
+    @property
+    def open_panel(self):
+        """The panel while it is open, else None."""
+        return self.panel if self.panel_open else None
+
+    @property
+    def shows_pointer(self):
+        """True while the mouse has something to do."""
+        scene = self.scene
+        return self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused or self.hint is not None
+
+    def apply_settings(self):
+        """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
+        if self.settings is None:
+            return
+        self.scene.set_comfort(self.settings.comfort())
+        if not self.person:
+            return
+        self.clock.pace = self.settings.speed
+        pending = dict(self.devices.changes)
+        for name, value in self.settings.assists().items():
+            if name in self.scene.assist and pending.get(f"assist:{name}", self.scene.assist[name]) != value:
+                self.devices.change(f"assist:{name}", value)
+
+    def resume(self):
+        """Called when the screen is seen again."""
+        self.clock.rest()
+        self.apply_settings()
+
+    def advance(self, now, limit=None):
+        """Make the steps that are due at `now` [s]; at most `limit` in all of this run."""
+        if self.devices.lost_pad and self.person:
+            self.devices.lost_pad = False
+            self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
+            return
+        if self.session.replay is not None:
+            self.devices.next()        # a replay takes no advice
+        elif self.clock.paused and self.devices.changes and not self.clock.requested:
+            self.clock.request_step()  # a change while paused costs one step, so that its effect is seen
+        for _ in range(self.clock.advance(now)):
+            if limit is not None and self.session.report.steps >= limit:
+                return
+            self.step()
+            if self.outcome is not None:
+                return
+
+    def step(self):
+        """One fixed step, its sounds and its measurements."""
+        self.session.step()
+        self.overlays.times.note(self.scene)
+        self.sounds.play_cues(self.scene.cues)
+        if self.person:
+            self._note_help()
+            self._rumble()
+            self._note_result()
+
+    def _note_help(self):
+        """Notice whatever makes a score an assisted one."""
+        slow = self.clock.speed < 1.0 or self.clock.pace < 1.0 or self.clock.paused
+        changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
+        if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
+            self.assisted = True
+
+    def _rumble(self):
+        pads = self.devices.pads
+        if pads is not None and self.settings is not None and self.settings.rumble:
+            for name, _, _ in self.scene.cues:
+                if name in RUMBLES:
+                    pads.rumble(*RUMBLES[name])
+
+    def _note_result(self):
+        if self.scene.result is None:
+            self.since_result = 0
+            return
+        self.since_result += 1
+        if self.since_result == 1:
+            self.sounds.jingle("victory" if self.scene.result.won else "game_over")
+        if self.since_result > RECORDED_ON and self.renews:
+            self.session.recorder = None
+        inputs = self.session.inputs
+        goes_on = inputs.pressed("fire") or inputs.pressed("jump") or inputs.pressed("confirm")
+        if self.since_result > RESULT_WAIT and (goes_on or inputs.pointer_pressed):
+            self.outcome = ("result",)
+
+    def end_run(self):
+        """The run is over: hand its recording on, once."""
+        if self.renews and self.recorder is not None:
+            self.run_ended(self.recorder, self.scene.result)
+            self.recorder = self.session.recorder = None
+
+    def restart(self):
+        """From the first frame. A person's attempt is a run of its own: its recording begins here.
+
+        Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
+        """
+        if self.renews:
+            self.end_run()
+            self.recorder = self.session.recorder = Recorder(self.scene, False, KEPT_EVERY)
+            self.assisted = False
+            for name, value in chosen_before(self.scene):
+                self.devices.change(name, value)
+        self.since_result = 0
+        self.devices.change("restart", True)
+
+    def switch_solver(self, way):
+        """The next solver, or the one before; its kernels are compiled first, behind a bar."""
+        name = following(self.scene.solver_choices(), solver_name(self.scene), way)
+        self.prepare(name)
+        self.devices.change("solver", name)
+
+    def toggle_pause(self):
+        """Stop or go on."""
+        self.clock.paused = not self.clock.paused
+
+    def single_step(self):
+        """Pause, and make one step."""
+        self.clock.paused = True
+        self.clock.request_step()
+
+    def feed(self, event):
+        """Take an event before the game does; True if it is used up."""
+        if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
+            self.hint = None
+            self.settings.hint_seen = True
+            self.settings_changed()
+            if event.type == pygame.MOUSEBUTTONDOWN:
+                return True
+        button = self.devices.pressed_button(event)
+        if button is not None and self._button(button):
+            return True
+        if self.panel_open and self.panel.feed(event):
+            self.devices.release_all()
+            return True
+        return event.type == pygame.KEYDOWN and self._key(event.key)
+
+    def _button(self, button):
+        """A pad's button that does something besides playing."""
+        if button == "start":
+            self._stop()
+        elif button == "back":
+            self.toggle_pause()
+        elif button == "y" or (button == "b" and self.panel_open and self.panel.focused):
+            self._toggle_panel()
+        elif self.panel_open and self.panel.focused and button in PANEL_BUTTONS:
+            self.panel.key(PANEL_BUTTONS[button])
+        else:
+            return False
+        return True
+
+    def _stop(self):
+        """To the pause menu; from a game that has ended, to its result; where nobody plays, to the menu."""
+        if not self.person:
+            self.outcome = ("menu",)
+        else:
+            self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
+
+    def _toggle_panel(self):
+        self.panel_open = not self.panel_open
+        self.panel.focused = True
+        self.devices.release_all()
+
+    def _key(self, key):
+        change, scene = self.devices.change, self.scene
+        if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
+            return False               # the player gave it to a move, and a move it stays
+        layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
+        if key in layers:
+            self.overlays.toggle(layers[key])
+        elif key == pygame.K_0:
+            self.overlays.toggle_all()
+        elif key == pygame.K_TAB:
+            self._toggle_panel()
+        elif key == pygame.K_ESCAPE:
+            self._stop()
+        elif key == pygame.K_b and scene.switches_broadphase:
+            change("broadphase", following(tuple(BROADPHASES), scene.broadphase, 1))
+        elif key == pygame.K_v and scene.solver_choices():
+            self.switch_solver(1)
+        elif key == pygame.K_t and scene.tiers:
+            change("tier", following(scene.tiers, scene.tier, 1))
+        elif key == pygame.K_n:
+            change("narrowphase", not scene.narrowphase)
+        elif key == pygame.K_r and scene.result is not None and self.person:
+            self.outcome = ("result",)         # no score is lost by a hasty key
+        elif key == pygame.K_r:
+            self.restart()
+        elif key == pygame.K_p:
+            self.toggle_pause()        # not through the input of a step: a paused game makes none
+        elif key == pygame.K_o:
+            self.single_step()
+        elif key == pygame.K_MINUS:
+            self.clock.slower()
+        elif key in (pygame.K_EQUALS, pygame.K_PLUS):
+            self.clock.faster()
+        elif key == pygame.K_F12:
+            self.wants_screenshot = True
+        else:
+            return False
+        return True
+
+    def draw(self, picture):
+        """Draw the scene and what lies over it; returns the frame."""
+        frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)
+        if self.hint is not None and not self.panel_open:
+            self.hint.draw(frame)
+        draw_status(frame, self)
+        return frame
+
+
+def chosen_before(scene):
+    """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
+    changes = [(f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start]
+    if scene.narrowphase != scene.effects.narrowphase:
+        changes.append(("narrowphase", scene.narrowphase))
+    return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]

@@ -1,0 +1,105 @@
+"""After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
+
+from game.drawing.boxes import draw_box
+from game.drawing.clock_text import clock, points_text
+from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
+from game.drawing.draw import SMALL, TEXT, shorten
+from game.screens.ground import SceneGround
+from game.screens.initials import Initials
+from game.screens.rows import LINE, Row, RowList
+
+PAGE = (104, 8, 272, 254)
+COUNT_SECONDS = 0.8        # the numbers count up this long
+
+
+class ResultScreen:
+    """`place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
+
+    `outcome`: ("again",), ("save_replay",), ("scores", scene name) or ("menu",).
+    """
+
+    shows_pointer = True
+
+    def __init__(self, scene, result, place, initials, enter, can_save=True, notes=(), assisted=False):
+        self.scene, self.result, self.place, self.enter = scene, result, place, enter
+        self.can_save, self.assisted = can_save, assisted
+        self.notes = list(notes)           # what else is to be said: a ghost kept, a file that cannot be written
+        self.ground = SceneGround(scene)
+        self.tune = None
+        self.cues = []
+        x = PAGE[0] + (PAGE[2] - 152) // 2
+        self.initials = Initials(initials, x, 146, self.cues) if place is not None else None
+        self.list = RowList(self._rows, (PAGE[0] + 56, 154, PAGE[2] - 112, 4 * LINE), self.cues)
+        self.time = 0.0
+        self.outcome = None
+
+    @property
+    def entering(self):
+        """True while initials are asked for."""
+        return self.initials is not None and not self.initials.done
+
+    def _rows(self):
+        rows = [Row("Again", press=lambda: self._leave(("again",)))]
+        if self.can_save:
+            rows.append(Row("Save replay", press=lambda: self._leave(("save_replay",))))
+        if self.scene.ranked_by is not None:
+            rows.append(Row("High scores", press=lambda: self._leave(("scores", self.scene.name))))
+        return [*rows, Row("Menu", press=lambda: self._leave(("menu",)))]
+
+    def _leave(self, outcome):
+        self.outcome = outcome
+
+    def feed(self, event):
+        """Typed letters of the initials; True if the event is used up."""
+        return self.entering and self.initials.feed(event)
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        if self.entering:
+            self.initials.step(inputs, dt)
+            if inputs.pressed("cancel"):
+                self.initials.done = True      # as it stands: a place is not lost by a hasty Esc
+            if self.initials.done:
+                self.enter(self.initials.text)
+            return
+        if inputs.pressed("cancel"):
+            self.cues.append("back")
+            self.outcome = ("menu",)
+        self.list.step(inputs, dt)
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.ground.draw(canvas, self.time)
+        draw_box(canvas, PAGE)
+        x, y = PAGE[0] + PAGE[2] // 2, PAGE[1] + 12
+        title, color = ("YOU MADE IT", GREEN) if self.result.won else ("GAME OVER", RED)
+        canvas.text(title, x, y, color, TEXT, 2, "center")
+        canvas.text(self.scene.title, x, y + 22, FOG, TEXT, 1, "center")
+        share = min(1.0, self.time / COUNT_SECONDS)
+        share = 1.0 - (1.0 - share) ** 3
+        self._pair(canvas, PAGE[0] + 24, y + 40, "POINTS", points_text(round(self.result.points * share)), "left")
+        self._pair(canvas, PAGE[0] + PAGE[2] - 24, y + 40, "TIME", clock(self.result.seconds * share), "right")
+        lines = [*self.result.lines, *(["played with help: marked assisted"] if self.assisted else [])]
+        for number, line in enumerate(lines[:3]):
+            text = shorten(str(line), PAGE[2] - 32, SMALL)
+            canvas.text(text, x, y + 72 + 9 * number, FOG, SMALL, 1, "center")
+        if self.place is not None:
+            self._draw_place(canvas, x, y + 110)
+        if self.entering:
+            self.initials.draw(canvas)
+            keys = "\u2191 \u2193 letter   \u2190 \u2192 place   or type   Enter goes on"
+            canvas.text(keys, x, 206, FOG, SMALL, 1, "center")
+            return
+        self.list.draw(canvas)
+        for number, note in enumerate(self.notes[:2]):
+            canvas.text(shorten(note, PAGE[2] - 24, SMALL), x, 228 + 9 * number, FOG, SMALL, 1, "center")
+
+    def _pair(self, canvas, x, y, label, value, align):
+        canvas.text(label, x, y, GOLD, SMALL, 1, align)
+        canvas.text(value, x, y + 8, SKY, TEXT, 2, align)
+
+    def _draw_place(self, canvas, x, y):
+        words = "the best run so far" if self.place == 1 else f"place {self.place} of the table"
+        text = f"{self.initials.text}   {words}" if self.initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
+        canvas.text(text, x, y, PAPER if self.place > 1 else GOLD, TEXT, 1, "center")

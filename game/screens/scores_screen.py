@@ -1,0 +1,100 @@
+"""High scores: one page per ranked scene, left and right turn them."""
+
+import pygame
+
+from game.drawing.clock_text import clock, points_text
+from game.drawing.colors import DUSK, FOG, GOLD, PAPER, SKY
+from game.drawing.draw import SMALL, TEXT
+from game.screens.ground import DuskGround, draw_page
+from game.screens.rows import GRID, Repeat, Row, RowList, confirmed
+
+PAGE = pygame.Rect(40, 8, 400, 254)
+LINE = 15
+COLUMNS = ((0, "left"), (28, "left"), (150, "right"), (224, "right"), (240, "left"), (310, "left"))
+HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
+
+
+class ScoresScreen:
+    """`outcome` becomes ("back",). shown: the name of the scene to begin with; newest: (table, place) to mark."""
+
+    shows_pointer = True
+    tune = None
+
+    def __init__(self, registry, records, shown=None, newest=None, ground=None):
+        self.records, self.newest = records, newest
+        self.ground = ground or DuskGround()
+        self.pages = [c for c in registry.all_classes() if c.ranked_by is not None]
+        self.cues = []
+        self.at = next((number for number, c in enumerate(self.pages) if c.name == shown), 0)
+        self.sideways = Repeat(("left", "right"))
+        self.turners = RowList(self._rows, (PAGE.x + 16, PAGE.bottom - 34, PAGE.width - 32, 16), self.cues)
+        self.time = 0.0
+        self.outcome = None
+
+    def _rows(self):
+        return [Row("Back", press=self._leave)]
+
+    def _leave(self):
+        self.outcome = ("back",)
+
+    @property
+    def arrows(self):
+        """Where a click turns the page: (left, right)."""
+        return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        way = self.sideways.move(inputs, dt) - (inputs.wheel > 0) + (inputs.wheel < 0)
+        if inputs.pointer_pressed:
+            left, right = self.arrows
+            way += right.collidepoint(inputs.pointer) - left.collidepoint(inputs.pointer)
+        if way and len(self.pages) > 1:
+            self.at = (self.at + way) % len(self.pages)
+            self.cues.append("blip")
+        if inputs.pressed("cancel"):
+            self.cues.append("back")
+            self._leave()
+        elif confirmed(inputs) or inputs.pointer_pressed:
+            self.turners.step(inputs, dt)
+        else:
+            self.turners.pointer = inputs.pointer
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.ground.draw(canvas, self.time)
+        draw_page(canvas, PAGE, "High scores")
+        self.turners.draw(canvas)
+        canvas.text("Enter or Esc back", PAGE.right - 20, PAGE.bottom - 28, FOG, SMALL, 1, "right")
+        if not self.pages:
+            canvas.text("No scene here keeps scores.", PAGE.centerx, PAGE.centery, FOG, TEXT, 1, "center")
+            return
+        scene_class = self.pages[self.at]
+        for rect, arrow in zip(self.arrows, "\u2190\u2192", strict=True):
+            if len(self.pages) > 1:
+                canvas.text(arrow, rect.centerx, rect.y + 4, GOLD, TEXT, 1, "center")
+        canvas.text(scene_class.title, PAGE.centerx, PAGE.y + 40, PAPER, TEXT, 1, "center")
+        self._draw_table(canvas, scene_class)
+
+    def _draw_table(self, canvas, scene_class):
+        x, y = PAGE.x + 28, PAGE.y + 58
+        by_time = scene_class.ranked_by == "seconds"
+        for (dx, align), head in zip(COLUMNS, HEADS, strict=True):
+            if head:
+                canvas.text(head, x + dx, y, GOLD, SMALL, 1, align)
+        entries = self.records.entries(scene_class.name)
+        if not entries:
+            canvas.text("Nobody yet. Be the first.", PAGE.centerx, y + 60, FOG, TEXT, 1, "center")
+        for number, entry in enumerate(entries):
+            top = y + 9 + number * LINE
+            if self.newest == (scene_class.name, number + 1):
+                canvas.surface.fill(DUSK, (x - GRID, top - 3, PAGE.width - 40, LINE - 1))
+                canvas.surface.fill(GOLD, (x - GRID, top - 3, 2, LINE - 1))
+            color = PAPER if number < 3 else FOG
+            cells = (f"{number + 1}", entry.name, points_text(entry.points), clock(entry.seconds), entry.date,
+                     "assisted" if entry.assisted else "")
+            ruling = 3 if by_time else 2
+            for place, ((dx, align), text) in enumerate(zip(COLUMNS, cells, strict=True)):
+                if text:
+                    small, tone = place >= 4, SKY if place == ruling else color
+                    canvas.text(text, x + dx, top + small, tone, SMALL if small else TEXT, 1, align)

@@ -1,0 +1,94 @@
+"""The title: two planes pass, their boxes meet, and only where pixels meet does it say HIT. Left alone, it shows games."""
+
+from math import pi, sin
+
+import pygame
+
+from game.drawing.backdrop import Backdrop
+from game.drawing.boxes import draw_box
+from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED
+from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.sprites import load_atlas
+from game.screens.rows import LINE, Row, RowList
+
+LOOP = 9.0         # [s] one pass of the planes
+IDLE = 10.0        # [s] without any input before the games play themselves
+LOGO_Y, LINE_Y, WORD_Y, FOOT_Y = 6, 82, 104, 256
+MENU = pygame.Rect(24, 112, 128, 6 * LINE)
+ENTRIES = (("Play", ("menu",)), ("Replays", ("replays",)), ("High scores", ("scores",)),
+           ("Tour of the overlays", ("tour",)), ("Settings", ("settings",)), ("Leave", ("quit",)))
+
+
+class Title:
+    """The first screen. `outcome` becomes what the chosen entry leads to, or ("attract",) after a while."""
+
+    shows_pointer = True
+    tune = "title"
+
+    def __init__(self, message=""):
+        self.backdrop = Backdrop()
+        planes = load_atlas("planes")
+        self.left, self.right = planes["large_plane_a"], planes["large_plane_b"]
+        self.masks = [pygame.mask.from_surface(image) for image in (self.left, self.right)]
+        self.logo = load_atlas("ui")["logo"]
+        self.message = message
+        self.cues = []
+        self.list = RowList(self._rows, MENU, self.cues)
+        self.time = self.idle = 0.0
+        self.outcome = None
+
+    def _rows(self):
+        return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in ENTRIES]
+
+    def _leave(self, outcome):
+        self.outcome = outcome
+
+    def resume(self):
+        """Called when the screen is seen again."""
+        self.idle = 0.0
+
+    def step(self, inputs, dt):
+        """One fixed step."""
+        self.time += dt
+        busy = inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
+        self.idle = 0.0 if busy else self.idle + dt
+        if inputs.pressed("cancel"):
+            self.cues.append("back")
+            if self.list.mark == len(ENTRIES) - 1:       # Esc marks Leave, and a second one leaves
+                self.outcome = ("quit",)
+            self.list.mark = len(ENTRIES) - 1
+        self.list.step(inputs, dt)
+        if self.idle >= IDLE:
+            self.outcome = ("attract",)
+
+    def draw(self, canvas, alpha):
+        """Draw the picture."""
+        self.backdrop.draw(canvas, self.time * 40.0)
+        self._draw_planes(canvas)
+        canvas.sprite(self.logo, canvas.rect.centerx, LOGO_Y + self.logo.get_height() // 2)
+        canvas.text("collision you can feel, trust and see", canvas.rect.centerx, LINE_Y, PAPER, TEXT, 1, "center",
+                    True)
+        draw_box(canvas, MENU.inflate(16, 16))
+        self.list.draw(canvas)
+        foot = self.message or "\u2191 \u2193 choose   Enter goes   or the mouse, or a controller"
+        foot = shorten(foot, canvas.rect.width - 16, SMALL)
+        canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
+
+    def _draw_planes(self, canvas):
+        """Both planes, their boxes coloured by what pygame's own masks say."""
+        phase = self.time % LOOP / LOOP
+        sway = sin(phase * 2 * pi)
+        a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))
+        b = self.right.get_rect(center=(round(372 - 34 * sway), round(178 - 4 * sin(phase * 4 * pi))))
+        canvas.surface.blit(self.left, a)
+        canvas.surface.blit(self.right, b)
+        offset = (b.x - a.x, b.y - a.y)
+        hit = self.masks[0].overlap_mask(self.masks[1], offset)
+        color = RED if hit.count() else ORANGE if a.colliderect(b) else GREEN
+        for box in (a, b):
+            pygame.draw.rect(canvas.surface, color, box, 1)
+        if hit.count():
+            shared = hit.to_surface(setcolor=(255, 250, 150, 255), unsetcolor=None)
+            canvas.surface.blit(shared, a)
+        word = {RED: "HIT", ORANGE: "boxes only", GREEN: "apart"}[color]
+        canvas.text(word, 316, WORD_Y, color, TEXT, 1, "center", True)

@@ -1,0 +1,256 @@
+"""Watching a replay: play, freeze, slow, step, seek; overlays and panel as in play, but nothing can be changed."""
+
+import pygame
+
+from game.drawing.clock_text import short_clock
+from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
+from game.drawing.draw import SMALL, TEXT
+from game.loop import FixedStep
+from game.overlays.stack import Overlays
+from game.run_report import solver_name
+from game.screens.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
+from game.screens.panel_rows import layer_rows
+
+SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
+SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
+LEAP = 5 * 60          # frames of one leap by left or right
+SEEK_SECONDS = 0.025   # of each picture are spent on the way to a sought frame
+HIDE_SECONDS = 3.0     # after the last input the controls go, and come back with the next
+LEAST_WIDTH = 360      # [text px] that the controls need
+BAR_HEIGHT = 26        # [text px] of the controls at the bottom
+KEYS_LINE = "Space play   \u2190 \u2192 5 s   \u2191 \u2193 speed   , . step   Home End   1-9 see   Tab panel   Esc back"
+BUTTON_KEYS = {"a": pygame.K_SPACE, "b": pygame.K_ESCAPE, "start": pygame.K_SPACE, "back": pygame.K_ESCAPE,
+               "y": pygame.K_TAB, "x": pygame.K_PERIOD, "dpad left": pygame.K_LEFT, "dpad right": pygame.K_RIGHT,
+               "dpad up": pygame.K_UP, "dpad down": pygame.K_DOWN, "left shoulder": pygame.K_HOME,
+               "right shoulder": pygame.K_END}
+
+
+class Watch:
+    """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
+
+    def __init__(self, tape, devices, sounds, comfort, name=""):
+        self.tape, self.devices, self.sounds, self.comfort, self.name = tape, devices, sounds, comfort, name
+        self.overlays = Overlays(tape.scene.overlays)
+        self.clock = FixedStep()
+        self.speed = SPEEDS.index(1.0)
+        self.panel = Panel(lambda: watch_rows(self))
+        self.panel_open = False
+        self.dragging = False
+        self.alone = 0.0               # [s] since the last key or move of the mouse
+        self.before = None
+        self.bar = self.button = pygame.Rect(0, 0, 0, 0)       # of the last picture
+        self.outcome = None
+
+    @property
+    def shows_pointer(self):
+        """True while there is something to click."""
+        return self.shows_controls or self.panel_open
+
+    @property
+    def tune(self):
+        """The music of the recorded game."""
+        return self.tape.scene.music
+
+    @property
+    def diverged(self):
+        """True from the frame on at which the game differed from the recording."""
+        return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
+
+    def advance(self, now):
+        """Make the steps that are due at `now` [s], or go on towards the frame that is sought."""
+        self.devices.next()            # a replay takes no advice
+        self.alone += 0.0 if self.before is None else now - self.before
+        self.before = now
+        due = self.clock.advance(now)
+        if self.tape.goal is not None:
+            self.tape.seek_on(SEEK_SECONDS)
+        else:
+            for _ in range(due):
+                self.step()
+        self.tape.scene.set_comfort(self.comfort)
+        if self.tape.ended and self.tape.goal is None:
+            self.clock.paused = True
+
+    def step(self):
+        """One recorded step, with its sounds where they are as fast as they were."""
+        if not self.tape.ended:
+            self.tape.step()
+            self.overlays.times.note(self.tape.scene)
+            if SPEEDS[self.speed] == 1.0:
+                self.sounds.play_cues(self.tape.scene.cues)
+
+    def toggle(self):
+        """Freeze or play; at the end, from the start again."""
+        if self.tape.ended:
+            self.tape.begin_seek(0)
+            self.clock.paused = False
+        else:
+            self.clock.paused = not self.clock.paused
+
+    def turn_speed(self, way):
+        """The next speed, or the one before."""
+        self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
+        self.clock.pace = SPEEDS[self.speed]
+
+    def leap(self, frames):
+        """Go so many frames on or back; from where a search under way leads to."""
+        start = self.tape.position if self.tape.goal is None else self.tape.goal
+        self.tape.begin_seek(start + frames)
+
+    @property
+    def shows_controls(self):
+        """False while it just plays: the controls would hide a part of the game."""
+        return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
+
+    def feed(self, event):
+        """Take an event; True if it is used up."""
+        self.alone = 0.0
+        if self.panel_open and self.panel.feed(event):
+            return True
+        button = self.devices.pressed_button(event)
+        if event.type == pygame.KEYDOWN:
+            return self._key(event.key)
+        if button in BUTTON_KEYS:
+            self._key(BUTTON_KEYS[button])
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            self._click(event.pos)
+        elif event.type == pygame.MOUSEMOTION and self.dragging:
+            self._seek_to(event.pos)
+        elif event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+            self.dragging = False
+        elif event.type == pygame.MOUSEWHEEL:
+            self.leap(event.y * LEAP // 5)
+        return False
+
+    def _click(self, position):
+        if self.bar.collidepoint(position):
+            self.dragging = True
+            self._seek_to(position)
+        elif self.button.collidepoint(position):
+            self.toggle()
+
+    def _seek_to(self, position):
+        share = (position[0] - self.bar.x) / max(self.bar.width, 1)
+        self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
+
+    def single(self, way):
+        """Freeze, and go one frame on or back."""
+        self.clock.paused = True
+        self.leap(way)
+
+    def _key(self, key):
+        layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
+        does = {
+            pygame.K_SPACE: self.toggle, pygame.K_RETURN: self.toggle, pygame.K_p: self.toggle,
+            pygame.K_LEFT: lambda: self.leap(-LEAP), pygame.K_RIGHT: lambda: self.leap(LEAP),
+            pygame.K_UP: lambda: self.turn_speed(1), pygame.K_DOWN: lambda: self.turn_speed(-1),
+            pygame.K_EQUALS: lambda: self.turn_speed(1), pygame.K_PLUS: lambda: self.turn_speed(1),
+            pygame.K_MINUS: lambda: self.turn_speed(-1), pygame.K_PERIOD: lambda: self.single(1),
+            pygame.K_o: lambda: self.single(1), pygame.K_COMMA: lambda: self.single(-1),
+            pygame.K_HOME: lambda: self.leap(-self.tape.length), pygame.K_END: lambda: self.leap(self.tape.length),
+            pygame.K_0: self.overlays.toggle_all, pygame.K_TAB: self._toggle_panel, pygame.K_ESCAPE: self._leave,
+            pygame.K_BACKSPACE: self._leave,
+        }
+        if key in layers:
+            self.overlays.toggle(layers[key])
+        elif key in does:
+            does[key]()
+        else:
+            return False
+        return True
+
+    def _toggle_panel(self):
+        self.panel_open = not self.panel_open
+        self.panel.focused = True
+
+    def _leave(self):
+        self.outcome = ("back",)
+
+    def draw(self, picture):
+        """Draw the scene with what lies over it, and the controls."""
+        panel = self.panel if self.panel_open else None
+        frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
+        if self.shows_controls and not (panel and picture.presenter.crowded):
+            self._draw_controls(frame)
+        if self.diverged:
+            self._draw_diverged(frame)
+        return frame
+
+    def _reserve(self, frame):
+        """Keep the legend of the overlays away from the controls."""
+        if self.shows_controls:
+            frame.reserve(self._controls_rect(frame))
+
+    def _controls_rect(self, frame):
+        high = BAR_HEIGHT * frame.scale_for(LEAST_WIDTH)
+        area = frame.area.clip(frame.rect)
+        return pygame.Rect(area.x, area.bottom - high, area.width, high)
+
+    def _draw_controls(self, frame):
+        scale, rect = frame.scale_for(LEAST_WIDTH), self._controls_rect(frame)
+        frame.surface.fill(INK, rect)
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]      # covered now
+        self.button = pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, 14 * scale, 9 * scale)
+        _draw_button(frame.surface, self.button, self.clock.paused, scale)
+        total = f"{short_clock(self.tape.position / 60)} / {short_clock(self.tape.length / 60)}  x{SPEED_NAMES[self.speed]}"
+        text = frame.text(total, rect.right - 4 * scale, rect.y + 4 * scale, PAPER, TEXT, scale, "right")
+        self.bar = pygame.Rect(self.button.right + 4 * scale, rect.y + 3 * scale, 0, 10 * scale)
+        self.bar.width = text.left - 6 * scale - self.bar.x
+        self._draw_bar(frame, scale)
+        if frame.measure(KEYS_LINE, SMALL, scale)[0] < rect.width - 8 * scale:
+            frame.text(KEYS_LINE, rect.centerx, rect.bottom - 9 * scale, FOG, SMALL, scale, "center")
+
+    def _draw_bar(self, frame, scale):
+        """Where we are, where key frames lie, and where it diverged."""
+        surface, tape, bar = frame.surface, self.tape, self.bar
+        line = pygame.Rect(bar.x, bar.centery - scale, bar.width, 2 * scale)
+        surface.fill(DUSK, line)
+        length = max(tape.length, 1)
+        surface.fill(SKY, (line.x, line.y, line.width * tape.position // length, line.height))
+        for key in tape.keys:
+            surface.fill(SLATE, (line.x + line.width * key // length, line.y - scale, scale, line.height + 2 * scale))
+        if tape.diverged_at is not None:
+            surface.fill(RED, (line.x + line.width * tape.diverged_at // length, bar.y, scale, bar.height))
+        x = line.x + line.width * tape.position // length
+        surface.fill(PAPER, (x - scale, bar.y + scale, 3 * scale, bar.height - 2 * scale))
+
+    def _draw_diverged(self, frame):
+        scale = frame.scale_for(LEAST_WIDTH)
+        text = f"DIVERGED at frame {self.tape.diverged_at}: this is not what was played"
+        width, height = frame.measure(text, TEXT, scale)
+        size = (width + 12 * scale, height + 8 * scale)
+        area = frame.area.clip(frame.rect)
+        place = frame.free_place(size, [(area.centerx - size[0] // 2, y)
+                                        for y in range(area.y + 4 * scale, area.bottom - size[1], 8 * scale)])
+        if place is not None:
+            frame.surface.fill(INK, (*place, *size))
+            pygame.draw.rect(frame.surface, RED, (*place, *size), scale)
+            frame.text(text, place[0] + 6 * scale, place[1] + 4 * scale, GOLD, TEXT, scale)
+
+
+def _draw_button(surface, rect, paused, scale):
+    """Two bars while it plays, a triangle while it does not."""
+    x, y, high = rect.x + 3 * scale, rect.y, rect.height
+    if paused:
+        pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))
+    else:
+        surface.fill(GOLD, (x, y, 3 * scale, high))
+        surface.fill(GOLD, (x + 5 * scale, y, 3 * scale, high))
+
+
+def watch_rows(watch):
+    """Rows of the panel: what is seen can be changed, what happened cannot."""
+    scene, tape = watch.tape.scene, watch.tape
+    spacing = tape.spacing // 60
+    rows = [
+        Row(HEAD, scene.title),
+        Row(NOTE, f"a recording: {watch.name}"),
+        Row(NOTE, f"seed {scene.seed}, {scene.broadphase}, {solver_name(scene)}, tier {scene.tier or 'none'}"),
+        Row(HEAD, "See"), *layer_rows(watch.overlays), Row(HEAD, "Time"),
+        Row(CHECK, "Freeze", key="P", on=watch.clock.paused, press=watch.toggle),
+        Row(BUTTON, "Single step", key=".", press=lambda: watch.single(1), hint="one sixtieth of a second"),
+        Row(CHOICE, "Speed", f"x{SPEED_NAMES[watch.speed]}", "- +", turn=watch.turn_speed),
+        Row(NOTE, f"key frames every {spacing} s: seeking starts at the one before"),
+    ]
+    rows += [Row(NOTE, f"{name}: {value:g}") for name, value in scene.values.items()]
+    return [*rows, Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none"))]
