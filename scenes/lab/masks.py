@@ -4,7 +4,7 @@ What to see: drag one plane along the other. The three cheap shapes say HIT whil
 planes; the pixels say HIT when a pixel is shared. Beside each verdict stands what the test took.
 """
 
-from math import hypot, pi
+from math import hypot
 
 import numpy as np
 import pygame
@@ -15,13 +15,12 @@ from game.drawing.sprites import TurnedSprites, load_atlas, load_backdrop
 from game.inputs import InputFrame
 from game.scene import Goal, Scene
 from physics import Effects, debug
+from scenes.lab.hands import Hands
 
 SPRITES = ("large_plane_a", "large_plane_b")
 ARENA = pygame.Rect(0, 16, 316, 254)
 START = ((90.0, 150.0, 0.0), (226.0, 150.0, 0.6))
-TURN_NOTCH = 2 * pi / 64       # [rad] per wheel notch
-TURN_SPEED = 1.2               # [rad/s] with the keys
-MOVE_SPEED = 70.0              # [px/s] with the keys
+MARGIN = 20                    # [px] that a plane's middle keeps from the arena's edge
 COPIES = 24                    # pairs off screen per tier: one pair alone would measure the call, not the test
 SPREAD = 1000.0                # [px] between copies: far beyond the reach of a plane
 COLORS = {"circle": ORANGE, "aabb": GREEN, "obb": SKY, "pixels": YELLOW}
@@ -56,8 +55,7 @@ class Masks(Scene):
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.sprites = [TurnedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
         self.sky = load_backdrop("sky_dusk")
-        self.poses = [list(pose) for pose in START]
-        self.chosen, self.dragged, self.grip = 0, None, (0.0, 0.0)
+        self.hands = Hands(START, 0, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.shown, self.timed = {}, {}
         for tier in ROWS:
             self.shown[tier] = self._world(tier, 1)
@@ -76,42 +74,25 @@ class Masks(Scene):
 
     def update(self, inputs):
         """Move the planes, put them into every world, and ask all four tiers."""
-        self._hands(inputs)
+        if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
+            self._press(*inputs.pointer)
+        self.hands.move(inputs)
         for worlds, pairs in ((self.shown, 1), (self.timed, COPIES)):
             for world in worlds.values():
                 self._place(world, pairs)
                 world.step()
         self._judge()
 
-    def _hands(self, inputs):
-        x, y = inputs.pointer
-        if inputs.pointer_pressed and ARENA.collidepoint(x, y):
-            near = [hypot(x - px, y - py) for px, py, _ in self.poses]
-            which = int(near[1] < near[0])
-            if near[which] < reach(self.masks[which]):
-                self.chosen = self.dragged = which
-                self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
-        if not inputs.pointer_down:
-            self.dragged = None
-        pose = self.poses[self.chosen]
-        if self.dragged is not None:
-            pose[0], pose[1] = x + self.grip[0], y + self.grip[1]
-        pose[2] += inputs.wheel * TURN_NOTCH
-        if inputs.pressed("fire"):
-            self.chosen = 1 - self.chosen
-        side, rise = inputs.held("right") - inputs.held("left"), inputs.held("down") - inputs.held("up")
-        if inputs.held("focus"):
-            pose[2] += side * TURN_SPEED / 60
-        else:
-            pose[0] += side * MOVE_SPEED / 60
-            pose[1] += rise * MOVE_SPEED / 60
-        pose[0] = min(max(pose[0], ARENA.left + 20), ARENA.right - 20)
-        pose[1] = min(max(pose[1], ARENA.top + 20), ARENA.bottom - 20)
+    def _press(self, x, y):
+        near = [hypot(x - px, y - py) for px, py, _ in self.hands.poses]
+        which = int(near[1] < near[0])
+        if near[which] < reach(self.masks[which]):
+            self.hands.take(which, x, y)
 
     def _place(self, world, pairs):
         bodies = world.bodies
         shift = np.arange(pairs) * SPREAD
-        for which, (x, y, angle) in enumerate(self.poses):
+        for which, (x, y, angle) in enumerate(self.hands.poses):
             bodies["x"][which::2] = x + shift
             bodies["y"][which::2] = y
             bodies["angle"][which::2] = angle
@@ -121,7 +102,7 @@ class Masks(Scene):
         for tier, world in self.shown.items():
             self.verdicts[tier] = len(world.contacts) > 0
         truth = self.verdicts["pixels"]
-        self.wrong += truth != share_a_pixel(self.masks, self.poses)
+        self.wrong += truth != share_a_pixel(self.masks, self.hands.poses)
         for tier in ROWS:
             self.lies[tier] += self.verdicts[tier] and not truth
         self.hits += truth
@@ -141,7 +122,7 @@ class Masks(Scene):
     def draw(self, canvas, alpha):
         """The sky, the planes, and the table of verdicts."""
         canvas.surface.blit(self.sky, (0, 0))
-        for sprite, (x, y, angle) in zip(self.sprites, self.poses, strict=True):
+        for sprite, (x, y, angle) in zip(self.sprites, self.hands.poses, strict=True):
             sprite.draw(canvas, self.camera, x, y, angle)
         canvas.surface.fill(INK, (ARENA.right, 0, 480 - ARENA.right, 270))
         canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
@@ -219,8 +200,8 @@ class Masks(Scene):
 
     def state(self):
         """The poses and the tallies."""
-        poses = [value for pose in self.poses for value in pose]
-        return (self.frame, *poses, self.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
+        poses = [value for pose in self.hands.poses for value in pose]
+        return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
 
 
 def reach(mask):

@@ -17,6 +17,7 @@ from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import ring
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon, Segment, collide, debug, distance
+from scenes.lab.hands import Hands
 from scenes.lab.pieces import hull
 from scenes.lab.shape_pictures import draw_differences, draw_shadows, placed_hull
 
@@ -35,7 +36,7 @@ SIDE_X, SIDE_Y = 310, 154
 ICON = 18
 ICONS = tuple(pygame.Rect(22 + i * (ICON + 2), 233 + row * (ICON + 1), ICON, ICON) for row in range(2) for i in range(len(NAMES)))
 START = ((128.0, 112.0, 0.2), (232.0, 104.0, -0.4))
-TURN_NOTCH, TURN_SPEED, MOVE_SPEED = 2 * pi / 64, 1.2, 70.0      # [rad], [rad/s], [px/s]
+MARGIN = 36                    # [px] that a shape's middle keeps from the arena's edge
 EXACT = 1e-9                              # [px] within which the methods must agree, at this size
 LEG = 25                                  # steps of the bot with one pair of shapes
 MOST_STEPS = 24
@@ -61,10 +62,9 @@ class Shapes(Scene):
     def build(self):
         """Two bodies and the tallies."""
         self.add_world()
-        self.poses = [list(pose) for pose in START]
-        self.chosen, self.dragged, self.grip = 1, None, (0.0, 0.0)
+        self.hands = Hands(START, 1, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.bodies = [self.world.add_body(shape, position=pose[:2], angle=pose[2], kind="kinematic")
-                       for shape, pose in zip(self.shapes, self.poses, strict=True)]
+                       for shape, pose in zip(self.shapes, self.hands.poses, strict=True)]
         self.compared = self.overlapping = self.apart = 0
         self.disagreed = self.mirrored = 0
         self.worst = {"gap": 0.0, "axis": 0.0}
@@ -92,53 +92,33 @@ class Shapes(Scene):
 
     def update(self, inputs):
         """Hands, one step for the overlays, and all questions anew."""
-        self._hands(inputs)
-        for body, pose in zip(self.bodies, self.poses, strict=True):
+        if inputs.pointer_pressed:
+            self._press(*inputs.pointer)
+        self.hands.move(inputs)
+        if inputs.pressed("confirm"):
+            count = len(self.steps)
+            self.values["step"] = (min(int(self.values["step"]), count - 1) + 1) % max(count, 1)
+        for body, pose in zip(self.bodies, self.hands.poses, strict=True):
             body.move_to(tuple(pose[:2]), pose[2])
         self.world.step()
         self._ask()
         self._compare()
 
-    def _hands(self, inputs):
-        x, y = inputs.pointer
-        if inputs.pointer_pressed:
-            self._press(x, y)
-        if not inputs.pointer_down:
-            self.dragged = None
-        pose = self.poses[self.chosen]
-        if self.dragged is not None:
-            pose[0], pose[1] = x + self.grip[0], y + self.grip[1]
-        pose[2] += inputs.wheel * TURN_NOTCH
-        if inputs.pressed("fire"):
-            self.chosen = 1 - self.chosen
-        if inputs.pressed("confirm"):
-            count = len(self.steps)
-            self.values["step"] = (min(int(self.values["step"]), count - 1) + 1) % max(count, 1)
-        side, rise = inputs.held("right") - inputs.held("left"), inputs.held("down") - inputs.held("up")
-        if inputs.held("focus"):
-            pose[2] += side * TURN_SPEED / 60
-        else:
-            pose[0] += side * MOVE_SPEED / 60
-            pose[1] += rise * MOVE_SPEED / 60
-        pose[0] = min(max(pose[0], ARENA.left + 36.0), ARENA.right - 36.0)
-        pose[1] = min(max(pose[1], ARENA.top + 36.0), ARENA.bottom - 36.0)
-
     def _press(self, x, y):
         for number, rect in enumerate(ICONS):
             if rect.collidepoint(x, y):
-                self.chosen = number // len(NAMES)
-                self.change_slider("AB"[self.chosen], number % len(NAMES))
+                self.hands.chosen = number // len(NAMES)
+                self.change_slider("AB"[self.hands.chosen], number % len(NAMES))
         if ARENA.collidepoint(x, y):
             gaps = [distance(Circle(0.5), (x, y, 0.0), shape, tuple(pose)).distance
-                    for shape, pose in zip(self.shapes, self.poses, strict=True)]
+                    for shape, pose in zip(self.shapes, self.hands.poses, strict=True)]
             which = int(gaps[1] < gaps[0])
             if gaps[which] < 6.0:
-                self.chosen = self.dragged = which
-                self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
+                self.hands.take(which, x, y)
 
     def _ask(self):
         a, b = self.shapes
-        pose_a, pose_b = (tuple(pose) for pose in self.poses)
+        pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         self.gap = distance(a, pose_a, b, pose_b)
         self.manifold = collide(a, pose_a, b, pose_b)
         self.axes = debug.sat_axes(a, pose_a, b, pose_b)
@@ -147,7 +127,7 @@ class Shapes(Scene):
     def _compare(self):
         """Three methods and both orders: overlap or not, how far, how deep."""
         a, b = self.shapes
-        pose_a, pose_b = (tuple(pose) for pose in self.poses)
+        pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         gap, other = self.gap, distance(b, pose_b, a, pose_a)
         meets = len(self.manifold) > 0
         self.compared += 1
@@ -230,12 +210,12 @@ class Shapes(Scene):
         width = max(1, frame.scale - 1)
         surface = frame.surface
         surface.set_clip(frame.from_canvas(ARENA))
-        placed = [placed_hull(shape, pose) for shape, pose in zip(self.shapes, self.poses, strict=True)]
+        placed = [placed_hull(shape, pose) for shape, pose in zip(self.shapes, self.hands.poses, strict=True)]
         for index, ((points, radius), color) in enumerate(zip(placed, COLORS, strict=True)):
             corners = [lens.points(x, y) for x, y in ring(points, radius, lens.scale)]
             if len(corners) > 2:
-                pygame.draw.polygon(surface, faded(color, 0.72 if index == self.chosen else 0.8), corners)
-            pygame.draw.lines(surface, color, True, corners, width + (index == self.chosen))
+                pygame.draw.polygon(surface, faded(color, 0.72 if index == self.hands.chosen else 0.8), corners)
+            pygame.draw.lines(surface, color, True, corners, width + (index == self.hands.chosen))
             if radius and len(points) > 1:
                 core = [lens.points(x, y) for x, y in points]
                 pygame.draw.lines(surface, faded(color, 0.4), len(core) > 2, core, 1)
@@ -248,7 +228,7 @@ class Shapes(Scene):
             arrow(frame, *place, nx * 12 * frame.scale, ny * 12 * frame.scale, RED)
         surface.set_clip(None)
         draw_differences(frame, frame.from_canvas(PICTURE), placed, len(self.manifold) > 0, self.step_shown)
-        for index, pose in enumerate(self.poses):
+        for index, pose in enumerate(self.hands.poses):
             x, y = lens.points(pose[0], pose[1])
             frame.text_if_free("AB"[index], x, y - 3 * frame.text_scale, COLORS[index], SMALL, frame.text_scale, "center", True)
 
@@ -260,7 +240,7 @@ class Shapes(Scene):
             pygame.draw.circle(frame.surface, GOLD, place, 1.2 * frame.scale)
         step = self.step_shown
         if step is not None:
-            x, y = self.poses[0][:2]
+            x, y = self.hands.poses[0][:2]
             places = [lens.points(x + px, y + py) for px, py in step["witness"]]
             color = PINK if step["phase"] == "epa" else YELLOW
             pygame.draw.line(frame.surface, faded(color, 0.3), *places)
@@ -298,10 +278,10 @@ class Shapes(Scene):
         return InputFrame(actions, pointer, True, 1 if step % 3 == 0 else 0, changes)
 
     def _pointer(self, which):
-        return round(self.poses[which][0]), round(self.poses[which][1])
+        return round(self.hands.poses[which][0]), round(self.hands.poses[which][1])
 
     def state(self):
         """The poses and the tallies."""
-        poses = [value for pose in self.poses for value in pose]
-        return (self.frame, *poses, *self.values.values(), self.chosen, self.compared, self.overlapping, self.disagreed,
+        poses = [value for pose in self.hands.poses for value in pose]
+        return (self.frame, *poses, *self.values.values(), self.hands.chosen, self.compared, self.overlapping, self.disagreed,
                 self.mirrored, self.rounds)

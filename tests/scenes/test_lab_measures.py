@@ -92,15 +92,15 @@ def test_shapes_are_chosen_dragged_turned_and_stepped_through():
     hands = Hands(scene)
     hands.step()
     hands.step(pointer=ICONS[len(NAMES) + 3].center, down=True)
-    assert NAMES[int(scene.values["B"])] == NAMES[3] and scene.chosen == 1
+    assert NAMES[int(scene.values["B"])] == NAMES[3] and scene.hands.chosen == 1
     hands.step()
-    x, y = (round(v) for v in scene.poses[0][:2])
+    x, y = (round(v) for v in scene.hands.poses[0][:2])
     hands.step(pointer=(x, y), down=True)
     hands.step(pointer=(x + 9, y - 5), down=True, wheel=2)
-    assert scene.chosen == 0 and scene.poses[0][2] > 0.3
-    assert scene.poses[0][0] == pytest.approx(128.0 + 9) and scene.poses[0][1] == pytest.approx(112.0 - 5)
+    assert scene.hands.chosen == 0 and scene.hands.poses[0][2] > 0.3
+    assert scene.hands.poses[0][0] == pytest.approx(128.0 + 9) and scene.hands.poses[0][1] == pytest.approx(112.0 - 5)
     hands.step("fire")
-    assert scene.chosen == 1
+    assert scene.hands.chosen == 1
     seen = []
     for _ in range(len(scene.steps)):
         hands.step("confirm")

@@ -1,0 +1,40 @@
+"""Two things that a person drags, turns and moves about, whatever they are."""
+
+from math import pi
+
+TURN_NOTCH = 2 * pi / 64       # [rad] per wheel notch
+TURN_SPEED = 1.2               # [rad/s] with the keys
+MOVE_SPEED = 70.0              # [px/s] with the keys
+
+
+class Hands:
+    """`poses`: [x, y, angle] of both; `chosen` is the one that wheel and keys move; it stays within `room`, a Rect."""
+
+    def __init__(self, poses, chosen, room):
+        self.poses = [list(pose) for pose in poses]
+        self.chosen, self.room = chosen, room
+        self.dragged, self.grip = None, (0.0, 0.0)
+
+    def take(self, which, x, y):
+        """Take hold of one of them at (x, y)."""
+        self.chosen = self.dragged = which
+        self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
+
+    def move(self, inputs):
+        """One step of what pointer, wheel and keys do to the chosen one."""
+        if not inputs.pointer_down:
+            self.dragged = None
+        pose = self.poses[self.chosen]
+        if self.dragged is not None:
+            pose[0], pose[1] = inputs.pointer[0] + self.grip[0], inputs.pointer[1] + self.grip[1]
+        pose[2] += inputs.wheel * TURN_NOTCH
+        if inputs.pressed("fire"):
+            self.chosen = 1 - self.chosen
+        side, rise = inputs.held("right") - inputs.held("left"), inputs.held("down") - inputs.held("up")
+        if inputs.held("focus"):
+            pose[2] += side * TURN_SPEED / 60
+        else:
+            pose[0] += side * MOVE_SPEED / 60
+            pose[1] += rise * MOVE_SPEED / 60
+        pose[0] = min(max(pose[0], float(self.room.left)), float(self.room.right))
+        pose[1] = min(max(pose[1], float(self.room.top)), float(self.room.bottom))
