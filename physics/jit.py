@@ -117,8 +117,33 @@ def _folder_for(path: Path) -> str:
 
 
 if JIT:
+    class _ByContent(caching._CacheLocator):
+        """A folder whose name holds all that the kernel depends on: neither dates of files nor their path count."""
+
+        def __init__(self, function, path):
+            self._py_file = path               # numba names it in its warnings
+            self.line = function.__code__.co_firstlineno
+
+        @classmethod
+        def from_function(cls, function, path):
+            return cls(function, path)
+
+        def get_cache_path(self):
+            return _folder_for(Path(self._py_file))
+
+        def get_source_stamp(self):
+            return 0
+
+        def get_disambiguator(self):
+            return str(self.line)
+
+    class _Results(caching.CompileResultCacheImpl):
+        _locator_classes = [_ByContent]
+
     class _SafeCache(caching.FunctionCache):
         """A disk cache that treats a damaged or unwritable entry as a miss, and says so."""
+
+        _impl_class = _Results
 
         def load_overload(self, sig, target_context):
             try:
@@ -161,14 +186,8 @@ def _compile(function):
         return function
     dispatcher = numba.njit(function, error_model="numpy", fastmath=False)
     _take_literals_as_values(dispatcher)
-    folder = _folder_for(Path(function.__code__.co_filename))
-    if folder:
-        before = numba.config.CACHE_DIR
-        numba.config.CACHE_DIR = folder
-        try:
-            dispatcher._cache = _SafeCache(function)
-        finally:
-            numba.config.CACHE_DIR = before
+    if _folder_for(Path(function.__code__.co_filename)):
+        dispatcher._cache = _SafeCache(function)
     registry.append(dispatcher)
     return dispatcher
 
