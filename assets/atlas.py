@@ -38,9 +38,9 @@ class Sheet:
             raise ValueError(f"animation {name!r} of sheet {self.name!r} uses unknown frames {missing}")
         self.animations[name] = {"frames": list(frames), "fps": fps}
 
-    def add_sequence(self, name, pictures, fps, first=0):
+    def add_sequence(self, name, pictures, fps):
         """Add frames name_0, name_1, ... and the animation `name` over them."""
-        names = [f"{name}_{first + i}" for i in range(len(pictures))]
+        names = [f"{name}_{i}" for i in range(len(pictures))]
         for frame, picture in zip(names, pictures, strict=True):
             self.add(frame, picture)
         self.animate(name, names, fps)

@@ -5,13 +5,12 @@ Rock is cold (violet in the shade, teal in the light), so that it is never taken
 
 import numpy as np
 
-from assets.decoration import back_wall
+from assets.decoration import TILE, back_wall
 from assets.drawn import lay
 from assets.fields import box, capsule, circle, noise, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
-from assets.shading import Sprite
+from assets.shading import Sprite, opaque
 
-TILE = 16
 SEEDS = ((2, 3), (8, 1), (13, 5), (5, 9), (11, 11), (1, 13))   # middles of the boulders, px; they repeat with the tile
 CLODS = ((3, 2), (11, 4), (6, 9), (14, 11), (2, 14), (9, 15))
 WALL_DARK = (18, 17, 38)
@@ -72,7 +71,7 @@ def clods(ramp, seed):
 
 def back_cave(variant):
     """The dark rough wall behind the cave, variant 0..1, opaque: the same boulders, far back in the dark."""
-    return _opaque(mix(boulders(0 if variant == 0 else 2), WALL_DARK, 0.62))
+    return opaque(mix(boulders(0 if variant == 0 else 2), WALL_DARK, 0.62))
 
 
 def dripstone(hanging):
@@ -133,10 +132,7 @@ def banner():
     sprite.part(cloth, mix(RAMPS["red"], OUTLINE, 0.2), bulge=3, base=0.44, gain=0.35, grain=0.2)
     for column in (5, 10):   # folds
         sprite.paint(box(x, y, column, 2, column + 1, 15), RAMPS["red"][1], 0.45)
-    for row, cells in enumerate(("#..##..#", ".#.##.#.", "..####..", "...##...")):
-        for column, cell in enumerate(cells):
-            if cell == "#":
-                sprite.dot(4 + column, 5 + row, RAMPS["gold"][3])
+    sprite.stamp(("#..##..#", ".#.##.#.", "..####..", "...##..."), 4, 5, {"#": RAMPS["gold"][3]})
     sprite.part(box(x, y, 2, 0.6, 14, 2.4), RAMPS["wood"], bulge=1.4, base=0.5, grain=0)
     lay(picture, sprite.outline().pixels(), 0, 0)
     return picture
@@ -162,15 +158,8 @@ def chain():
     sprite = Sprite(TILE, TILE)
     links = ("..ab..", ".a..b.", ".a..b.", "..ab..", "..ab..", "..ab..", "..ab..", "..ab..")   # one open, one from its edge
     for top in (0, 8):
-        for row, cells in enumerate(links):
-            for column, cell in enumerate(cells):
-                if cell != ".":
-                    sprite.dot(5 + column, top + row, RAMPS["gunmetal"][4 if cell == "a" else 2])
+        sprite.stamp(links, 5, top, {"a": RAMPS["gunmetal"][4], "b": RAMPS["gunmetal"][2]})
     return sprite.outline().pixels()
-
-
-def _opaque(picture):
-    return np.concatenate([picture, np.full(picture.shape[:2] + (1,), 255, np.uint8)], axis=2)
 
 
 def cave_tiles():

@@ -3,17 +3,12 @@
 import numpy as np
 
 from assets.fields import dither, layered_noise
-from assets.palette import oklch
+from assets.palette import graded, oklch_all
+from assets.shading import cut_out
 
-
-def _tones(values):
-    return np.array([oklch(*value) for value in values], np.uint8)
-
-
-HIGH = _tones(((0.52, 0.040, 262), (0.60, 0.034, 255), (0.68, 0.026, 245), (0.75, 0.018, 235)))
-
-
-STORM = _tones(((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0.39, 0.026, 262)))
+# Colours of a cloud from its shade to its light.
+HIGH = oklch_all((0.52, 0.040, 262), (0.60, 0.034, 255), (0.68, 0.026, 245), (0.75, 0.018, 235))
+STORM = oklch_all((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0.39, 0.026, 262))
 
 
 def cover(width, height, cells_x, cells_y, seed, threshold):
@@ -29,9 +24,8 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness   # thicker towards the bottom right: faces the light
     level = 1.6 - lit * 26 + thickness * 3 + dither(540, 480) * 0.9
-    tone = tones[np.clip(np.floor(np.round(level, 6)), 0, 3).astype(int)]
     out = np.zeros((540, 480, 4), np.uint8)
-    out[..., :3] = tone
+    out[..., :3] = graded(tones, level)
     # Thin edges are half clear and dithered away, so that no hard contour is taken for an island's.
     edge = thickness / 0.05 + dither(540, 480) * 0.9
     out[..., 3] = np.where(solid & (edge > 0.45), np.where(edge > 1.5, alpha, alpha // 2), 0)
@@ -63,9 +57,5 @@ def bank(width, height, seed, base, puffs, tones):
     solid = (field < 0) & (y < base - np.abs(rough) * 14)
     height_map = np.sqrt(np.clip(-field, 0, 14)) * 3
     slope_y, slope_x = np.gradient(height_map)
-    level = 1.5 + (slope_x * 0.55 + slope_y * 0.8) * 1.6 - (y - base + 20) / 22 + dither(height, width) * 1.0
-    out = np.zeros((height, width, 4), np.uint8)
-    out[..., :3] = tones[np.clip(np.floor(np.round(level, 6)), 0, 3).astype(int)]
-    out[..., 3] = solid * 255
-    out[~solid] = 0
-    return out
+    level = 1.5 + (slope_x * 0.55 + slope_y * 0.8) * 1.6 - (y - base + 20) / 22 + dither(height, width)
+    return cut_out(graded(tones, level), solid)

@@ -10,17 +10,19 @@ import sys
 import numpy as np
 
 from assets import FOLDER, moments, png
+from assets.font import write
 from assets.palette import OUTLINE, RAMPS, oklch
+from assets.shading import opaque
 
 SCALE = 3
 WIDTH = 496   # [px] before scaling: the widest frame and its gaps
-GAP = 4   # [px] around a frame
+GAP, HEADING = 4, 16   # [px] around a frame, above a sheet for its name
 SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lab")
 BACKDROPS = ("sea", "coast", "storm", "clouds_low", "clouds_high", "clouds_storm", "sky_dusk", "clouds", "mountains_far",
              "mountains_mid", "keep_far", "mountains_near", "cave_far", "cave_near")
 SHRUNK = 3   # a backdrop is shown at a third of its size, so at its own after scaling
-BACKGROUND = np.array(oklch(0.36, 0.045, 285), np.uint8)
-PAPER = np.array(oklch(0.27, 0.045, 285), np.uint8)
+BACKGROUND = oklch(0.36, 0.045, 285)
+PAPER = oklch(0.27, 0.045, 285)
 
 
 def load_frames(name):
@@ -31,17 +33,6 @@ def load_frames(name):
         frame: picture[place["y"] : place["y"] + place["h"], place["x"] : place["x"] + place["w"]]
         for frame, place in table["frames"].items()
     }
-
-
-def write_text(target, text, x, y, colour, font="font5x7"):
-    """Write one line of text on target (h, w, 3) at (x, y)."""
-    sheet = png.decode((FOLDER / "font" / f"{font}.png").read_bytes())
-    table = json.loads((FOLDER / "font" / f"{font}.json").read_text(encoding="utf-8"))
-    for character in text:
-        glyph = table["glyphs"][character]
-        cell = sheet[glyph["y"] : glyph["y"] + table["height"], glyph["x"] : glyph["x"] + glyph["w"], 3] > 0
-        target[y : y + cell.shape[0], x : x + cell.shape[1]][cell] = colour
-        x += glyph["w"]
 
 
 def section(name, frames):
@@ -55,11 +46,10 @@ def section(name, frames):
         used += frame.shape[1] + GAP
     rows.append(row)
     heights = [max(frame.shape[0] for frame in row) for row in rows]
-    out = np.empty((16 + sum(heights) + GAP * (len(rows) + 1), WIDTH, 3), np.uint8)
-    out[:] = BACKGROUND
+    out = np.full((HEADING + sum(heights) + GAP * (len(rows) + 1), WIDTH, 3), BACKGROUND)
     out[:13] = PAPER
-    write_text(out, f"{name}  {len(frames)} frames", GAP, 2, RAMPS["gold"][4])
-    y = 16
+    write(out, f"{name}  {len(frames)} frames", GAP, 2, RAMPS["gold"][4])
+    y = HEADING
     for row, height in zip(rows, heights, strict=True):
         x = GAP
         for frame in row:
@@ -75,9 +65,7 @@ def section(name, frames):
 def shrunk(name):
     """A backdrop at a third of its size, (h, w, 4) uint8: every third pixel, clear where it is half clear."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())[::SHRUNK, ::SHRUNK]
-    if picture.shape[2] == 4:
-        return picture
-    return np.concatenate([picture, np.full(picture.shape[:2] + (1,), 255, np.uint8)], axis=2)
+    return picture if picture.shape[2] == 4 else opaque(picture)
 
 
 def sprites():
@@ -87,7 +75,7 @@ def sprites():
     return np.concatenate(sections).repeat(SCALE, 0).repeat(SCALE, 1)
 
 
-PICTURES = {"sprites": sprites, "moments": lambda: moments.sheet(write_text)}
+PICTURES = {"sprites": sprites, "moments": moments.sheet}
 
 
 def main(arguments=None):

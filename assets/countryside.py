@@ -6,20 +6,20 @@ As the sea (terrain.py) it stays at or under 60 % lightness and muted, for bulle
 import numpy as np
 
 from assets.fields import layered_noise, noise
-from assets.palette import mix, oklch
+from assets.palette import mix, oklch, oklch_all
 from assets.terrain import (FOAM, HEIGHT, MEADOW, ROCK, SAND, SEA, WET_SAND, WIDTH, border, glints, height_map, hill_light,
                             pick, plant)
 
 SHORE, BEACH, CRAGS = 0.36, 0.385, 0.80   # heights where one ground gives way to the next: mostly land
-CROPS = np.array([oklch(*tone) for tone in (
+CROPS = oklch_all(
     (0.46, 0.058, 112), (0.50, 0.056, 98), (0.42, 0.062, 132), (0.47, 0.050, 86), (0.38, 0.055, 142),
-    (0.44, 0.040, 70))], np.uint8)
-EARTH = np.array(oklch(0.45, 0.036, 72), np.uint8)
-HEDGE = np.array(oklch(0.29, 0.046, 155), np.uint8)
-RIVER = np.array([oklch(*tone) for tone in ((0.33, 0.055, 238), (0.38, 0.056, 230))], np.uint8)
-ROOF_LIT = np.array([oklch(*tone) for tone in ((0.54, 0.070, 42), (0.50, 0.030, 60), (0.50, 0.055, 30))], np.uint8)
-ROOF_DARK = np.array([oklch(*tone) for tone in ((0.38, 0.060, 32), (0.36, 0.026, 50), (0.35, 0.050, 20))], np.uint8)
-SHADOW = np.array(oklch(0.20, 0.03, 170), np.uint8)
+    (0.44, 0.040, 70))
+EARTH = oklch(0.45, 0.036, 72)
+HEDGE = oklch(0.29, 0.046, 155)
+RIVER = oklch_all((0.33, 0.055, 238), (0.38, 0.056, 230))
+ROOF_LIT = oklch_all((0.54, 0.070, 42), (0.50, 0.030, 60), (0.50, 0.055, 30))
+ROOF_DARK = oklch_all((0.38, 0.060, 32), (0.36, 0.026, 50), (0.35, 0.050, 20))
+SHADOW = oklch(0.20, 0.03, 170)
 LAND_CELLS = 70   # fields on the whole picture
 VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))   # [px] middles, those in water are left out
 

@@ -9,10 +9,10 @@ from assets import FOLDER
 from assets.drawn import lay, read_parts
 from assets.fields import circle, layered_noise, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
-from assets.shading import Sprite
+from assets.shading import Sprite, opaque
 from assets.things import LETTERS as THING_LETTERS
 
-TILE = 16
+TILE = 16   # [px] side of a tile
 GRASS = RAMPS["grass"]
 LETTERS = {
     "O": OUTLINE, "d": GRASS[1], "f": GRASS[2], "g": GRASS[3],
@@ -59,17 +59,15 @@ def scenery(name):
 def back_wall(variant):
     """Dark masonry behind a shaft or cellar, variant 0..1."""
     ramp = [mix(RAMPS["stone"][i], (30, 22, 52), 0.62) for i in range(6)]
-    picture = np.zeros((TILE, TILE, 4), np.uint8)
-    picture[..., 3] = 255
-    picture[..., :3] = ramp[1]
+    picture = np.full((TILE, TILE, 3), ramp[1])
     for row, offset in ((0, 4), (8, 12)):
-        picture[row, :, :3] = ramp[2]
-        picture[row + 7, :, :3] = ramp[0]
-        picture[row : row + 8, offset, :3] = ramp[0]
+        picture[row] = ramp[2]
+        picture[row + 7] = ramp[0]
+        picture[row : row + 8, offset] = ramp[0]
     if variant:
-        picture[2:5, 7:10, :3] = ramp[2]
-        picture[11:13, 2:6, :3] = ramp[0]
-    return picture
+        picture[2:5, 7:10] = ramp[2]
+        picture[11:13, 2:6] = ramp[0]
+    return opaque(picture)
 
 
 def torch():

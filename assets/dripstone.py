@@ -6,19 +6,14 @@ Both are 480 x 270 and seamless in x. The far wall is opaque; the near layer is 
 import numpy as np
 
 from assets.fields import dither, layered_noise, length, noise
-from assets.palette import mix, oklch
+from assets.palette import graded, mix, oklch_all
+from assets.shading import cut_out
 
 WIDTH, HEIGHT = 480, 270   # [px]
-
-
-def _tones(*values):
-    return np.array([oklch(*value) for value in values], np.uint8)
-
-
-FAR = _tones((0.215, 0.040, 292), (0.250, 0.048, 286), (0.290, 0.056, 276), (0.335, 0.060, 262), (0.385, 0.060, 245))
-HAZE = _tones((0.335, 0.062, 250), (0.40, 0.068, 225), (0.47, 0.068, 205))
-NEAR = _tones((0.130, 0.030, 292), (0.165, 0.034, 288), (0.210, 0.040, 280), (0.290, 0.048, 262))
-CRYSTAL = _tones((0.42, 0.080, 215), (0.56, 0.095, 200), (0.72, 0.085, 190))
+FAR = oklch_all((0.215, 0.040, 292), (0.250, 0.048, 286), (0.290, 0.056, 276), (0.335, 0.060, 262), (0.385, 0.060, 245))
+HAZE = oklch_all((0.335, 0.062, 250), (0.40, 0.068, 225), (0.47, 0.068, 205))
+NEAR = oklch_all((0.130, 0.030, 292), (0.165, 0.034, 288), (0.210, 0.040, 280), (0.290, 0.048, 262))
+CRYSTAL = oklch_all((0.42, 0.080, 215), (0.56, 0.095, 200), (0.72, 0.085, 190))
 # Crystal clusters on the far wall: x, y, size, all px
 CLUSTERS = ((70, 206, 15), (212, 70, 11), (330, 190, 18), (436, 96, 12), (146, 150, 8))
 # Hanging and standing stone of the near layer: x, half width at the root, length, whether it hangs; px
@@ -39,7 +34,7 @@ def far_wall():
     light = np.clip((slope_x * 0.55 + slope_y * 0.8) * 11, -1, 1)
     strata = np.floor((y + rough * 60) / 13) % 3 == 0
     level = 1.7 + light * 1.7 - strata * 0.5 + dither(HEIGHT, WIDTH) * 0.8
-    picture = FAR[np.clip(np.floor(np.round(level, 6)), 0, 4).astype(int)]
+    picture = graded(FAR, level)
     hollow = layered_noise(WIDTH, HEIGHT, 4, 3, 3, 860) - abs(y - HEIGHT * 0.52) / HEIGHT * 0.55
     deep = (hollow - 0.42) * 12 + dither(HEIGHT, WIDTH) * 0.9
     for i, tone in enumerate(HAZE):
@@ -87,15 +82,11 @@ def near_pillars():
         solid |= body
         facing = np.where(body, -dx / np.maximum(width, 1), facing)
     level = 1.15 + facing * 1.05 + (noise(WIDTH, HEIGHT, 40, 90, 895) - 0.5) * 0.9 + dither(HEIGHT, WIDTH) * 0.6
-    picture = NEAR[np.clip(np.floor(np.round(level, 6)), 0, 2).astype(int)]
+    picture = graded(NEAR[:3], level)
     rim = solid & ~(np.roll(solid, 1, 1) & np.roll(solid, (1, 1), (0, 1)))
     rim[0] = False
     picture[rim] = NEAR[3]
-    out = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
-    out[..., :3] = picture
-    out[..., 3] = 255
-    out[~solid] = 0
-    return out
+    return cut_out(picture, solid)
 
 
 def cave_layers():

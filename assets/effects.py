@@ -41,8 +41,8 @@ def muzzle_flash(frame):
     x, y = sprite.x, sprite.y
     reach, waist = ((5.4, 2.6), (6.6, 2.0), (4.2, 1.2))[frame]
     points = []
-    for i in range(8):
-        step_x, step_y = ((0, -1), (0.7, -0.7), (1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0), (-0.7, -0.7))[i]
+    for i, (step_x, step_y) in enumerate(((0, -1), (0.7, -0.7), (1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0),
+                                          (-0.7, -0.7))):
         distance = reach if i % 2 == 0 else waist
         points.append((7 + step_x * distance, 7 + step_y * distance))
     star = polygon(x, y, points)
@@ -54,16 +54,15 @@ def muzzle_flash(frame):
 def spark(frame):
     """An impact spark that flies apart, frame 0..4: 16 x 16 px."""
     sprite = Sprite(16, 16)
-    colours = (FIRE[0], FIRE[1], FIRE[2], FIRE[3], FIRE[4])
     if frame < 2:
-        sprite.flat(circle(sprite.x, sprite.y, 8, 8, (3.4, 2.2)[frame]), colours[frame])
+        sprite.flat(circle(sprite.x, sprite.y, 8, 8, (3.4, 2.2)[frame]), FIRE[frame])
     for i, (step_x, step_y) in enumerate(((0.1, -1), (0.8, -0.6), (1, 0.2), (0.5, 0.9), (-0.3, 1), (-0.9, 0.5),
                                           (-1, -0.2), (-0.6, -0.8))):
         start = 1.5 + frame * 1.3 * (0.8 + 0.2 * (i % 3))
         stroke = max(0.6, 2.6 - frame * 0.5)
         begin = (8 + step_x * start, 8 + step_y * start)
         end = (8 + step_x * (start + stroke), 8 + step_y * (start + stroke))
-        sprite.flat(capsule(sprite.x, sprite.y, begin, end, 0.62), colours[min(4, frame + i % 2)])
+        sprite.flat(capsule(sprite.x, sprite.y, begin, end, 0.62), FIRE[min(4, frame + i % 2)])
     return sprite.pixels()
 
 

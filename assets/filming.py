@@ -14,8 +14,9 @@ import numpy as np
 import pygame
 
 from assets import png
-from assets.moments import SEED, Moment, done, leader
+from assets.moments import FRAME, SEED, Moment, done, leader
 from game.drawing.picture import Picture
+from game.drawing.presenter import SCREENSHOT_SCALE
 from game.headless import start_dummy_display
 from game.inputs import BotSource
 from game.overlays.stack import Overlays
@@ -23,7 +24,6 @@ from game.registry import Registry
 from game.session import Session
 from scenes import SCENES
 
-SCALE = 3   # presented pixels of one canvas pixel
 SIZE = (160, 90)   # [px] of a menu picture
 MOST = 20000   # frames within which every moment of a game comes
 
@@ -87,7 +87,7 @@ class Film:
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene; return {frame number: picture} for those asked for. `reduced` makes pictures smaller."""
+    """Run a scene; return {frame number: picture} for those asked for."""
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
         running.step()
@@ -113,13 +113,13 @@ def film_moments(name, seed, moments):
     return taken
 
 
-def reduced(pixels, part=(0, 0, 480, 270), zoom=1):
+def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
     """The part (left, top, width, height in canvas px) of a presented picture, `zoom` canvas pixels to one.
 
     Averages are of whole numbers, so that they are the same on every machine.
     """
-    left, top, width, height = (value * SCALE for value in part)
-    share = SCALE * zoom
+    left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
+    share = SCREENSHOT_SCALE * zoom
     seen = pixels[top : top + height, left : left + width].astype(np.int64)
     blocks = seen.reshape(height // share, share, width // share, share, 3)
     return ((blocks.sum(axis=(1, 3)) + share * share // 2) // (share * share)).astype(np.uint8)

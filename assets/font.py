@@ -54,6 +54,15 @@ def load_glyphs(name):
     return dict(sorted(glyphs.items()))
 
 
+def write(target, text, x, y, colour):
+    """Write one line of the larger font on target (h, w, 3) uint8, its top left at (x, y)."""
+    glyphs = load_glyphs("font5x7")
+    for character in text:
+        ink = glyphs[character]
+        target[y : y + ink.shape[0], x : x + ink.shape[1]][ink] = colour
+        x += ink.shape[1] + 1
+
+
 def font_files(name):
     """Return {relative path: bytes} of one font's sheet (white on clear) and its JSON."""
     glyphs, height = load_glyphs(name), FONTS[name]["height"]

@@ -6,14 +6,13 @@ Drawn like a range of mountains along the bottom of the screen; its light comes 
 import numpy as np
 
 from assets.fields import dither, noise
-from assets.palette import oklch
+from assets.palette import mix, oklch, oklch_all
 
 WIDTH, HEIGHT = 480, 150   # [px]
-BODY, LIGHT, SHADE, EDGE = (np.array(oklch(*tone), np.uint8) for tone in (
-    (0.300, 0.070, 300), (0.355, 0.080, 312), (0.250, 0.062, 292), (0.50, 0.095, 350)))
-WINDOW, ROOF, ROOF_LIT = (np.array(oklch(*tone), np.uint8) for tone in (
-    (0.80, 0.120, 75), (0.265, 0.080, 330), (0.36, 0.095, 345)))
-FOG = np.array(oklch(0.44, 0.090, 335), np.uint8)
+BODY, LIGHT, SHADE, EDGE = oklch_all(
+    (0.300, 0.070, 300), (0.355, 0.080, 312), (0.250, 0.062, 292), (0.50, 0.095, 350))
+WINDOW, ROOF, ROOF_LIT = oklch_all((0.80, 0.120, 75), (0.265, 0.080, 330), (0.36, 0.095, 345))
+FOG = oklch(0.44, 0.090, 335)
 # x of the left edge, width, height, kind: "wall", "tower" with battlements, "spire" with a pointed roof; all px
 PARTS = (
     (0, 480, 30, "wall"), (0, 120, 46, "wall"), (150, 130, 54, "wall"), (330, 150, 42, "wall"),
@@ -43,7 +42,7 @@ def _part(out, stone, left, width, height, kind):
     top = HEIGHT - height
     for column in range(width):
         x = left + column
-        merlon = 0 if kind == "spire" else 3 if column % 6 < 3 else 0
+        merlon = 3 if kind != "spire" and column % 6 < 3 else 0
         for y in range(top - merlon, HEIGHT):
             tone = BODY
             if column >= width - max(3, width // 4):
@@ -82,4 +81,4 @@ def _fog(out):
     share = (y - HEIGHT * 0.62) / (HEIGHT * 0.38) + dither(HEIGHT, WIDTH) * 0.45
     for limit, strength in ((0.35, 0.3), (0.6, 0.55), (0.85, 0.8)):
         band = (share > limit) & (out[..., 3] > 0)
-        out[band, :3] = np.floor(out[band, :3] + (FOG - out[band, :3].astype(float)) * strength + 0.5).astype(np.uint8)
+        out[band, :3] = mix(out[band, :3], FOG, strength)

@@ -3,7 +3,7 @@
 A piece fills its picture to the last pixel, outline included, so that picture and collision shape have one size.
 """
 
-import numpy as np
+import math
 
 from assets.atlas import Sheet
 from assets.fields import box, capsule, circle, layered_noise, polygon
@@ -75,9 +75,10 @@ def gem(points, size, ramp):
 
 
 def corners(count, size, start):
-    """Corners of a regular polygon that fills size x size."""
-    angles = start + np.arange(count) * 2 * np.pi / count
-    return [(size / 2 * (1 + np.cos(a)), size / 2 * (1 + np.sin(a))) for a in angles]
+    """Corners of a regular polygon that fills size x size; start: angle of the first one in degrees."""
+    angles = [math.radians(start + i * 360 / count) for i in range(count)]
+    # Rounded, as in synth.py: sines differ in their last bits from machine to machine.
+    return [(size / 2 * (1 + round(math.cos(a), 9)), size / 2 * (1 + round(math.sin(a), 9))) for a in angles]
 
 
 def metal_ball(radius, ramp):
@@ -99,7 +100,7 @@ def iron_ball(radius):
     sprite.part(circle(x, y, radius, radius, radius - 0.7), RAMPS["gunmetal"], bulge=radius * 0.8, base=0.42, gain=0.6)
     sprite.paint(box(x, y, 0, radius - 3, size, radius + 3), RAMPS["gunmetal"][1], 0.6)
     for angle in range(-60, 61, 30):
-        place = radius + (radius - 4) * np.sin(np.radians(angle))
+        place = radius + (radius - 4) * round(math.sin(math.radians(angle)), 9)
         sprite.paint(circle(x, y, place, radius, 1.4), RAMPS["steel"][4])
     return sprite.outline().pixels()
 
@@ -201,8 +202,8 @@ def lab_files():
         sheet.add(f"brick_{ramp}", block(14, 6, ramp))
         sheet.add(f"disc_{ramp}", disc(5, ramp))
         sheet.add(f"pill_{ramp}", pill(6, 3, ramp))
-        sheet.add(f"triangle_{ramp}", gem(corners(3, 14, -np.pi / 2), 14, ramp))
-        sheet.add(f"hexagon_{ramp}", gem(corners(6, 12, 0.0), 12, ramp))
+        sheet.add(f"triangle_{ramp}", gem(corners(3, 14, -90), 14, ramp))
+        sheet.add(f"hexagon_{ramp}", gem(corners(6, 12, 0), 12, ramp))
     sheet.add("steel_ball", metal_ball(14, "steel"))
     sheet.add("striker_ball", metal_ball(14, "gold"))
     sheet.add("iron_ball", iron_ball(20))

@@ -3,7 +3,7 @@
 A row is (type, x, y, width, height, properties), px, x and y the top left corner.
 """
 
-from assets.tiles import TILE
+from assets.decoration import TILE
 
 # letter: (type, width, height) of objects that stand on the tile's bottom, centred on the tile
 STANDING = {

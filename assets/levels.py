@@ -5,12 +5,13 @@ Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide roo
 that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act whose look they have.
 """
 
+import itertools
 import json
 
 from assets import FOLDER
-from assets.decoration import SCENERY
+from assets.decoration import SCENERY, TILE
 from assets.level_things import HANGING, STANDING, hints, objects
-from assets.tiles import DEPTHS, NE, NW, SE, SW, TILE, E, N, S, W, reduced, tile_table
+from assets.tiles import DEPTHS, NE, NW, SE, SW, E, N, S, W, reduced, tile_table
 
 SHEET_WIDTH = 256   # [px] as assets/atlas.py packs the sheet "tiles", without gaps
 GROUND = "#"
@@ -257,40 +258,50 @@ def tileset(table):
 def tiled_map(level):
     """Return the whole map as Tiled's JSON structure."""
     table = tile_table()
-    gids = {name: i + 1 for i, name in enumerate(table)}
-    cells = [(x, y) for y in range(level.height) for x in range(level.width)]
-    decor, walls = decor_names(level)
-    # A tree may reach past the map or have clear corners that are no tiles: both are 0.
-    pictures = {
-        "wall": walls, "decor": decor, "solid": {place: tile_name(level, *place) for place in cells},
-        "cover": cover_names(level),
-    }
-    size = {"width": level.width, "height": level.height, "x": 0, "y": 0, "opacity": 1, "visible": True}
-    layers = [{"name": name, "type": "tilelayer", **size, "data": [gids.get(names.get(place), 0) for place in cells]}
-              for name, names in pictures.items()]
-    number = 0
-    for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
-        things = [
-            {"id": number + i, "name": "", "type": kind, "x": x, "y": y, "width": width, "height": height, "rotation": 0,
-             "visible": True, "properties": _properties(properties)}
-            for i, (kind, x, y, width, height, properties) in enumerate(rows, 1)
-        ]
-        number += len(things)
-        layers.append({"name": name, "type": "objectgroup", "draworder": "index", "opacity": 1, "visible": True,
-                       "x": 0, "y": 0, "objects": things})
+    groups = _object_layers(level)
+    layers = _tile_layers(level, table) + groups
     return {
         "type": "map", "version": "1.10", "tiledversion": "1.10.2", "orientation": "orthogonal",
         "renderorder": "right-down", "infinite": False, "compressionlevel": -1, "width": level.width,
         "height": level.height, "tilewidth": TILE, "tileheight": TILE, "nextlayerid": len(layers) + 1,
-        "nextobjectid": number + 1,
+        "nextobjectid": 1 + sum(len(group["objects"]) for group in groups),
         "tilesets": [tileset(table)],
         "layers": [{"id": i, **layer} for i, layer in enumerate(layers, 1)],
     }
 
 
+def _tile_layers(level, table):
+    """The layers of tiles, back to front. table: all tiles in the order of the tileset, counted from 1; 0 is no tile."""
+    numbers = {name: i for i, name in enumerate(table, 1)}
+    cells = [(x, y) for y in range(level.height) for x in range(level.width)]
+    decor, walls = decor_names(level)
+    pictures = {
+        "wall": walls, "decor": decor, "solid": {place: tile_name(level, *place) for place in cells},
+        "cover": cover_names(level),
+    }
+    size = {"width": level.width, "height": level.height, "x": 0, "y": 0, "opacity": 1, "visible": True}
+    # A tree may reach past the map or have clear corners that are no tiles: neither is in the data.
+    return [{"name": name, "type": "tilelayer", **size, "data": [numbers.get(names.get(place), 0) for place in cells]}
+            for name, names in pictures.items()]
+
+
+def _object_layers(level):
+    """The layers of objects, which are numbered through from 1."""
+    numbers, groups = itertools.count(1), []
+    for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
+        things = [
+            {"id": next(numbers), "name": "", "type": kind, "x": x, "y": y, "width": width, "height": height, "rotation": 0,
+             "visible": True, "properties": _properties(properties)}
+            for kind, x, y, width, height, properties in rows
+        ]
+        groups.append({"name": name, "type": "objectgroup", "draworder": "index", "opacity": 1, "visible": True,
+                       "x": 0, "y": 0, "objects": things})
+    return groups
+
+
 def to_tmj(structure):
     """Return the map's bytes with a line per map row, tile and object, so that a change shows as a small diff."""
-    text = json.dumps(structure, ensure_ascii=False, indent=None)
+    text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:
             flat = json.dumps(layer["data"])

@@ -9,12 +9,13 @@ from typing import Callable
 
 import numpy as np
 
+from assets.font import write
 from assets.palette import OUTLINE, RAMPS, oklch
 
 COLUMNS, ROWS = 3, 4
 FRAME = (480, 270)   # [px]
 GAP, CAPTION, HEADING = 6, 13, 20   # [px] around a picture, below it for its words, above a game
-PAPER = np.array(oklch(0.22, 0.045, 285), np.uint8)
+PAPER = oklch(0.22, 0.045, 285)
 SEED = 1
 
 
@@ -95,24 +96,23 @@ MOMENTS = {
 }
 
 
-def sheet(write_text):
-    """Return the whole picture, (h, w, 3) uint8. write_text: as in contact_sheet, to put words on it."""
-    return np.concatenate([game_moments(name, write_text) for name in MOMENTS])
+def sheet():
+    """Return the whole picture, (h, w, 3) uint8."""
+    return np.concatenate([game_moments(name) for name in MOMENTS])
 
 
-def game_moments(name, write_text):
+def game_moments(name):
     """One game's moments under its name."""
-    from assets.filming import film_moments, reduced
+    from assets.filming import film_moments, reduced      # it imports this file
 
     taken = film_moments(name, SEED, MOMENTS[name])
     cell_width, cell_height = FRAME[0] + GAP, FRAME[1] + CAPTION + GAP
-    out = np.empty((HEADING + ROWS * cell_height, COLUMNS * cell_width + GAP, 3), np.uint8)
-    out[:] = PAPER
-    write_text(out, name.upper(), GAP, 7, RAMPS["gold"][4])
+    out = np.full((HEADING + ROWS * cell_height, COLUMNS * cell_width + GAP, 3), PAPER)
+    write(out, name.upper(), GAP, 7, RAMPS["gold"][4])
     for i, (moment, picture) in enumerate(zip(MOMENTS[name], taken, strict=True)):
         row, column = divmod(i, COLUMNS)
         left, top = GAP + column * cell_width, HEADING + row * cell_height
         out[top - 1 : top + FRAME[1] + 1, left - 1 : left + FRAME[0] + 1] = OUTLINE
         out[top : top + FRAME[1], left : left + FRAME[0]] = reduced(picture)
-        write_text(out, f"{i + 1}  {moment.caption}", left + 1, top + FRAME[1] + 4, RAMPS["steel"][4])
+        write(out, f"{i + 1}  {moment.caption}", left + 1, top + FRAME[1] + 4, RAMPS["steel"][4])
     return out

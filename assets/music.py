@@ -4,23 +4,25 @@ Everything is laid on a ring as long as the tune: what still rings at the end is
 around it too. The level is set by the loudness of the whole, so that no tune jumps out beside another.
 """
 
-import io
 import math
-import wave
 
 import numpy as np
 
 from assets import FOLDER
-from assets.music_harmony import complaints
+from assets.music_harmony import STEPS_PER_BEAT, complaints
 from assets.music_notation import read_tune
 from assets.music_voices import FINE, OVERSAMPLING, RATE, decimated, drum, low_pass, tone
+from assets.synth import to_wav
 
 TUNES = ("title", "shooter", "boss", "platformer", "lab")
 JINGLES = ("victory", "game_over")
-LOUDNESS = -21.0         # [dB of full scale] of what is above 100 Hz; the effects peak at -3 dB
+LOUDNESS = -21.0         # [dB of full scale] of what is above HEARD; the effects peak at -3 dB
+HEARD = 100.0            # [Hz] what is below adds little to how loud a tune seems
+RUMBLE = 25.0            # [Hz] what is below is taken out: nobody hears it
 KNEE, CEILING = 0.45, 0.70      # peaks above the knee are rounded off and never reach the ceiling
 TAIL = 0.9               # [s] a jingle rings out
-STRESS = (1.0, 0.86, 0.93, 0.86)       # of the four steps of a beat
+STRESS = (1.0, 0.86, 0.93, 0.86)       # of the steps of a beat
+ECHO_CORNER, LAST_ECHO = 2400.0, 0.05  # [Hz] above which repeats are duller; softer ones are left out
 TAKES = 3                # strokes of each drum that differ a little, in turn
 PRODUCTS = {f"music/{name}": ("assets.music", "music_files", (name,)) for name in (*TUNES, *JINGLES)}
 
@@ -42,7 +44,7 @@ def render(tune):
             _echo(tune, voice, instrument.echo, instrument.delay)
         ring += voice
     samples = decimated(ring)
-    return _mastered(samples - low_pass(samples, 25.0, RATE, around=True), tune.loop)
+    return _mastered(samples - low_pass(samples, RUMBLE, RATE, around=True), tune.loop)
 
 
 def _sing(tune, notes, voice):
@@ -57,7 +59,7 @@ def _sing(tune, notes, voice):
         key = (instrument, note.pitches, round(seconds, 6), slide, "~" in note.marks)
         if key not in made:
             made[key] = tone(instrument, note.pitches, seconds, slide, instrument.vibrato * 2 if "~" in note.marks else None)
-        _add(voice, round(starts * FINE), made[key], note.volume * STRESS[note.start % 4])
+        _add(voice, round(starts * FINE), made[key], _gain(note))
         before = note.pitches[0]
 
 
@@ -70,7 +72,12 @@ def _drums(tune, notes, voice):
             key = (name, number % TAKES)
             if key not in takes:
                 takes[key] = drum(*key)
-            _add(voice, round(tune.seconds(note.start) * FINE), takes[key], note.volume * STRESS[note.start % 4])
+            _add(voice, round(tune.seconds(note.start) * FINE), takes[key], _gain(note))
+
+
+def _gain(note):
+    """How strongly a note is added: its own volume, and where in the beat it stands."""
+    return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _add(ring, start, samples, gain):
@@ -83,17 +90,17 @@ def _add(ring, start, samples, gain):
 
 
 def _echo(tune, voice, share, delay):
-    """Add repeats, duller than the voice and each softer than the one before, down to 5 %."""
-    shift = round(delay * 15.0 / tune.tempo * FINE)
-    dull, gain, number = low_pass(voice, 2400.0, around=True), share, 1
-    while gain > 0.05:
+    """Add repeats, duller than the voice and each softer than the one before. delay: steps between them."""
+    shift = round(delay * (60.0 / STEPS_PER_BEAT) / tune.tempo * FINE)
+    dull, gain, number = low_pass(voice, ECHO_CORNER, around=True), share, 1
+    while gain > LAST_ECHO:
         voice += gain * np.roll(dull, number * shift)
         gain, number = gain * share, number + 1
 
 
 def _mastered(samples, loop):
     """Set the loudness, round the peaks, and give a jingle clean ends."""
-    heard = samples - low_pass(samples, 100.0, RATE, around=True)
+    heard = samples - low_pass(samples, HEARD, RATE, around=True)
     samples = samples * round(10 ** (LOUDNESS / 20) / _level(heard), 4)
     size = np.abs(samples)
     over = np.maximum(size - KNEE, 0.0) / (CEILING - KNEE)
@@ -121,10 +128,4 @@ def music_files(name):
     wrong = complaints(tune)
     if wrong:
         raise ValueError(f"tunes/{name}.txt: {wrong[0]} ({len(wrong)} in all)")
-    buffer = io.BytesIO()
-    with wave.open(buffer, "wb") as file:
-        file.setnchannels(1)
-        file.setsampwidth(2)
-        file.setframerate(RATE)
-        file.writeframes(render(tune).astype("<i2").tobytes())
-    return {f"music/{name}.wav": buffer.getvalue()}
+    return {f"music/{name}.wav": to_wav(render(tune), RATE)}

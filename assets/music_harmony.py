@@ -21,7 +21,7 @@ SCALES = {
 }
 # Degree in the notation -> which of the chord's tones may stand for it, in semitones above the root.
 DEGREES = {1: (0,), 2: (2, 14), 3: (3, 4, 5, 2), 5: (6, 7), 6: (9,), 7: (10, 11, 9), 8: (12,), 9: (14,)}
-BEAT = 4               # steps
+STEPS_PER_BEAT = 4
 STEP_WISE = 2          # semitones: at most a whole tone away is a step
 
 
@@ -124,7 +124,8 @@ def _of_one_voice(tune, before, note, after):
     for each in note.pitches:
         if each % 12 not in scale_over(tune.keys[note.start], at):
             yield f"{each} is not in the scale over {at.name}"
-    lasting = (note.start % BEAT == 0 and note.steps >= BEAT) or note.steps >= 2 * BEAT
+    on_beat = note.start % STEPS_PER_BEAT == 0
+    lasting = (on_beat and note.steps >= STEPS_PER_BEAT) or note.steps >= 2 * STEPS_PER_BEAT
     if lasting and note.pitches[0] % 12 not in at.classes and not resolves:
         yield f"{note.pitches[0]} stands out against {at.name}"
     elif note.pitches[0] % 12 not in at.classes and not by_step:
@@ -136,7 +137,7 @@ def _of_one_voice(tune, before, note, after):
             continue
         for each in note.pitches:
             left = note.start + note.steps - step
-            if each % 12 not in new.classes and not (resolves and left <= BEAT):
+            if each % 12 not in new.classes and not (resolves and left <= STEPS_PER_BEAT):
                 yield f"{each} is held into {new.name}"
 
 
@@ -148,7 +149,7 @@ def _clashes(tune):
     on_beats = {}
     for voice, notes in tune.notes.items():
         for note in notes:
-            if note.pitches and note.start % BEAT == 0:
+            if note.pitches and note.start % STEPS_PER_BEAT == 0:
                 on_beats.setdefault(note.start, []).append((voice, note))
     for start, together in sorted(on_beats.items()):
         at = tune.chords[start]

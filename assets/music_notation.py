@@ -28,13 +28,12 @@ A mistake raises TuneError with file, line and reason.
 import re
 from dataclasses import dataclass, field, fields, replace
 
-from assets.music_harmony import chord, degree_pitch, pitch, scale, tone_pitch
+from assets.music_harmony import STEPS_PER_BEAT, chord, degree_pitch, pitch, scale, tone_pitch
 
 WAVES = ("pulse12", "pulse25", "pulse50", "triangle", "soft", "noise")
 DRUMS = "kshotc"
-STEPS_PER_BEAT = 4
 LOUDER, SOFTER = 1.25, 0.6
-TOKEN = re.compile(r"(?P<what>[A-G][#b]?\d|[1-9]|[a-h]|\[[a-h]{2,4}\])(?P<octaves>['],?|,+|'+)?(?P<marks>[!?/~]*)")
+TOKEN = re.compile(r"(?P<what>[A-G][#b]?\d|[1-9]|[a-h]|\[[a-h]{2,4}\])(?P<octaves>'*|,*)(?P<marks>[!?/~]*)")
 DRUM_TOKEN = re.compile(rf"(?P<what>[{DRUMS}]+)(?P<marks>[!?]*)")
 
 
@@ -144,7 +143,6 @@ class _Reader:
         self.sections = {}
         self.section = None
         self.order = []
-        self.key_line = None
 
     def fail(self, reason, line=None):
         raise TuneError(self.source, self.line if line is None else line, reason)
@@ -212,7 +210,7 @@ class _Reader:
         self.tune.loop = rest == "yes"
 
     def _voice(self, rest):
-        name, *values = rest.split()  or self.fail("voice what?")
+        name, *values = rest.split() or self.fail("voice what?")
         if name in self.tune.voices or name in ("chords", "set"):
             self.fail(f"the name {name!r} is taken")
         self.tune.voices[name] = replace(Instrument(), **self._values(values))
@@ -341,7 +339,7 @@ class _Reader:
         if instrument.wave == "noise":
             return Note(start, steps, (), match["what"], match["marks"], instrument, line)
         what, at = match["what"], self.tune.chords[start]
-        octave = 12 * ((match["octaves"] or "").count("'") - (match["octaves"] or "").count(","))
+        octave = 12 * (match["octaves"].count("'") - match["octaves"].count(","))
         try:
             if what[0] in "ABCDEFG":
                 pitches = (pitch(what) + move,)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from assets.synth import sine
+from assets.synth import sine, triangle
 
 RATE = 22_050            # [Hz] of the files
 OVERSAMPLING = 4
@@ -18,7 +18,8 @@ VIBRATO_HERTZ, VIBRATO_DELAY, VIBRATO_RISE = 5.6, 0.20, 0.25   # [Hz], [s], [s]
 SLIDE = 0.07             # [s] from one note to the next
 ARPEGGIO = 1 / 30        # [s] each tone of a rapid arpeggio: two frames of an old television
 DUTY_SWAY = 0.035        # a pulse's width sways a little: held notes stay alive
-FALL = np.array([round(math.exp(-8 * i / 1024), 9) for i in range(1025)])
+FALL_REACH, FALL_STEPS = 8, 1024   # the table of a fall: over so many time constants, in so many steps
+FALL = np.array([round(math.exp(-FALL_REACH * i / FALL_STEPS), 9) for i in range(FALL_STEPS + 1)])
 TAPS, CORNER = 63, 9_000  # [samples], [Hz] of the filter before decimation
 
 
@@ -29,9 +30,9 @@ def hertz(midi):
 
 def falling(seconds, constant):
     """exp(-t / constant) from the table; 0 beyond it."""
-    place = np.minimum(seconds * (128 / constant), 1023.0)
+    place = np.minimum(seconds * (FALL_STEPS / FALL_REACH / constant), FALL_STEPS - 1)
     left = place.astype(np.int64)
-    return (FALL[left] + (FALL[left + 1] - FALL[left]) * (place - left)) * (place < 1023.0)
+    return (FALL[left] + (FALL[left + 1] - FALL[left]) * (place - left)) * (place < FALL_STEPS - 1)
 
 
 def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
@@ -61,8 +62,8 @@ def _pitch_curve(instrument, pitches, time, slide_from, vibrato):
 
 
 def _oscillate(wave, phase, time):
-    if wave == "triangle":      # 15 levels, as the chip's
-        return np.round((1 - 4 * np.abs(phase % 1.0 - 0.5)) * 7.5) / 7.5
+    if wave == "triangle":
+        return triangle(phase)
     if wave == "soft":
         return 1 - 4 * np.abs((phase + 0.25) % 1.0 - 0.5)
     duty = DUTY[wave] * (1 + DUTY_SWAY * 2 * sine(time * 0.9))

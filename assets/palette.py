@@ -15,7 +15,7 @@ SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35   # share of the way to those hues at the e
 
 
 def oklch(lightness, chroma, hue):
-    """Return (r, g, b) 0..255 for OKLab lightness 0..1, chroma (about 0..0.3) and hue in degrees.
+    """Return a colour, (3,) uint8, for OKLab lightness 0..1, chroma (about 0..0.3) and hue in degrees.
 
     Matrices from Ottosson, "A perceptual color space for image processing" (2020). Out of gamut is clipped.
     """
@@ -29,7 +29,12 @@ def oklch(lightness, chroma, hue):
         -1.2684380046 * long + 2.6097574011 * medium - 0.3413193965 * short,
         -0.0041960863 * long - 0.7034186147 * medium + 1.7076147010 * short,
     )
-    return tuple(_encode(channel) for channel in linear)
+    return np.array([_encode(channel) for channel in linear], np.uint8)
+
+
+def oklch_all(*values):
+    """Return several colours, (n, 3) uint8, each given as (lightness, chroma, hue)."""
+    return np.array([oklch(*value) for value in values])
 
 
 def _encode(linear):
@@ -40,18 +45,18 @@ def _encode(linear):
     return round(255 * (1.055 * linear ** (1 / 2.4) - 0.055))
 
 
-def ramp(hue, chroma, low=DARKEST, high=LIGHTEST, steps=STEPS):
-    """Return (steps, 3) uint8 from shadow to light around a base hue in degrees."""
+def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
+    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees."""
     colours = []
-    for i in range(steps):
-        t = i / (steps - 1)
+    for i in range(STEPS):
+        t = i / (STEPS - 1)
         lightness = low + (high - low) * t**0.9
         to_shadow = (SHADOW_HUE - hue + 180) % 360 - 180
         to_light = (LIGHT_HUE - hue + 180) % 360 - 180
         turned = hue + to_shadow * SHADOW_LEAN * max(0.0, 1 - 2 * t) + to_light * LIGHT_LEAN * max(0.0, 2 * t - 1)
         # Colour is richest just under the middle and fades at both ends.
         colours.append(oklch(lightness, chroma * (1 - abs(2 * t - 0.95) ** 2.2 * 0.75), turned))
-    return np.array(colours, np.uint8)
+    return np.array(colours)
 
 
 RAMPS = {
@@ -74,7 +79,7 @@ RAMPS = {
     "rock": ramp(232, 0.054, 0.20, 0.82),
     "armour": ramp(262, 0.062, 0.16, 0.84),
 }
-OUTLINE = np.array(oklch(0.16, 0.03, 285), np.uint8)
+OUTLINE = oklch(0.16, 0.03, 285)
 WHITE = np.array((255, 255, 255), np.uint8)
 FIRE = np.array(
     [(255, 255, 255), (255, 250, 190), (255, 214, 90), (255, 148, 40), (224, 78, 36), (140, 40, 52), (74, 38, 60),
@@ -87,3 +92,9 @@ def mix(first, second, share):
     """Return the colour `share` (0..1) of the way from first to second, as uint8."""
     first, second = np.asarray(first, float), np.asarray(second, float)
     return np.floor(first + (second - first) * share + 0.5).astype(np.uint8)
+
+
+def graded(ramp, level):
+    """The ramp's colour for each pixel's level, (..., 3): 0 up to 1 the first, 1 up to 2 the second; its ends go on."""
+    # Rounded first: where a level meets a whole number, the last bit of a sum must not choose the colour.
+    return ramp[np.clip(np.floor(np.round(level, 6)), 0, len(ramp) - 1).astype(int)]

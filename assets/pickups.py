@@ -13,11 +13,7 @@ def powerup(frame):
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)
     sprite.part(box(x, y, 4.5, 1.5, 13.5, 16.5, 3), RAMPS["gold"], bulge=3, base=0.5)
     sprite.part(circle(x, y, 9, 9, 5.2), RAMPS["red"], bulge=6, base=glow, gain=0.3, grain=0)
-    letter = ("####.", "##.##", "##.##", "####.", "##...", "##...")   # P for power, in the glass
-    for row, cells in enumerate(letter):
-        for column, cell in enumerate(cells):
-            if cell == "#":
-                sprite.dot(7 + column, 6 + row, WHITE)
+    sprite.stamp(("####.", "##.##", "##.##", "####.", "##...", "##..."), 7, 6, {"#": WHITE})   # P for power, in the glass
     sprite.rim(share=0.55).outline()
     return sprite.pixels()
 
@@ -30,11 +26,7 @@ def bomb_item(frame):
     sprite.part(circle(x, y, 9, 10, 6.4), RAMPS["teal"], bulge=7, base=(0.36, 0.44, 0.52, 0.44)[frame], gain=0.45)
     sprite.paint(box(x, y, 2, 9, 16, 12), RAMPS["gold"][4], 0.95)
     sprite.paint(box(x, y, 2, 11, 16, 12), RAMPS["gold"][2], 0.95)
-    letter = ("###.", "#..#", "###.", "#..#", "###.")
-    for row, cells in enumerate(letter):
-        for column, cell in enumerate(cells):
-            if cell == "#":
-                sprite.dot(7 + column, 8 + row, OUTLINE)
+    sprite.stamp(("###.", "#..#", "###.", "#..#", "###."), 7, 8, {"#": OUTLINE})
     sprite.dot(6, 6, WHITE).dot(5, 7, WHITE).dot(6, 7, mix(RAMPS["teal"][4], WHITE, 0.5))
     sprite.rim(share=0.5).outline()
     spark = (WHITE, RAMPS["gold"][5], RAMPS["orange"][4], RAMPS["gold"][4])[frame]
@@ -49,10 +41,6 @@ def life_item(frame):
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)
     sprite.part(box(x, y, 4.5, 1.5, 13.5, 16.5, 3), RAMPS["gold"], bulge=3, base=0.5)
     sprite.part(circle(x, y, 9, 9, 5.4), RAMPS["green"], bulge=6, base=(0.26, 0.36, 0.46, 0.36)[frame], gain=0.3, grain=0)
-    plane = ("...#...", "...#...", ".#.#.#.", "#######", "...#...", "..###..")
-    for row, cells in enumerate(plane):
-        for column, cell in enumerate(cells):
-            if cell == "#":
-                sprite.dot(6 + column - 1, 6 + row, WHITE)
+    sprite.stamp(("...#...", "...#...", ".#.#.#.", "#######", "...#...", "..###.."), 5, 6, {"#": WHITE})
     sprite.rim(share=0.55).outline()
     return sprite.pixels()

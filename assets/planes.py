@@ -80,9 +80,4 @@ def marked_core(frame):
         "d": OUTLINE, "r": (RAMPS["red"][3], RAMPS["pink"][4])[frame], "w": (RAMPS["pink"][4], RAMPS["pink"][5])[frame],
         "W": WHITE,
     }
-    sprite = Sprite(6, 6)
-    for row, cells in enumerate(rows):
-        for column, cell in enumerate(cells):
-            if cell != ".":
-                sprite.dot(column, row, tones[cell])
-    return sprite.pixels()
+    return Sprite(6, 6).stamp(rows, 0, 0, tones).pixels()

@@ -3,11 +3,14 @@
 Every function draws on a Sprite that is being built and returns nothing; places are px in its picture.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from assets.fields import box, capsule, circle, length, noise, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
 
+STRIPE = 3   # [px] width of a warning stripe
 GLOWS = {
     # name: colours from the rim of a glowing lens to its middle
     "red": (RAMPS["red"][1], RAMPS["red"][2], RAMPS["red"][3], RAMPS["orange"][4], RAMPS["gold"][5]),
@@ -43,22 +46,21 @@ def vent(sprite, left, top, right, bottom):
     sprite.paint(box(x, y, left, bottom - 1, right, bottom), RAMPS["gunmetal"][4], 0.6)
 
 
-def stripes(sprite, left, top, right, bottom, first="gold", width=3):
-    """Warning stripes that lean to the right."""
+def stripes(sprite, left, top, right, bottom):
+    """Warning stripes of gold and iron that lean to the right."""
     inside = box(sprite.x, sprite.y, left, top, right, bottom) < 0
-    lean = ((sprite.x + sprite.y) // width).astype(int) % 2 == 0
+    gold = ((sprite.x + sprite.y) // STRIPE).astype(int) % 2 == 0
     inside &= sprite.solid
-    sprite.rgb[inside & lean] = RAMPS[first][4]
-    sprite.rgb[inside & ~lean] = RAMPS["gunmetal"][1]
+    sprite.rgb[inside & gold] = RAMPS["gold"][4]
+    sprite.rgb[inside & ~gold] = RAMPS["gunmetal"][1]
 
 
-def turret(sprite, x, y, radius, ramp="gunmetal", barrels=2, reach=7.0):
-    """A round gun turret on its ring, whose barrels point down; reach: px from its middle to the muzzles."""
+def turret(sprite, x, y, radius, ramp, reach):
+    """A round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles."""
     px, py = sprite.x, sprite.y
     sprite.part(circle(px, py, x, y, radius + 1.5), RAMPS["gunmetal"], bulge=1.5, base=0.26, gain=0.3)
-    spread = radius * 0.40
-    for i in range(barrels):
-        across = x + (i - (barrels - 1) / 2) * 2 * spread
+    for side in (-1, 1):
+        across = x + side * radius * 0.40
         sprite.flat(box(px, py, across - 1.6, y, across + 1.6, y + reach + 0.6), OUTLINE)
         sprite.flat(box(px, py, across - 0.7, y, across + 0.7, y + reach), RAMPS["steel"][3])
         sprite.paint(box(px, py, across - 0.7, y, across - 0.05, y + reach), RAMPS["steel"][5], 0.7)
@@ -115,10 +117,10 @@ def cracks(sprite, lines, hot):
     """Glowing fissures: each line a list of points, drawn one pixel wide with a dark rim."""
     tone = mix(RAMPS["orange"][3], RAMPS["gold"][5], hot)
     for points in lines:
-        for start, end in zip(points, points[1:], strict=False):
+        for start, end in pairwise(points):
             sprite.paint(capsule(sprite.x, sprite.y, start, end, 1.5), OUTLINE, 0.6)
     for points in lines:
-        for start, end in zip(points, points[1:], strict=False):
+        for start, end in pairwise(points):
             sprite.paint(capsule(sprite.x, sprite.y, start, end, 0.62), tone)
 
 

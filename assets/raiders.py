@@ -55,7 +55,7 @@ def gun_platform(frame):
     for side in (-1, 1):
         sprite.part(circle(x, y, 18 + side * 9.4, 12.4, 1.5), RAMPS["red"], bulge=2,
                     base=0.85 if (side > 0) == bool(frame) else 0.36, grain=0)
-    turret(sprite, 18, 17, 6.2, "steel", barrels=2, reach=12.6)
+    turret(sprite, 18, 17, 6.2, "steel", reach=12.6)
     sprite.part(circle(x, y, 18, 16.4, 2.3), RAMPS["orange"], bulge=2.2, base=0.55, grain=0)
     sprite.dot(17, 15, WHITE)
     sprite.rim(share=0.4).outline()

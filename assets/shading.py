@@ -7,7 +7,7 @@ colour from the slope of its bulge towards the light; the rim light and the dark
 import numpy as np
 
 from assets.fields import dither, grid
-from assets.palette import OUTLINE, mix
+from assets.palette import OUTLINE, WHITE, graded, mix
 
 LIGHT = (-0.55, -0.80)   # direction towards the light: up and a little left
 RIM = np.array((255, 250, 236), np.uint8)
@@ -43,13 +43,11 @@ class Sprite:
         height_map = np.sqrt(np.clip(-field / bulge, 0, 1)) * bulge
         slope_y, slope_x = np.gradient(height_map)
         facing = np.clip(-(slope_x * LIGHT[0] + slope_y * LIGHT[1]), -1, 1)
-        top = len(ramp) - 1
-        level = (base + gain * facing) * top + 0.5 + dither(*field.shape) * 0.6 * grain
-        level = np.clip(np.floor(np.round(level, 6)), 0, top).astype(int)
+        level = (base + gain * facing) * (len(ramp) - 1) + 0.5 + dither(*field.shape) * 0.6 * grain
         if shadow < 1:
             below = (field >= 0) & (field < 1.3) & self.solid
             self.rgb[below] = (self.rgb[below] * shadow).astype(np.uint8)
-        self.rgb[inside] = ramp[level[inside]]
+        self.rgb[inside] = graded(ramp, level[inside])
         self.solid |= inside
         return self
 
@@ -72,39 +70,54 @@ class Sprite:
         self.solid[y, x] = True
         return self
 
+    def stamp(self, rows, x, y, tones):
+        """Set the pixels of a small drawing whose top left is at (x, y). rows: texts; tones: {letter: colour}, others clear."""
+        for down, row in enumerate(rows):
+            for across, letter in enumerate(row):
+                if letter in tones:
+                    self.dot(x + across, y + down, tones[letter])
+        return self
+
     def cut(self, field):
         """Clear everything inside a field."""
         self.solid &= ~(field < 0)
         return self
 
-    def rim(self, colour=RIM, share=0.6, sides=((1, 0), (0, 1))):
-        """Lighten the pixels whose neighbour towards the light is clear. sides: where shadows of the mask fall."""
-        edge = np.zeros_like(self.solid)
-        for dx, dy in sides:
-            edge |= self.solid & ~shifted(self.solid, dx, dy)
+    def rim(self, colour=RIM, share=0.6):
+        """Lighten the pixels whose neighbour towards the light, above or on the left, is clear."""
+        edge = self.solid & ~(shifted(self.solid, 1, 0) & shifted(self.solid, 0, 1))
         self.rgb[edge] = mix(self.rgb[edge], colour, share)
         return self
 
-    def outline(self, colour=OUTLINE):
+    def outline(self):
         """Put one dark pixel around the shape (4-neighbours)."""
         around = np.zeros_like(self.solid)
         for dx, dy in SIDES:
             around |= shifted(self.solid, dx, dy)
         around &= ~self.solid
-        self.rgb[around] = colour
+        self.rgb[around] = OUTLINE
         self.solid |= around
         return self
 
     def pixels(self):
         """Return (h, w, 4) uint8, alpha 0 or 255."""
-        out = np.zeros(self.solid.shape + (4,), np.uint8)
-        out[..., :3][self.solid] = self.rgb[self.solid]
-        out[..., 3] = self.solid * 255
-        return out
+        return cut_out(self.rgb, self.solid)
 
 
-def flashed(pixels, colour=(255, 255, 255)):
-    """The same frame as a flat silhouette: what a hit shows for a few frames."""
+def opaque(rgb):
+    """The picture (h, w, 3) as (h, w, 4) uint8 without a clear pixel."""
+    return np.concatenate([rgb, np.full(rgb.shape[:2] + (1,), 255, np.uint8)], axis=2)
+
+
+def cut_out(rgb, solid):
+    """The picture (h, w, 3) where it is solid (h, w) bool, zeros elsewhere: (h, w, 4) uint8."""
+    out = opaque(rgb)
+    out[~solid] = 0
+    return out
+
+
+def flashed(pixels):
+    """The same frame as a flat white silhouette: what a hit shows for a few frames."""
     out = pixels.copy()
-    out[..., :3][out[..., 3] > 0] = colour
+    out[..., :3][out[..., 3] > 0] = WHITE
     return out

@@ -7,7 +7,8 @@ import numpy as np
 
 from assets.clouds import bank
 from assets.fields import circle, dither, grid, layered_noise, length
-from assets.palette import mix, oklch
+from assets.palette import mix, oklch, oklch_all
+from assets.shading import cut_out
 
 WIDTH = 480   # [px] one screen; scenes repeat the layers
 SKY_HEIGHT = 270
@@ -24,17 +25,13 @@ BANDS = 26   # colour bands of the sky, dithered into each other
 SUN = (338, 196, 21)   # [px] x, y, radius
 
 
-def _tones(*values):
-    return np.array([oklch(*value) for value in values], np.uint8)
-
-
 def sky():
     """Return the sky, (270, 480, 3) uint8: gradient, stars, a low sun with haze."""
     x, y = grid(WIDTH, SKY_HEIGHT)
     glow = np.clip(1 - length((x - SUN[0]) * 0.55, y - SUN[1]) / 130, 0, 1)
     level = y / SKY_HEIGHT * 0.92 + glow * glow * 0.17
-    steps = np.clip(np.floor(level * BANDS + dither(SKY_HEIGHT, WIDTH) * 1.0 + 0.5), 0, BANDS - 1).astype(int)
-    stops = np.array([oklch(*stop) for stop in SKY], float)
+    steps = np.clip(np.floor(level * BANDS + dither(SKY_HEIGHT, WIDTH) + 0.5), 0, BANDS - 1).astype(int)
+    stops = oklch_all(*SKY).astype(float)
     colours = []
     for band in range(BANDS):
         place = band / (BANDS - 1) * (len(stops) - 1)
@@ -97,11 +94,7 @@ def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
             band = share > limit
             picture = np.where(band[..., None], mix(np.asarray(tones)[tone], haze, strength), picture)
     picture = np.where(((depth >= 0) & (depth < 1.2))[..., None], np.asarray(tones)[3], picture)
-    out = np.zeros((height, WIDTH, 4), np.uint8)
-    out[..., :3] = picture
-    out[..., 3] = 255
-    out[~solid] = 0
-    return out
+    return cut_out(picture, solid)
 
 
 def pines(height, seed):
@@ -111,7 +104,7 @@ def pines(height, seed):
     y = np.mgrid[0:height, 0:WIDTH][0]
     random = np.random.default_rng(seed)
     for row, (drop, tall, tones) in enumerate(FIR_ROWS):
-        body, light, edge = _tones(*tones)
+        body, light, edge = oklch_all(*tones)
         # Every row's ground rolls on its own, so that the rows do not look like one moved down.
         ground = height - (26 + 30 * np.roll(line, row * 61)) * (1 - 0.16 * row) + drop
         fog = (y - ground[None, :]) / 16 + dither(height, WIDTH) * 0.8   # mist between the rows, thinner down the hill
@@ -145,10 +138,10 @@ def _pine(out, column, foot, size, tones):
 
 def backdrop_layers():
     """Return {name: pixels} of the platformer's layers, far to near."""
-    far = _tones((0.47, 0.085, 322), (0.53, 0.090, 335), (0.63, 0.095, 5), (0.72, 0.085, 30))
-    mid = _tones((0.335, 0.080, 300), (0.375, 0.085, 306), (0.445, 0.095, 325), (0.53, 0.100, 345))
-    snow = _tones((0.66, 0.060, 340), (0.83, 0.055, 40))
-    tones = _tones((0.47, 0.090, 325), (0.58, 0.100, 350), (0.70, 0.100, 20), (0.80, 0.085, 50))
+    far = oklch_all((0.47, 0.085, 322), (0.53, 0.090, 335), (0.63, 0.095, 5), (0.72, 0.085, 30))
+    mid = oklch_all((0.335, 0.080, 300), (0.375, 0.085, 306), (0.445, 0.095, 325), (0.53, 0.100, 345))
+    snow = oklch_all((0.66, 0.060, 340), (0.83, 0.055, 40))
+    tones = oklch_all((0.47, 0.090, 325), (0.58, 0.100, 350), (0.70, 0.100, 20), (0.80, 0.085, 50))
     puffs = ((40, 6, 15), (62, 12, 20), (86, 8, 17), (108, 3, 11), (22, 2, 9), (250, 4, 12), (268, 9, 16), (288, 4, 11),
              (390, 5, 13), (412, 12, 19), (436, 9, 17), (458, 3, 10))
     return {

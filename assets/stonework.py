@@ -1,5 +1,7 @@
 """What moves or gives way in the platformer: crumbling stone and its bits, the belt's three pieces, the hidden gem."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from assets.fields import box, capsule, circle, polygon
@@ -16,7 +18,8 @@ CRACKS = (
     (((23, 7), (20, 10), (21, 15)), ((11, 5), (16, 6), (18, 9), (20, 10)), ((1, 10), (5, 9), (10, 7))),
     (((23, 7), (27, 8), (31, 7)), ((5, 9), (6, 13), (5, 15)), ((16, 6), (17, 1)), ((27, 8), (27, 15))),
 )
-GAPS = (((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16), (28, 0, 32, 4), (5, 14, 7, 16)))
+# what is missing in each look: boxes, px
+GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16), (28, 0, 32, 4), (5, 14, 7, 16)))
 
 
 def crumble(look):
@@ -30,11 +33,11 @@ def crumble(look):
         sprite.paint(box(x, y, seam + 0.5, 2, seam + 1.5, 14), stone[4], 0.5)
     sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)   # worn yellow edge: not to be trusted
     sprite.paint(box(x, y, 2, 13, 30, 15), stone[1], 0.5)
-    for gap in GAPS[look - 1] if look else ():
+    for gap in GAPS[look]:
         sprite.cut(box(x, y, *gap, 1.2))
     for lines in CRACKS[: look + 1]:
         for points in lines:
-            for start, end in zip(points, points[1:], strict=False):
+            for start, end in pairwise(points):
                 sprite.paint(capsule(x, y, (start[0] + 0.8, start[1] + 0.8), (end[0] + 0.8, end[1] + 0.8), 0.6), stone[5],
                              0.4)
                 sprite.paint(capsule(x, y, start, end, 0.62 + 0.1 * look), OUTLINE)
@@ -68,15 +71,7 @@ def belt(part, phase):
     sprite.rgb[top & tread & (y > 2)] = RAMPS["gold"][3]
     sprite.rgb[top & ~tread] = RAMPS["gunmetal"][3]
     sprite.rgb[bottom & back] = RAMPS["gunmetal"][3]
-    wheels = {"left_end": (7,), "mid": (8,), "right_end": (9,)}[part]
-    for middle in wheels:
-        radius = 2.6 if part == "mid" else 3.4
-        sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
-        turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
-        reach = radius - 1
-        sprite.paint(capsule(x, y, (middle - turn[0] * reach, 7 - turn[1] * reach),
-                             (middle + turn[0] * reach, 7 + turn[1] * reach), 0.5), RAMPS["gunmetal"][0])
-        sprite.paint(circle(x, y, middle, 7, 0.8), RAMPS["gold"][4])
+    _wheel(sprite, {"left_end": 7, "mid": 8, "right_end": 9}[part], 2.6 if part == "mid" else 3.4, phase)
     sprite.outline()
     if part in ("left_end", "mid"):
         _open(sprite, 15)
@@ -85,10 +80,21 @@ def belt(part, phase):
     return sprite.pixels()
 
 
+def _wheel(sprite, middle, radius, phase):
+    """A wheel of the belt, whose spoke turns with it."""
+    x, y = sprite.x, sprite.y
+    sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
+    turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
+    reach = radius - 1
+    sprite.paint(capsule(x, y, (middle - turn[0] * reach, 7 - turn[1] * reach),
+                         (middle + turn[0] * reach, 7 + turn[1] * reach), 0.5), RAMPS["gunmetal"][0])
+    sprite.paint(circle(x, y, middle, 7, 0.8), RAMPS["gold"][4])
+
+
 def _open(sprite, column):
     """Where the next piece goes on, the outline runs on above and below the belt."""
     for row in (0, 13):
-        sprite.rgb[row, column], sprite.solid[row, column] = OUTLINE, True
+        sprite.dot(column, row, OUTLINE)
 
 
 def gem(frame):

@@ -6,23 +6,23 @@ Darker than the stretches before it, so that the boss's bullets stand out the mo
 import numpy as np
 
 from assets.fields import layered_noise, length, noise
-from assets.palette import mix, oklch
+from assets.palette import mix, oklch, oklch_all
 from assets.terrain import HEIGHT, WIDTH, border, glints, height_map, hill_light, pick
 
-NIGHT = np.array([oklch(*tone) for tone in (
-    (0.165, 0.036, 285), (0.188, 0.040, 280), (0.212, 0.044, 275), (0.245, 0.046, 268), (0.29, 0.046, 258))], np.uint8)
-FOAM = np.array(oklch(0.44, 0.030, 255), np.uint8)
-CLIFF = np.array([oklch(*tone) for tone in (
-    (0.175, 0.020, 292), (0.225, 0.022, 290), (0.28, 0.024, 285), (0.34, 0.026, 278), (0.41, 0.026, 268))], np.uint8)
-PAVING = np.array([oklch(*tone) for tone in ((0.265, 0.026, 288), (0.305, 0.026, 284), (0.33, 0.026, 280))], np.uint8)
-WALL_TOP = np.array(oklch(0.43, 0.018, 272), np.uint8)
-WALL_LIT = np.array(oklch(0.52, 0.018, 265), np.uint8)
-WALL_SIDE = np.array(oklch(0.22, 0.018, 288), np.uint8)
-ROOF = np.array([oklch(*tone) for tone in ((0.36, 0.022, 275), (0.33, 0.040, 25), (0.34, 0.030, 200))], np.uint8)
-SHADOW = np.array(oklch(0.14, 0.025, 290), np.uint8)
-LAMP = np.array(oklch(0.58, 0.080, 75), np.uint8)
-GLOW = np.array(oklch(0.46, 0.075, 60), np.uint8)
-PAINT = np.array(oklch(0.50, 0.060, 85), np.uint8)
+NIGHT = oklch_all(
+    (0.165, 0.036, 285), (0.188, 0.040, 280), (0.212, 0.044, 275), (0.245, 0.046, 268), (0.29, 0.046, 258))
+FOAM = oklch(0.44, 0.030, 255)
+CLIFF = oklch_all(
+    (0.175, 0.020, 292), (0.225, 0.022, 290), (0.28, 0.024, 285), (0.34, 0.026, 278), (0.41, 0.026, 268))
+PAVING = oklch_all((0.265, 0.026, 288), (0.305, 0.026, 284), (0.33, 0.026, 280))
+WALL_TOP = oklch(0.43, 0.018, 272)
+WALL_LIT = oklch(0.52, 0.018, 265)
+WALL_SIDE = oklch(0.22, 0.018, 288)
+ROOF = oklch_all((0.36, 0.022, 275), (0.33, 0.040, 25), (0.34, 0.030, 200))
+SHADOW = oklch(0.14, 0.025, 290)
+LAMP = oklch(0.58, 0.080, 75)
+GLOW = oklch(0.46, 0.075, 60)
+PAINT = oklch(0.50, 0.060, 85)
 SHORE = 0.545   # height at which the rocks rise from the water
 YARD = 0.035    # paving begins so much above the shore
 GRID = 24       # [px] the yard's corners lie on this grid, its slabs on a half of it

@@ -14,13 +14,15 @@ RATE = 44_100   # [Hz]
 OVERSAMPLING = 4
 PEAK = 10 ** (-3 / 20)   # -3 dB of full scale: room for several voices at once
 FADE = 0.002   # [s] at both ends: no click
-SINE = np.array([round(math.sin(2 * math.pi * i / 4096), 9) for i in range(4097)])
+KNOTS = 256      # parts of a glide, straight within each
+SINE_STEPS = 4096   # of the table, which holds its first entry again at the end
+SINE = np.array([round(math.sin(2 * math.pi * i / SINE_STEPS), 9) for i in range(SINE_STEPS + 1)])
 
 
 def sine(phase):
     """Sine of a phase in turns, read from the table with linear interpolation."""
-    place = (phase % 1.0) * 4096
-    left = np.minimum(place.astype(np.int64), 4095)
+    place = (phase % 1.0) * SINE_STEPS
+    left = np.minimum(place.astype(np.int64), SINE_STEPS - 1)
     return SINE[left] + (SINE[left + 1] - SINE[left]) * (place - left)
 
 
@@ -32,15 +34,18 @@ def triangle(phase):
 def sweep(start, end, count):
     """Exponential glide from start to end, both > 0, in `count` samples."""
     ratio = end / start
-    knots = [start * math.pow(ratio, i / 256) for i in range(257)]
-    return np.interp(np.linspace(0, 256, count), np.arange(257), np.round(knots, 6))
+    knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
+    return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))
 
 
 def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
-    """Rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at RATE."""
+    """Rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at RATE.
+
+    curve: power of the decay, 1 for a straight line.
+    """
     rise, hold, fall = (max(1, int(seconds * RATE)) for seconds in (attack, sustain, decay))
     tail = np.linspace(1, 0, fall)
-    tail = tail if curve == 1 else tail * tail if curve == 2 else np.round([math.pow(v, curve) for v in tail], 9)
+    tail = tail * tail if curve == 2 else np.round([math.pow(value, curve) for value in tail], 9)
     return np.concatenate([np.linspace(0, 1, rise), 1 + punch * np.linspace(1, 0, hold), tail])
 
 
@@ -80,9 +85,9 @@ def _oscillate(kind, phase, duty, seed):
 
 def low_pass(samples, start, end):
     """One-pole low-pass whose corner glides from start to end in Hz."""
-    knots = sweep(start, end, 257)
-    shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in knots]
-    share = np.interp(np.linspace(0, 256, len(samples)), np.arange(257), np.round(shares, 9))
+    corners = sweep(start, end, KNOTS + 1)
+    shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in corners]
+    share = np.interp(np.linspace(0, KNOTS, len(samples)), np.arange(KNOTS + 1), np.round(shares, 9))
     out, level = np.empty_like(samples), 0.0
     for i, (value, part) in enumerate(zip(samples.tolist(), share.tolist(), strict=True)):
         level += part * (value - level)
@@ -128,12 +133,12 @@ def finish(samples):
     return np.round(samples / np.abs(samples).max() * PEAK * 32767).astype(np.int16)
 
 
-def to_wav(samples):
-    """Return the bytes of a mono 16-bit WAV file at RATE."""
+def to_wav(samples, rate=RATE):
+    """Return the bytes of a mono WAV file of int16 samples."""
     buffer = io.BytesIO()
     with wave.open(buffer, "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(2)
-        file.setframerate(RATE)
+        file.setframerate(rate)
         file.writeframes(samples.astype("<i2").tobytes())
     return buffer.getvalue()

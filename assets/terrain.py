@@ -6,22 +6,21 @@ Everything stays at or under 60 % lightness and low chroma: bullets, planes and 
 import numpy as np
 
 from assets.fields import dither, layered_noise, length, noise
-from assets.palette import oklch
+from assets.palette import graded, oklch, oklch_all
 from assets.shading import shifted
 
 WIDTH, HEIGHT = 480, 540   # [px]
-
-SEA = np.array([oklch(*tone) for tone in (
+SEA = oklch_all(
     (0.245, 0.046, 262), (0.268, 0.050, 258), (0.292, 0.054, 252), (0.325, 0.057, 243), (0.37, 0.058, 230),
-    (0.43, 0.056, 212))], np.uint8)   # deep to shallow
-FOAM, WET_SAND = np.array(oklch(0.56, 0.030, 215), np.uint8), np.array(oklch(0.45, 0.040, 80), np.uint8)
-SAND = np.array([oklch(*tone) for tone in ((0.49, 0.045, 75), (0.54, 0.050, 82), (0.58, 0.052, 86))], np.uint8)
-MEADOW = np.array([oklch(*tone) for tone in (
-    (0.305, 0.045, 160), (0.350, 0.055, 148), (0.395, 0.062, 138), (0.440, 0.066, 128), (0.485, 0.066, 118))], np.uint8)
-ROCK = np.array([oklch(*tone) for tone in (
-    (0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))], np.uint8)
-TREES = np.array([oklch(*tone) for tone in (
-    (0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))], np.uint8)
+    (0.43, 0.056, 212))   # deep to shallow
+FOAM, WET_SAND = oklch(0.56, 0.030, 215), oklch(0.45, 0.040, 80)
+SAND = oklch_all((0.49, 0.045, 75), (0.54, 0.050, 82), (0.58, 0.052, 86))
+MEADOW = oklch_all(
+    (0.305, 0.045, 160), (0.350, 0.055, 148), (0.395, 0.062, 138), (0.440, 0.066, 128), (0.485, 0.066, 118))
+ROCK = oklch_all(
+    (0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))
+TREES = oklch_all(
+    (0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))
 
 SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765   # heights where one ground gives way to the next
 GLINT_CUT = 0.80   # share of the water without glints
@@ -53,9 +52,7 @@ def border(land):
 
 def pick(ramp, level, grain=0.8):
     """Ramp colours for a level 0..1 per pixel, dithered."""
-    top = len(ramp) - 1
-    steps = np.floor(np.round(level * top + 0.5 + dither(*level.shape) * grain, 6))
-    return ramp[np.clip(steps, 0, top).astype(int)]
+    return graded(ramp, level * (len(ramp) - 1) + 0.5 + dither(*level.shape) * grain)
 
 
 def ground():
@@ -92,7 +89,7 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
     picture[trough] = (picture[trough] * 0.88).astype(np.uint8)
 
 
-def plant(picture, where, seed, trees=TREES, spacing=(5, 4)):
+def plant(picture, where, seed, spacing=(5, 4)):
     """Tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows."""
     random = np.random.default_rng(seed)
     across, down = spacing
@@ -102,10 +99,10 @@ def plant(picture, where, seed, trees=TREES, spacing=(5, 4)):
             x = (column + int(jitter_x * across)) % WIDTH
             y = (row + int(jitter_y * down)) % HEIGHT
             if where[y, x]:
-                _crown(picture, x, y, 1.7 + size * 1.5, lean, trees)
+                _crown(picture, x, y, 1.7 + size * 1.5, lean)
 
 
-def _crown(picture, x, y, radius, lean, trees):
+def _crown(picture, x, y, radius, lean):
     """One tree: a lit disc, wrapped round the edges of the picture."""
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
@@ -114,6 +111,6 @@ def _crown(picture, x, y, radius, lean, trees):
     disc = length(dx, dy) < radius
     shade = shifted(disc, 1, 2) & ~disc
     column_index, row_index = np.meshgrid(columns % WIDTH, rows % HEIGHT)
-    picture[row_index[shade], column_index[shade]] = trees[0]
+    picture[row_index[shade], column_index[shade]] = TREES[0]
     tone = np.clip(np.floor((-(dx * 0.5 + dy * 0.8) / radius) * 1.3 + 1.7 + lean * 0.8), 0, 3).astype(int)
-    picture[row_index[disc], column_index[disc]] = trees[tone[disc]]
+    picture[row_index[disc], column_index[disc]] = TREES[tone[disc]]

@@ -1,6 +1,6 @@
-"""The sheet "things": coins, spring, crates, spikes, walker, platforms, checkpoint, goal, sign and small puffs.
+"""The sheet "things": coins, spring, crates, spikes, enemies, platforms, checkpoint, goal, sign and small puffs.
 
-Things that stand on the ground touch it with their bottom row. The walker is drawn facing left.
+Things that stand on the ground touch it with their bottom row. Enemies are drawn facing left.
 """
 
 from assets import FOLDER

@@ -9,11 +9,11 @@ import numpy as np
 
 from assets.atlas import Sheet
 from assets.cave import boulders, cave_tiles, clods
-from assets.decoration import decoration_tiles
+from assets.decoration import TILE, decoration_tiles
 from assets.fields import dither, grid, noise
 from assets.palette import OUTLINE, RAMPS, mix
+from assets.shading import opaque
 
-TILE = 16
 N, NE, E, SE, S, SW, W, NW = (1 << i for i in range(8))
 CORNERS = ((NE, N, E), (SE, S, E), (SW, S, W), (NW, N, W))
 DEPTHS = 4   # variations of the tile that has all eight neighbours
@@ -80,18 +80,19 @@ def deep(variant):
     picture = np.array([dark, mix(dark, light, 0.6)])[(grain > 0.60).astype(int)]
     if variant == 2:
         picture[9, 5:8] = picture[10, 5:7] = mix(light, RAMPS["dirt"][3], 0.5)
-    for letters, tones in (DEEP_FINDS[variant],) if variant in DEEP_FINDS else ():
+    if variant in DEEP_FINDS:
+        letters, tones = DEEP_FINDS[variant]
         for row, cells in enumerate(letters):
             for column, cell in enumerate(cells):
                 if cell != ".":
                     picture[5 + row, 4 + column] = mix(tones[int(cell)], OUTLINE, 0.25)
-    return _opaque(picture)
+    return opaque(picture)
 
 
 def fading(variant):
     """Between ground and deep ground: one dithered into the other, (16, 16, 4) uint8, variant 0..1."""
     upper, lower = texture("ground", variant), deep(variant)[..., :3]
-    return _opaque(np.where((dither(TILE, TILE) > 0)[..., None], upper, lower))
+    return opaque(np.where((dither(TILE, TILE) > 0)[..., None], upper, lower))
 
 
 def _bricks(picture, ramp, variant):
@@ -106,9 +107,10 @@ def _bricks(picture, ramp, variant):
         picture[row + 1 : row + 7, offset - 1] = mix(picture[row + 1 : row + 7, offset - 1], ramp[1], 0.45)
         picture[row + 6 : row + 8, offset] = picture[row + 7] = ramp[0]
         picture[row, offset] = ramp[1]
-        for column, drop in BLEMISHES[row // 8] if variant == 2 else ():   # worn by weather
-            picture[row + drop, column] = ramp[1]
-            picture[row + drop + 1, column] = ramp[3]
+        if variant == 2:   # worn by weather
+            for column, drop in BLEMISHES[row // 8]:
+                picture[row + drop, column] = ramp[1]
+                picture[row + drop + 1, column] = ramp[3]
     if variant in (1, 3):   # a crack
         for step, (column, row) in enumerate(((8, 9), (9, 10), (9, 11), (10, 12), (11, 12))):
             picture[row, column - variant] = ramp[0 if step % 2 else 1]
@@ -135,7 +137,7 @@ def blob(material, mask, variant=0):
     for gone, row, column in ((N | W, 0, 0), (N | E, 0, 15), (S | W, 15, 0), (S | E, 15, 15)):
         if not mask & gone:   # both sides open: knock the corner off
             picture[row, column] = OUTLINE
-    return _opaque(picture)
+    return opaque(picture)
 
 
 def _side(picture, ramp, column, inward, light):
@@ -190,7 +192,7 @@ def slope(name):
         band = depth < limit
         picture[band] = mix(picture[band], OUTLINE, 0.45) if tone is None else tone
     picture[depth < 1] = OUTLINE
-    out = _opaque(picture)
+    out = opaque(picture)
     out[depth < 0] = 0
     return out
 
@@ -205,7 +207,7 @@ def under_slope(name):
     for limit, tone in ((6, None), (5, cap[1]), (4, cap[3])):
         band = depth < limit
         picture[band] = mix(picture[band], OUTLINE, 0.4) if tone is None else tone
-    return _opaque(picture)
+    return opaque(picture)
 
 
 def plank(part):
@@ -258,10 +260,6 @@ def ladder(top):
     return picture
 
 
-def _opaque(picture):
-    return np.concatenate([picture, np.full(picture.shape[:2] + (1,), 255, np.uint8)], axis=2)
-
-
 def material_tiles(material):
     """Return {name: (pixels, properties)} of one material: every blob, then the variations of its inside."""
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
@@ -296,7 +294,7 @@ def tile_table():
         for name, share in DARKER.items():
             for variant in range(2):
                 picture = mix(texture(material, variant * 2), DEEP_SHADE, share)
-                table[f"{material}_{name}_{variant}"] = (_opaque(picture), {"kind": "solid"})
+                table[f"{material}_{name}_{variant}"] = (opaque(picture), {"kind": "solid"})
     return table
 
 

@@ -259,7 +259,7 @@ def letter_field(letter, x, y):
 
 
 def logo():
-    """Return the logo, (72, 248, 4) uint8."""
+    """Return the logo, (72, 244, 4) uint8."""
     width, height = LOGO
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y

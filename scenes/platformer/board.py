@@ -18,7 +18,9 @@ LINE = 11                    # [canvas px] from line to line
 IRIS = 0.32                  # [s] the picture closes around the hero, and opens again
 WIDEST = 560                 # [canvas px] radius at which the iris is out of the picture
 RESULT_AFTER = 0.9           # [s] from the goal to its result
-PARTS = (0.5, 1.0, 1.5)      # [s] after that, each star appears
+STARS_AFTER = (0.5, 1.0, 1.5)    # [s] after that, each star appears
+STAR, STAR_DROP, STAR_GROWTH = 18, 0.15, 120.0   # [px] of a star, [s] that it drops for, [px/s] that it shrinks meanwhile
+MOST_GEMS = 8                # places for secrets: there is no room for more
 HOLE = (255, 0, 255)
 TITLES = {"meadow": "THE MEADOW", "cave": "THE HOLLOW", "keep": "THE KEEP"}
 TITLE_TIME, TITLE_FADE = 2.4, 0.35   # [s] the name of an act is shown; it comes and goes in
@@ -61,8 +63,6 @@ def _draw_counters(canvas, scene):
     canvas.surface.blit(icons["icon_clock"], (clock.left - 13, y - 1))
     hurts = canvas.text(f"{scene.deaths}", CANVAS_SIZE[0] - MARGIN, y, PAPER, TEXT, 1, "right", True)
     canvas.surface.blit(icons["icon_skull"], (hurts.left - 13, y - 1))
-
-
     if scene.look.split is not None:
         behind, _ = scene.look.split
         color = GREEN if behind <= 0.0 else RED
@@ -73,12 +73,12 @@ def _draw_counters(canvas, scene):
 def _draw_gems(canvas, scene, x):
     """A place for each secret: empty, or with its gem."""
     icon = load_atlas("ui")["icon_gem"]
-    lift = whole(4 * scene.look.gem_pulse)
-    for number in range(min(scene.things.secrets_in_all, 8)):
+    lift, places = whole(4 * scene.look.gem_pulse), min(scene.things.secrets_in_all, MOST_GEMS)
+    for number in range(places):
         found = number < scene.secrets
         up = lift if number == scene.secrets - 1 else 0
         canvas.surface.blit(icon if found else _empty(icon), (x + 12 * number, MARGIN - 1 - up))
-    canvas.reserve((x, MARGIN - 1, 12 * min(scene.things.secrets_in_all, 8), 10))
+    canvas.reserve((x, MARGIN - 1, 12 * places, 10))
 
 
 @lru_cache(maxsize=4)
@@ -153,8 +153,9 @@ def _draw_result(canvas, scene):
     icons = load_atlas("ui")
     for number, (earned, reason) in enumerate(stars(scene)):
         x = middle + (number - 1) * 62
-        shown = earned and since > PARTS[number]
-        _draw_star(canvas, icons["icon_star"], x, top + 46, shown, since - PARTS[number])
+        age = since - STARS_AFTER[number]
+        shown = earned and age > 0.0
+        _draw_star(canvas, icons["icon_star"], x, top + 46, shown, age)
         canvas.text(reason, x, top + 64, PAPER if shown else FOG, SMALL, 1, "center")
     for row, (name, value) in enumerate((("time", clock_text(scene.clock)),
                                          ("coins", f"{scene.coins} of {scene.things.coins_in_all}"),
@@ -169,7 +170,7 @@ def _draw_result(canvas, scene):
 
 def _draw_star(canvas, image, x, y, shown, age):
     """A star that drops in, or its shadow."""
-    size = 18 if age > 0.15 or not shown else 18 + whole((0.15 - age) * 120)
+    size = STAR + (whole((STAR_DROP - age) * STAR_GROWTH) if shown and age < STAR_DROP else 0)
     star = pygame.transform.scale(image, (size, size))
     if not shown:
         star.fill((70, 64, 92, 255), special_flags=pygame.BLEND_RGBA_MULT)

@@ -6,8 +6,10 @@ from game.drawing.draw import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
 AHEAD = 64.0                 # [px] it looks this far in the way of a run
+STANDING_AHEAD = AHEAD * 0.35    # [px] and this far in the way he faces when he stands
 AHEAD_RATE = 1.8             # [1/s] slowly, so that a step back does not swing the picture
 FOLLOW_RATE = 6.5            # [1/s]
+RUNNING = 60.0               # [px/s] faster than this it looks where he runs, slower where he faces
 DEAD_ZONE = (6.0, 10.0)      # [px] small moves leave the picture still
 RAISED = 46.0                # [px] the hero stands below the middle: there is more to see above
 JUMP_ROOM = 58.0             # [px] a jump of that height does not lift the camera; its landing does
@@ -19,21 +21,21 @@ class Gaze:
 
     def __init__(self, scene):
         self.scene = scene
-        self.ahead = AHEAD * 0.35
+        self.ahead = STANDING_AHEAD
         self.level_y = scene.hero.character.position[1]
         self.peeking = 0                     # steps that he has looked up or down
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
         """The picture is there at once."""
-        self.level_y, self.ahead, self.peeking = y, AHEAD * 0.35, 0
+        self.level_y, self.ahead, self.peeking = y, STANDING_AHEAD, 0
         self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
 
     def step(self, dt):
         """Follow the hero."""
         scene, hero = self.scene, self.scene.hero
         x, y = hero.character.position
-        wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > 60.0 else AHEAD * 0.35 * hero.facing
+        wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > RUNNING else STANDING_AHEAD * hero.facing
         self.ahead += (max(-AHEAD, min(AHEAD, wanted)) - self.ahead) * (1.0 - exp(-AHEAD_RATE * dt))
         if hero.grounded or hero.sliding or hero.ladder is not None:
             self.level_y = y
@@ -46,10 +48,12 @@ class Gaze:
         """The point moved so that the picture around it stays in the hero's zone, where that is larger than the picture."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         width, height = CANVAS_SIZE
-        for zone in [zone for zone in zones if zone.width >= width][:1]:
-            x = min(max(x, zone.x + width / 2), zone.x + zone.width - width / 2)
-        for top, bottom in [rows_of(zone) for zone in zones if rows_of(zone)[1] - rows_of(zone)[0] >= height][:1]:
-            y = min(max(y, top + height / 2), bottom - height / 2)
+        wide = next((zone for zone in zones if zone.width >= width), None)
+        if wide is not None:
+            x = min(max(x, wide.x + width / 2), wide.x + wide.width - width / 2)
+        high = next((rows for rows in map(rows_of, zones) if rows[1] - rows[0] >= height), None)
+        if high is not None:
+            y = min(max(y, high[0] + height / 2), high[1] - height / 2)
         return x, y
 
 

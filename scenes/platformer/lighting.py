@@ -10,6 +10,8 @@ from game.drawing.sprites import load_atlas
 AMBIENT = (136, 132, 180)    # what is left of each colour where the cave is darkest
 STEPS = 12                   # of darkness between day and that, each with light discs of its own
 GRAIN = 2                    # [px] between the radii that a flickering light takes: so few pictures are kept
+BRIGHTEST = 0.62             # of a light's colour in the middle of its disc
+WARM = ("torch", "lantern", "window")    # these glow as they are drawn, the others in cold colours
 # What shines: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
 SHINES = {
     "torch": (0.10, 11.0, 32, 92, (255, 206, 150)), "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
@@ -40,7 +42,7 @@ class Lighting:
         for x, y, name in lights:
             flicker, speed, radius, _, _ = SHINES[name]
             if radius:
-                image = glow(flickering(radius, flicker, speed, time, x), name in ("torch", "lantern", "window"))
+                image = glow(flickering(radius, flicker, speed, time, x), name in WARM)
                 surface.blit(image, (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
                              special_flags=pygame.BLEND_RGB_ADD)
 
@@ -68,7 +70,7 @@ def disc(radius, color, share):
     rings = max(radius // 5, 3)
     for ring in range(rings):
         part = (ring + 1) / rings
-        pygame.draw.circle(image, [whole(c * share * 0.62 * part * part) for c in color], (radius, radius),
+        pygame.draw.circle(image, [whole(c * share * BRIGHTEST * part * part) for c in color], (radius, radius),
                            whole(radius * (1.0 - ring / rings)))
     return image
 

@@ -2,6 +2,7 @@
 
 from math import exp, pi
 
+from game.loop import STEP_SECONDS
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
@@ -35,6 +36,9 @@ TUMBLED = 1.2                # [s] a flattened bat or hedgehog is seen to fall
 QUICK, AFTERIMAGES = 250.0, 7    # [px/s] faster than this he leaves so many pictures of himself behind
 DARKEN = 2.2                 # [1/s] how quickly eyes and light get used to another act
 COVER_RATE = 7.0             # [1/s] a covered room is seen, and hidden again
+PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] how fast the jumps of the counters end
+PUFF_LIFE = 0.3              # [s] all frames of dust or a sparkle
+HELD_STEP = STEP_SECONDS / 4     # [s] that pass for lights and coins while the picture stands still
 SPLIT_TIME = 2.6             # [s] the time at a checkpoint against the best run's is shown
 WINDOW = 20.0, 72.0          # [px] the ghost passed a checkpoint when it was that near
 
@@ -54,6 +58,7 @@ class Look:
         self.gem_pulse = 0.0
         self.fall = self.fall_speed = 0.0    # a hurt hero's way down
         self.bodies, self.angles = {}, {}    # body id -> place, and angle of a crate, before this step
+        self.act = "meadow"                  # where no zone says otherwise
         self.act = self.last_act = self._act()
         self.act_age = 0.0                   # [s] in this act
         self.dark = 1.0 if self.act == "cave" else 0.0
@@ -68,8 +73,9 @@ class Look:
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
+        """The act of the zone that the hero is in; between zones, that of the last one."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
-        return zones[0].properties["act"] if zones else getattr(self, "act", "meadow")
+        return zones[0].properties["act"] if zones else self.act
 
     def begin_step(self):
         """Before anything moves."""
@@ -78,8 +84,8 @@ class Look:
         self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
 
     def hold(self):
-        """A step in which the picture stands still: only sparks fly on."""
-        self.time += 1 / 240
+        """A step in which the picture stands still: sparks fly on, what glows or turns goes on slowly."""
+        self.time += HELD_STEP
 
     def before(self, body):
         """Where a body was before the last step [px]."""
@@ -92,8 +98,8 @@ class Look:
         back = 1.0 - exp(-STRETCH_RATE * dt)
         self.width += (1.0 - self.width) * back
         self.height += (1.0 - self.height) * back
-        self.pulse = max(0.0, self.pulse - 4.0 * dt)
-        self.gem_pulse = max(0.0, self.gem_pulse - 1.5 * dt)
+        self.pulse = max(0.0, self.pulse - PULSE_FADE * dt)
+        self.gem_pulse = max(0.0, self.gem_pulse - GEM_FADE * dt)
         self._age(dt)
         self._follow_act(dt)
         if scene.phase != "hurt":
@@ -133,7 +139,7 @@ class Look:
         for aging in (self.puffs, self.flat):
             for one in aging:
                 one[-1] += dt
-        self.puffs = [puff for puff in self.puffs if puff[3] < 0.3]
+        self.puffs = [puff for puff in self.puffs if puff[3] < PUFF_LIFE]
         for one in self.flat:
             if one[0] == "walker" and one[4] >= SQUASHED:
                 self._puff("dust", one[1], one[2])

@@ -21,11 +21,17 @@ from scenes.platformer.things import SHAKES
 
 STRIDE = 13.0                # [px] of way per frame of the run: feet do not slide
 PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
+STANDING = 12.0              # [px/s] slower than this he is drawn standing
+FRAME = 24                   # [px] width and height of the hero's pictures
 NEAR = 40                    # [px] around the picture in which things are still drawn
+LIT_FROM = 100               # [px] around the picture from where light still reaches into it
 COIN_WAVE = 0.9              # [px] coins bob by this much, in a wave along the level
 GHOST = (96, 190, 255)       # added to a ghost's colours
+GHOST_ALPHA = 130
 IMAGE = (120, 130, 220)      # to an afterimage's
-TUMBLE = (30.0, 90.0, 420.0) # [px/s], [px/s], [px/s2] aside, up and down of what was flattened and is no walker
+IMAGE_ALPHA, ALPHA_STEP = 110, 22    # of a fresh one; it fades in steps, so that few pictures are kept
+SPARED_BLINK = 8             # [steps] of one blink of one who was just hurt
+TUMBLE = (30.0, 90.0, 420.0)  # [px/s], [px/s], [px/s2] aside, up and down of what was flattened and is no walker
 LAYERS = ("wall", "decor", "solid")
 SHINING = ("secret", "goal", "coin")
 
@@ -71,7 +77,7 @@ class View:
         """The whole picture."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
-        self.near = [trigger for trigger in scene.things.triggers.values() if self._sees(trigger.x, trigger.y, 100)]
+        self.near = [trigger for trigger in scene.things.triggers.values() if self._sees(trigger.x, trigger.y, LIT_FROM)]
         self.backdrops.draw(canvas.surface, scene.look, left, top)
         for name in ("wall", "decor"):
             if name in self.layers:
@@ -114,10 +120,9 @@ class View:
                 self._stand(canvas, self._spring(scene, trigger), x, bottom)
 
     def _spring(self, scene, trigger):
-        animation = self.things.animation("spring")
         if trigger.touched is None:
             return self.things["spring_0"]
-        return animation.at((scene.ticks - trigger.touched) / 60, loop=False)
+        return self.things.animation("spring").at((scene.ticks - trigger.touched) / 60, loop=False)
 
     def _draw_blocks(self, canvas, scene):
         """Belts and crumbling stones."""
@@ -168,18 +173,17 @@ class View:
             if not self._sees(x, y):
                 continue
             if enemy.kind == "bat":
-                image = things["bat_0"] if enemy.phase == "hanging" else things.animation("bat").at(look.time + x)
-                image = pygame.transform.flip(image, False, True) if enemy.phase == "hanging" else image
-                canvas.sprite(image if enemy.way < 0 else flipped(image), x - self.left, y - self.top)
+                hangs = enemy.phase == "hanging"
+                image = things["bat_0"] if hangs else things.animation("bat").at(look.time + x)
+                canvas.sprite(flipped(image, enemy.way >= 0, hangs), x - self.left, y - self.top)
                 continue
             image = things.animation(enemy.kind).at(look.time + enemy.start[0])
-            self._stand(canvas, image if enemy.way < 0 else flipped(image), x, y + enemy.size[1] / 2)
+            self._stand(canvas, flipped(image, enemy.way >= 0), x, y + enemy.size[1] / 2)
         for kind, x, bottom, way, age in look.flat:
             if kind == "walker":
-                image = things["walker_squashed"]
-                self._stand(canvas, image if way < 0 else flipped(image), x, bottom)
+                self._stand(canvas, flipped(things["walker_squashed"], way >= 0), x, bottom)
             else:
-                image = pygame.transform.flip(things[f"{kind}_0"], way > 0, True)
+                image = flipped(things[f"{kind}_0"], way > 0, upside_down=True)
                 aside, up, down = TUMBLE
                 self._stand(canvas, image, x + aside * way * age, bottom - up * age + down * age * age)
 
@@ -201,7 +205,7 @@ class View:
     def _lights(self, scene, alpha):
         """(canvas x, canvas y, name) of what shines in the picture."""
         for x, y, name in self.level.lights:
-            if self._sees(x, y, 100) and not scene.look.hidden(x, y):
+            if self._sees(x, y, LIT_FROM) and not scene.look.hidden(x, y):
                 yield x - self.left, y - self.top, name
         for trigger in self.near:
             if trigger.kind == "checkpoint" and trigger.lit:
@@ -216,10 +220,11 @@ class View:
     def _draw_hero(self, canvas, scene, alpha):
         hero, look = scene.hero, scene.look
         for x, bottom, name, way, age in look.afterimages:
-            image = self.tinted(name, way, IMAGE, whole(110 * (1.0 - age / (AFTERIMAGES + 1)) / 22) * 22)
+            left = IMAGE_ALPHA * (1.0 - age / (AFTERIMAGES + 1))
+            image = self.tinted(name, way, IMAGE, whole(left / ALPHA_STEP) * ALPHA_STEP)
             self._stand(canvas, image, x, bottom)
         spared = scene.mercy and scene.phase == "playing"
-        if spared and scene.comfort.flashing and scene.mercy % 8 < 4:
+        if spared and scene.comfort.flashing and scene.mercy % SPARED_BLINK < SPARED_BLINK // 2:
             return
         x, y = between(hero.before, hero.character.position, alpha)
         bottom = y + HEIGHT / 2
@@ -228,7 +233,7 @@ class View:
             bottom += look.fall
         elif hero.grounded:
             bottom += lowered(self.level, hero)
-        image = self.shaped(name, way, whole(24 * look.width), whole(24 * look.height))
+        image = self.shaped(name, way, whole(FRAME * look.width), whole(FRAME * look.height))
         if spared and not scene.comfort.flashing:
             for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
                 self._stand(canvas, self.tinted(name, way, (255, 255, 255), 255), x + dx, bottom + dy)
@@ -241,7 +246,7 @@ class View:
         x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
         if self._sees(x, bottom):
             known = name if name in self.hero.images else "idle_0"
-            self._stand(canvas, self.tinted(known, 1 if way >= 0 else -1, GHOST, 130), x, bottom)
+            self._stand(canvas, self.tinted(known, 1 if way >= 0 else -1, GHOST, GHOST_ALPHA), x, bottom)
 
     def _shaped(self, name, way, width, height):
         image = self.hero[name]
@@ -251,7 +256,7 @@ class View:
 
     def _tinted(self, name, way, color, alpha):
         """A frame in one light colour, half seen."""
-        image = self.shaped(name, way, 24, 24).copy()
+        image = self.shaped(name, way, FRAME, FRAME).copy()
         image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
         image.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
         return image
@@ -263,8 +268,7 @@ def hero_frame(scene):
     if scene.phase == "hurt":
         return "hurt_0", hero.facing
     if hero.ladder is not None:
-        names = frames.animation("climb").names
-        return names[int(look.climb / RUNG_STRIDE) % len(names)], 1
+        return strode(frames.animation("climb"), look.climb, RUNG_STRIDE), 1
     if hero.sliding:
         return cycle(frames.animation("slide"), look.time), hero.sliding
     if not hero.grounded:
@@ -274,11 +278,9 @@ def hero_frame(scene):
     if scene.phase == "won":
         return cycle(frames.animation("win"), look.time), hero.facing
     if hero.pushing and hero.pushed is not None:
-        names = frames.animation("push").names
-        return names[int(look.run / PUSH_STRIDE) % len(names)], hero.facing
-    if abs(hero.vx) > 12.0:
-        names = frames.animation("run").names
-        return names[int(look.run / STRIDE) % len(names)], hero.facing
+        return strode(frames.animation("push"), look.run, PUSH_STRIDE), hero.facing
+    if abs(hero.vx) > STANDING:
+        return strode(frames.animation("run"), look.run, STRIDE), hero.facing
     if hero.gazing:
         return ("duck_0" if hero.gazing > 0 else "look_up_0"), hero.facing
     return cycle(frames.animation("idle"), look.time), hero.facing
@@ -303,9 +305,9 @@ def deck(width):
 
 
 @lru_cache(maxsize=64)
-def flipped(image):
-    """An image the other way round."""
-    return pygame.transform.flip(image, True, False)
+def flipped(image, mirrored, upside_down=False):
+    """A picture as it is drawn or the other way round, on its feet or on its head."""
+    return pygame.transform.flip(image, mirrored, upside_down) if mirrored or upside_down else image
 
 
 def between(before, now, alpha):
@@ -316,6 +318,11 @@ def between(before, now, alpha):
 def cycle(animation, seconds):
     """The name of the frame shown after so many seconds."""
     return animation.names[animation.index_at(seconds)]
+
+
+def strode(animation, way, stride):
+    """The name of the frame shown after so much way [px]."""
+    return animation.names[int(way / stride) % len(animation.names)]
 
 
 def lowered(level, hero):

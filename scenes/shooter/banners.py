@@ -1,6 +1,7 @@
 """Banners across the picture: the stage's title, the warning, bonuses, continue, and the end."""
 
 from functools import lru_cache
+from math import inf
 
 import pygame
 
@@ -9,11 +10,14 @@ from game.drawing.draw import TEXT, whole
 from game.drawing.hud import banner
 from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
+from scenes.shooter.spectacle import BONUS_SHOWN
 
 SLIDE = 24                   # steps that a banner takes to come in, and to go
 STRIPE = 16                  # [px] of the warning's slanted stripes
 SMOKE = 50                   # steps that the boss's end is left to be seen
 BLINK = 20                   # steps: WARNING is bright and dark by turns, three times in two seconds
+HALF = 28                    # [px] from the top of a band of two lines to the line that it grows from
+HURRY = 4                    # the digit of the countdown below which it is red
 
 
 def draw_banners(canvas, scene):
@@ -60,7 +64,7 @@ def _draw_warning(canvas, scene):
     high = whole(56 * share)
     _band(canvas, 100, high)
     shift = since * 2 % (2 * STRIPE)
-    for y in (100 + 28 - high // 2 - 8, 100 + 28 + high // 2):
+    for y in (100 + HALF - high // 2 - 8, 100 + HALF + high // 2):
         canvas.surface.blit(stripes(canvas.rect.width + 2 * STRIPE), (shift - 2 * STRIPE, y))
     if share < 0.6:
         return
@@ -71,7 +75,7 @@ def _draw_warning(canvas, scene):
 
 def _draw_bonus(canvas, bonus):
     title, points, left = bonus
-    y = 134 - whole(6 * eased(120 - left, 121))
+    y = 134 - whole(6 * eased(BONUS_SHOWN - left, BONUS_SHOWN + 1))
     canvas.text(title, canvas.rect.centerx, y, GOLD if points else PAPER, TEXT, 2, "center", True)
     if points:
         canvas.text(f"+{points:,}", canvas.rect.centerx, y + 20, PAPER, TEXT, 1, "center", True)
@@ -80,7 +84,7 @@ def _draw_bonus(canvas, bonus):
 def _draw_bonuses(canvas, scene):
     """The end of the stage: one line after another."""
     ending = scene.ending
-    share = eased(min(max(ending.since - SMOKE, 0), SLIDE), 10_000)
+    share = eased(ending.since - SMOKE, inf)
     _band(canvas, 70, whole(112 * share))
     if share < 0.9:
         return
@@ -94,7 +98,7 @@ def _draw_bonuses(canvas, scene):
 def _draw_continue(canvas, scene):
     digit = scene.ending.digit
     banner(canvas, f"CONTINUE? {digit}", ("fire: go on, with the points begun anew", "bomb: hurry"),
-           RED if digit < 4 else GOLD)
+           RED if digit < HURRY else GOLD)
 
 
 def _summary(scene):
@@ -105,9 +109,9 @@ def _summary(scene):
 
 
 def _band(canvas, top, high):
-    """A dark band of a height, growing from its middle line."""
+    """A dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
     if high > 0:
-        canvas.surface.blit(_shade(canvas.rect.width, high), (0, top + 28 - high // 2 if high <= 58 else top))
+        canvas.surface.blit(_shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top))
 
 
 def _text_inside(canvas, text, x, y, color, scale):

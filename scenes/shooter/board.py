@@ -7,12 +7,16 @@ from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import ALMOST
 from scenes.shooter.plane import TOP_POWER
 from scenes.shooter.score import HOLD, TOP_CHAIN
+from scenes.shooter.spectacle import NEWS
 
 HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))      # by how much is left
 FADE = 0.55                  # [s] after which a rising word is written darker
 HELD = ((0, 0, 132, 36), (380, 0, 100, 44), (140, 0, 226, 28), (0, 254, 150, 16))  # [canvas px] where the fixed words stand
 BAR = (148, 17, 184, 7)      # [canvas px] of the leader's health
 CHAIN = (MARGIN, 17, 60, 4)
+HEALTH_WIDTH = 36            # [px] of the bar at a damaged plane
+PHASE_NAME = 150             # steps that the name of a leader's phase is shown
+SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
@@ -42,9 +46,8 @@ def _draw_score(canvas, scene):
     y = MARGIN - whole(2 * pulse)
     rect = canvas.text(f"{score.points:08d}", MARGIN, y, GOLD if pulse > 0.4 else PAPER, TEXT, outline=True)
     canvas.text(f"x{score.times}", rect.right + 6, y, SKY if score.times > 1 else PAPER, TEXT, outline=True)
-    best = max(scene.best, score.points)
     if scene.best:
-        canvas.text(f"BEST {best:08d}", MARGIN, 30, PAPER, SMALL, outline=True)
+        canvas.text(f"BEST {max(scene.best, score.points):08d}", MARGIN, 30, PAPER, SMALL, outline=True)
     left, top, width, height = CHAIN
     canvas.surface.fill(INK, CHAIN)
     if score.chain:
@@ -83,7 +86,7 @@ def _draw_hits(canvas, scene):
 def _draw_wave(canvas, scene):
     director, news = scene.director, scene.spectacle.news
     # It slides in from above and stays clear of the sky where planes fight.
-    y = MARGIN - max(0, news - 118) - max(0, 10 - news)
+    y = MARGIN - max(0, news - (NEWS - SLIDE_IN)) - max(0, SLIDE_OUT - news)
     if y >= 0:
         canvas.text(director.wave, canvas.rect.centerx, y, GOLD, TEXT, align="center", outline=True)
 
@@ -104,19 +107,23 @@ def _draw_leader(canvas, scene, leader):
     for number in range(behind):
         canvas.surface.fill(HEALTH[2], (left + 1 + round(part * number), top + 1, round(part) - 1, height - 2))
     share = max(scene.spectacle.health, 0.0)
-    color = HEALTH[min(int(share * 3), 2)]
+    color = health_color(share)
     start = left + 1 + round(part * behind)
     canvas.surface.fill(color, (start, top + 1, round((part - 1) * share), height - 2))
     canvas.surface.fill(tuple(min(c + 60, 255) for c in color), (start, top + 1, round((part - 1) * share), 1))
     for number in range(1, phases):
         canvas.surface.fill(PAPER, (left + round(part * number), top - 1, 1, height + 2))
     canvas.reserve(BAR)
-    if leader.mode == "fight" and leader.since < 150:
+    if leader.mode == "fight" and leader.since < PHASE_NAME:
         canvas.text(leader.phase.name, left, top + 11, SKY, SMALL, outline=True)
 
 
 def draw_health(surface, place, share):
-    """A small bar under a damaged plane's nose."""
-    color = HEALTH[max(0, min(int(share * 3), 2))]
-    surface.fill(INK, (*place, 36, 4))
-    surface.fill(color, (place[0] + 1, place[1] + 1, max(1, round(34 * share)), 2))
+    """A small bar behind a damaged plane's tail."""
+    surface.fill(INK, (*place, HEALTH_WIDTH, 4))
+    surface.fill(health_color(share), (place[0] + 1, place[1] + 1, max(1, round((HEALTH_WIDTH - 2) * share)), 2))
+
+
+def health_color(share):
+    """Red, yellow or green, by how much is left, 0..1."""
+    return HEALTH[max(0, min(int(share * 3), 2))]

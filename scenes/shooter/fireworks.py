@@ -15,6 +15,9 @@ VAPOUR = ((214, 232, 255), (150, 178, 214), (92, 116, 156))
 WORD_LIFE = 0.8              # [s]
 RING_LIFE = 0.45             # [s] of a shock wave
 MOST_SCARS = 24              # scorched places on the ground that are remembered
+WORD_RISE = 18.0             # [px/s]
+DEBRIS_DRAG, DEBRIS_FALL = 0.985, 0.8    # of the speed that is left a step later; [px/s] it falls faster each step
+BURNING = 0.7                # share of its life in which debris burns and trails sparks
 
 
 class Fireworks:
@@ -39,14 +42,14 @@ class Fireworks:
         for piece in self.debris:
             piece[1] += piece[3] * dt
             piece[2] += piece[4] * dt
-            piece[3] *= 0.985
-            piece[4] = piece[4] * 0.985 + 0.8
+            piece[3] *= DEBRIS_DRAG
+            piece[4] = piece[4] * DEBRIS_DRAG + DEBRIS_FALL
             piece[5] += dt
-            if int(piece[5] * 60) % 4 == 0 and piece[5] < 0.7 * piece[6]:
+            if int(piece[5] * 60) % 4 == 0 and piece[5] < BURNING * piece[6]:
                 self.particles.burst(piece[1], piece[2], 1, FIRE, speed=(0, 10), life=(0.2, 0.5), size=(1, 2))
         self.debris = [piece for piece in self.debris if piece[5] < piece[6]]
         for word in self.words:
-            word[2] -= 18.0 * dt
+            word[2] -= WORD_RISE * dt
             word[3] += dt
         self.words = [word for word in self.words if word[3] < WORD_LIFE]
         for ring in self.rings:
@@ -87,8 +90,12 @@ class Fireworks:
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
         for number in range(max(2, round(count * blow.strength))):
-            self.debris.append([f"debris_{frames[number % 2]}", x, y, vx + wild * self.random.uniform(-90, 90),
-                                vy + wild * self.random.uniform(-100, 50), 0.0, self.random.uniform(0.5, 1.2)])
+            self.piece(frames[number % 2], x, y, vx + wild * self.random.uniform(-90, 90),
+                       vy + wild * self.random.uniform(-100, 50), self.random.uniform(0.5, 1.2))
+
+    def piece(self, kind, x, y, vx, vy, life):
+        """One piece of debris; kind: number of its frame."""
+        self.debris.append([f"debris_{kind}", x, y, vx, vy, 0.0, life])
 
     def ring(self, x, y, radius):
         """A shock wave."""

@@ -1,16 +1,18 @@
-"""Light and lines: shock waves, the bomb's blast, the ring and the core of the player."""
+"""Light and lines: shock waves, the bomb's blast, the ring around the player."""
 
 from functools import lru_cache
 
 import pygame
 
-from game.drawing.sprites import load_atlas
 from scenes.shooter.bomb import BURN, GROW
 from scenes.shooter.fireworks import RING_LIFE
 
 LINE = (150, 236, 255)
 WAVE = (255, 214, 150)
 SHADES = 8                   # of a fading shock wave
+ROUNDING = 4                 # [px] between the radii that are drawn: so few pictures are kept
+BLAST = 120                  # [px] radius of the light of a blast
+INSIDE = 12                  # [px] that the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):
@@ -19,9 +21,7 @@ def draw_rings(view, works):
         share = age / RING_LIFE
         grown = max(4, int(radius * (1.0 - (1.0 - share) ** 3)))
         bright = SHADES - int(share * SHADES)
-        image = wave(grown // 4 * 4 + 4, bright)
-        half = image.get_width() // 2
-        view.surface.blit(image, view.at(x, y, (half, half)), special_flags=pygame.BLEND_RGB_ADD)
+        view.add_light(wave(grown // ROUNDING * ROUNDING + ROUNDING, bright), x, y)
 
 
 def draw_bomb(view, scene):
@@ -29,14 +29,13 @@ def draw_bomb(view, scene):
     bomb = scene.bomb
     if bomb.body is None:
         return
-    effects = load_atlas("effects")
-    frames = effects.animation("bomb_ring").images
-    image = next((each for each in frames if each.get_width() >= 2 * bomb.radius - 24), frames[-1])
+    frames = view.effects.animation("bomb_ring").images
+    image = next((each for each in frames if each.get_width() >= 2 * (bomb.radius - INSIDE)), frames[-1])
     half = image.get_width() // 2
     left = 1.0 - max(bomb.age - GROW, 0) / (BURN - GROW)
     if left < 1.0:
-        image = faded(image, int(left * 10))
-    view.surface.blit(blast(int(left * 10)), view.at(bomb.x, bomb.y, (120, 120)), special_flags=pygame.BLEND_RGB_ADD)
+        image = faded(image, 255 * int(left * 10) // 10)
+    view.add_light(blast(int(left * 10)), bomb.x, bomb.y)
     view.surface.blit(image, view.at(bomb.x, bomb.y, (half, half)))
 
 
@@ -52,26 +51,18 @@ def wave(radius, bright):
 @lru_cache(maxsize=12)
 def blast(tenths):
     """The light inside a blast: bright in the middle, dithered rings outwards."""
-    image = pygame.Surface((240, 240))
-    for number, radius in enumerate(range(116, 10, -14)):
+    image = pygame.Surface((2 * BLAST, 2 * BLAST))
+    for number, radius in enumerate(range(BLAST - 4, 10, -14)):
         level = (6 + 5 * number) * tenths // 10
-        pygame.draw.circle(image, (level // 2, level * 3 // 4, level), (120, 120), radius)
+        pygame.draw.circle(image, (level // 2, level * 3 // 4, level), (BLAST, BLAST), radius)
     return image
 
 
 @lru_cache(maxsize=80)
-def faded(image, tenths):
-    """A clearer copy."""
+def faded(image, alpha):
+    """A clearer copy: alpha, 0..255, of what is solid."""
     copy = image.copy()
-    copy.fill((255, 255, 255, 255 * tenths // 10), special_flags=pygame.BLEND_RGBA_MULT)
-    return copy
-
-
-@lru_cache(maxsize=4)
-def faint(image):
-    """The core while nobody looks for it."""
-    copy = image.copy()
-    copy.fill((255, 255, 255, 120), special_flags=pygame.BLEND_RGBA_MULT)
+    copy.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
 
 

@@ -4,11 +4,15 @@ from math import pi
 
 from scenes.shooter.cast import WIDTH
 from scenes.shooter.fireworks import BLUE, DUST, FIRE, GOLD, SPARK, VAPOUR, Fireworks
+from scenes.shooter.plane import TOP_POWER
 
 SMOKE_EVERY = 5              # steps between puffs of something large that is damaged
 FLASH = 3                    # steps that a plane stays white when it is hit
 LEAN_RATE = 0.06             # share of the way to the plane that the parallax goes in a step
 NEWS = 130                   # steps that the name of a wave is shown
+BONUS_SHOWN = 120            # steps that what a phase gave is shown
+PULSE_FADE, GAIN_FADE = 5.0, 2.0   # [1/s] how fast the score's jump and the weapon's icon's end
+HEALTH_RATE = 0.12           # share of the way to the real health that the leader's bar goes in a step
 SHOT_SOUND = 6               # steps at least between two sounds of a leader's guns
 GRAZE_WORDS = 45             # steps between two words about grazes
 MOST_EMBERS = 100            # bullets that burn with sparks at once; more would hide the picture
@@ -20,6 +24,7 @@ DEATHS = {"dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
           "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 12)}
 PAINT = {"dart": (1, 0), "saucer": (3, 4), "gunship": (2, 0), "hornet": (4, 0), "turret": (0, 2),
          "player": (5, 0), "midboss": (2, 0), "boss": (1, 0)}     # frames of the debris
+PRAISE = (150, 226, 255)     # colour of what was done well
 WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
@@ -49,12 +54,12 @@ class Spectacle:
         self.quiet, self.hush = max(0, self.quiet - 1), max(0, self.hush - 1)
         self.lean_before = self.lean
         self.lean += (scene.plane.x - WIDTH / 2 - self.lean) * LEAN_RATE
-        self.pulse, self.gain = max(0.0, self.pulse - 5.0 * dt), max(0.0, self.gain - 2.0 * dt)
+        self.pulse, self.gain = max(0.0, self.pulse - PULSE_FADE * dt), max(0.0, self.gain - GAIN_FADE * dt)
         self.news, self.bonus[2] = max(0, self.news - 1), max(0, self.bonus[2] - 1)
         self.flashes = {identity: left - 1 for identity, left in self.flashes.items() if left > 1}
         leader = scene.fleet.leader
         share = leader.health / leader.full if leader is not None and leader.mode != "arrive" else 0.0
-        self.health += (share - self.health) * 0.12
+        self.health += (share - self.health) * HEALTH_RATE
         if not scene.freeze:
             self._trails()
         self.works.step(dt, still=scene.freeze > 0)
@@ -89,7 +94,7 @@ class Spectacle:
 
     def wave_done(self, enemy, worth):
         """All planes of a wave are down."""
-        self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, (150, 226, 255))
+        self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
         """A leader is near."""
@@ -101,7 +106,7 @@ class Spectacle:
     def player_fires(self, plane):
         """Muzzle flash and sound."""
         self.muzzle = 0
-        self.scene.play("heavy_laser" if plane.power == 5 else "laser", plane.x, 0.2)
+        self.scene.play("heavy_laser" if plane.power == TOP_POWER else "laser", plane.x, 0.2)
 
     def enemy_fires(self, enemy):
         """A plane opens fire."""
@@ -165,7 +170,7 @@ class Spectacle:
 
     def hit_taken(self, plane):
         """A hit that costs nothing."""
-        self.flashes[plane.body.id] = 4
+        self.flashes[plane.body.id] = FLASH + 1
         self.works.sparks(plane.x, plane.y, 10, BLUE, 120)
         self.scene.play("hurt", plane.x, 0.4)
 
@@ -206,7 +211,7 @@ class Spectacle:
             self.works.sparks((x + plane.x) / 2, (y + plane.y) / 2, 3, BLUE, 90)
         if not self.hush:
             self.hush = GRAZE_WORDS
-            self.works.word(f"GRAZE +{worth}", plane.x, plane.y + 22, (150, 226, 255))
+            self.works.word(f"GRAZE +{worth}", plane.x, plane.y + 22, PRAISE)
         self.scene.play("graze", plane.x, 0.3)
 
     def chain_broken(self, plane):
@@ -242,7 +247,7 @@ class Spectacle:
     def phase_over(self, leader, last, worth):
         """The sky is cleared, and the leader shows what it took."""
         x, y, works = leader.x, leader.y, self.works
-        self.bonus = [("PHASE BONUS" if worth else "TIME OUT"), worth, 120]
+        self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
         works.ring(x, y, 220.0)
         works.chain(x, y, 52, 30, 8, 0.07)
         works.sparks(x, y, 80, FIRE, 260)
@@ -261,8 +266,7 @@ class Spectacle:
             big = leader.since % (4 * every) == 0
             self.works.burst("explosion_large" if big else "explosion_small", leader.x + dx, leader.y + dy, 0.0, 16.0)
             self.works.sparks(leader.x + dx, leader.y + dy, 16, FIRE, 170)
-            frame = f"debris_{PAINT[leader.kind][0]}"
-            self.works.debris.append([frame, leader.x + dx, leader.y + dy, dx * 1.6, -60.0, 0.0, 1.2])
+            self.works.piece(PAINT[leader.kind][0], leader.x + dx, leader.y + dy, dx * 1.6, -60.0, 1.2)
             self.scene.camera.shake(0.12)
             self.scene.play("explosion", leader.x + dx, 0.5 + 0.4 * share)
             self.flashes[leader.id] = 2
@@ -280,8 +284,8 @@ class Spectacle:
         works.sparks(x, y, 60, GOLD, 300)
         works.puffs(x, y, 14)
         for number in range(20):
-            works.debris.append([f"debris_{PAINT[leader.kind][number % 2]}", x, y, self.random.uniform(-190, 190),
-                                 self.random.uniform(-180, 120), 0.0, self.random.uniform(0.8, 1.8)])
+            works.piece(PAINT[leader.kind][number % 2], x, y, self.random.uniform(-190, 190),
+                        self.random.uniform(-180, 120), self.random.uniform(0.8, 1.8))
         self.scene.flash.start(1.0)
         self.scene.camera.shake(0.9)
         self.scene.play("big_explosion", x, 1.0)

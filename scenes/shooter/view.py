@@ -18,8 +18,10 @@ from scenes.shooter import banners, board, light
 from scenes.shooter.bullets import LOOKS, NAMES
 from scenes.shooter.cast import GROUNDED
 from scenes.shooter.ending import PLAYING
+from scenes.shooter.fireworks import BURNING
 from scenes.shooter.ground import draw_ground
 from scenes.shooter.loot import PICTURES
+from scenes.shooter.plane import RING_RADIUS, SPEED
 
 SHADOW_AT = (15, 24)         # [px] from a plane to its shadow on the ground
 SHADOW = (8, 12, 30, 84)
@@ -29,9 +31,15 @@ GLOWS = {"shot": "glow_blue", "heavy": "glow_blue", "red": "glow_small", "orange
          "big": "glow_small"}
 MOST_GLOWS = 160             # bullets of a look that glow; more would be one bright fog, and cost time
 OUT = 24                     # [px] outside of the picture, where a bullet's light is no longer seen
-EXHAUST_AT = 21              # [px] from the plane's middle to that of its flames
-WHITE, PALE = 190, 60         # how much a hit brightens a plane; what takes many hits only glimmers
+EXHAUST_AT = 15              # [px] from the plane's middle to the root of its flame
+EXHAUST_PLAY = 0.35          # share by which the flame is longer or shorter at full speed up or down
+MUZZLE_AT, MUZZLE_STEPS = 16, 4   # [px] from the plane's middle to its guns; steps that their flash is seen
+WHITE, PALE = 190, 60        # how much a hit brightens a plane; what takes many hits only glimmers
+FAINT = 120                  # alpha of a ghost, and of the core while nobody looks for it
+TUMBLES = 14                 # quarter turns of debris a second
 STURDY = 20                  # health from which on it is shown
+HEALTH_AT = 26               # [px] from a plane's middle up to its health
+LIT = 0.25                   # [s] that an explosion lights up what is around it
 BLINK = 8                    # steps of one blink of a ghost
 
 
@@ -45,7 +53,7 @@ class View:
         self.outlined = lru_cache(maxsize=16)(outline)
         self.ghostly = lru_cache(maxsize=16)(ghostly)
         self.stretched = lru_cache(maxsize=64)(stretched)
-        self.dimmed = lru_cache(maxsize=64)(dimmed)
+        self.tumbled = lru_cache(maxsize=64)(tumbled)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
         """(image, origin in it) of a frame at an angle: exactly the pixels of the mask of the frame that collides."""
@@ -59,7 +67,7 @@ class View:
 
     def draw(self, scene, canvas, alpha):
         """The whole picture."""
-        self.canvas, self.surface, self.alpha = canvas, canvas.surface, alpha
+        self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
         works = scene.spectacle.works
@@ -94,6 +102,10 @@ class View:
     def at(self, x, y, origin):
         """Canvas place of a picture whose origin is at a world point."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
+
+    def add_light(self, image, x, y):
+        """Add a picture to what is there, its middle at a world point."""
+        self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
         """(picture, place, whiteness) of what is in the air, the player last; (picture, place) of what is on the ground."""
@@ -133,9 +145,9 @@ class View:
         image = self.planes.animation("exhaust").at(self.time)
         width, height = image.get_size()
         # Longer as it climbs, shorter as it falls back.
-        height = round(height * (1.0 - 0.35 * player.velocity[1] / 168.0))
+        height = round(height * (1.0 - EXHAUST_PLAY * player.velocity[1] / SPEED))
         image = pygame.transform.scale(image, (width, height)) if player.velocity[1] else image
-        self.surface.blit(image, self.at(x[0], y[0] + EXHAUST_AT - 6, (width / 2, 0)))
+        self.surface.blit(image, self.at(x[0], y[0] + EXHAUST_AT, (width / 2, 0)))
 
     def _draw_loot(self, scene):
         if not scene.loot.items:
@@ -143,11 +155,10 @@ class View:
         x, y, _ = self.places(scene, list(scene.loot.items))
         for item, px, py in zip(scene.loot.items.values(), x.tolist(), y.tolist(), strict=True):
             image = self.planes.animation(PICTURES[item.what]).at(self.time)
-            glow = self.effects["glow_blue" if item.what == "bomb" else "glow_small"]
-            self.surface.blit(glow, self.at(px, py, (16, 16)), special_flags=pygame.BLEND_RGB_ADD)
+            self.add_light(self.effects["glow_blue" if item.what == "bomb" else "glow_small"], px, py)
             # It breathes: wide and low, then narrow and high.
             image = self.stretched(image, round(2 * sin(6.0 * self.time + 0.1 * px)))
-            self.surface.blit(image, self.at(px, py, (image.get_width() / 2, image.get_height() / 2)))
+            self.surface.blit(image, self.at(px, py, middle(image)))
 
     def _draw_bullets(self, scene, bullets):
         if not len(bullets):
@@ -159,9 +170,9 @@ class View:
         safe = scene.comfort.palette != "standard" and bullets is scene.incoming
         for number in np.unique(looks).tolist():
             mine, name = looks == number, NAMES[number]
-            glow = GLOWS.get(name)
-            if glow is not None and np.count_nonzero(mine) <= MOST_GLOWS:
-                self._stamp(self.effects[glow], (16.0, 16.0), x[mine], y[mine], pygame.BLEND_RGB_ADD)
+            if name in GLOWS and np.count_nonzero(mine) <= MOST_GLOWS:
+                glow = self.effects[GLOWS[name]]
+                self._stamp(glow, middle(glow), x[mine], y[mine], pygame.BLEND_RGB_ADD)
             frame, painted = LOOKS[name]
             shown = f"safe_{frame}" if safe else frame
             if painted is None:
@@ -190,9 +201,9 @@ class View:
         if not player.here:
             return
         x, y, _ = self.places(scene, [player.body.id])
-        if scene.spectacle.muzzle < 4:
+        if scene.spectacle.muzzle < MUZZLE_STEPS:
             image = self.effects[f"muzzle_flash_{min(scene.spectacle.muzzle, 2)}"]
-            self.surface.blit(image, self.at(x[0], y[0] - 16, (7, 7)))
+            self.surface.blit(image, self.at(x[0], y[0] - MUZZLE_AT, middle(image)))
         image, origin = self.sprite(self.planes, player.frame)
         # Where nothing may blink, a steady line says that the plane is a ghost.
         steady = player.safe and not scene.comfort.flashing and scene.ending.mode == PLAYING
@@ -200,21 +211,24 @@ class View:
             self.surface.blit(self.outlined(image), self.at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
         core = self.planes.animation("core").at(self.time)
         if player.focusing:
-            self.surface.blit(self.effects["glow_blue"], self.at(x[0], y[0], (16, 16)), special_flags=pygame.BLEND_RGB_ADD)
-            self.surface.blit(light.circle_line(16), self.at(x[0], y[0], (17, 17)))
-        self.surface.blit(core if player.focusing else light.faint(core), self.at(x[0], y[0], (3, 3)))
+            self.add_light(self.effects["glow_blue"], x[0], y[0])
+            ring = light.circle_line(int(RING_RADIUS))
+            self.surface.blit(ring, self.at(x[0], y[0], middle(ring)))
+        core = core if player.focusing else light.faded(core, FAINT)
+        self.surface.blit(core, self.at(x[0], y[0], middle(core)))
 
     def _draw_health(self, scene):
         for plane in scene.fleet.planes.values():
             if plane.full > STURDY and not plane.leads and plane.health < plane.full:
                 x, y, _ = self.places(scene, [plane.id])
-                board.draw_health(self.surface, self.at(x[0], y[0] - 26, (18, 0)), plane.health / plane.full)
+                place = self.at(x[0], y[0] - HEALTH_AT, (board.HEALTH_WIDTH / 2, 0))
+                board.draw_health(self.surface, place, plane.health / plane.full)
 
     def _draw_debris(self, works):
         pairs = []
         for frame, x, y, _, _, age, life in works.debris:
-            image = self.dimmed(self.effects[frame], int(age * 14) % 4, age > 0.7 * life)
-            pairs.append((image, self.at(x, y, (image.get_width() / 2, image.get_height() / 2))))
+            image = self.tumbled(self.effects[frame], int(age * TUMBLES) % 4, age > BURNING * life)
+            pairs.append((image, self.at(x, y, middle(image))))
         blit_many(self.surface, pairs)
 
     def _draw_bursts(self, works):
@@ -223,17 +237,21 @@ class View:
             if age < 0.0:
                 continue
             image = self.effects.animation(name).at(age, loop=False)
-            half = image.get_width() / 2
-            if name.startswith("explosion") and age < 0.25:
-                glow = self.effects["glow_large"]
-                self.surface.blit(glow, self.at(x, y, (48, 48)), special_flags=pygame.BLEND_RGB_ADD)
-            self.surface.blit(image, self.at(x, y, (half, half)))
+            if name.startswith("explosion") and age < LIT:
+                self.add_light(self.effects["glow_large"], x, y)
+            self.surface.blit(image, self.at(x, y, middle(image)))
 
 
 @lru_cache(maxsize=1)
 def the_view():
     """The one View, made when the first picture is wanted."""
     return View()
+
+
+def middle(image):
+    """The middle of a picture, as an origin in it."""
+    width, height = image.get_size()
+    return width / 2, height / 2
 
 
 def shade(image):
@@ -246,7 +264,7 @@ def shade(image):
 def ghostly(image):
     """A plane that nothing can hit, in every other moment: bright and clear."""
     copy = lit(image, 90)
-    copy.fill((255, 255, 255, 120), special_flags=pygame.BLEND_RGBA_MULT)
+    copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
 
 
@@ -267,9 +285,9 @@ def stretched(image, more):
     return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
-def dimmed(image, quarter, small):
-    """Debris: turned by quarters as it tumbles, half the size when it is nearly burnt."""
-    image = pygame.transform.rotate(image, 90 * quarter)
+def tumbled(image, quarters, small):
+    """Debris: turned by quarters as it tumbles, two thirds of its size when it is nearly burnt."""
+    image = pygame.transform.rotate(image, 90 * quarters)
     if small:
         image = pygame.transform.scale(image, (image.get_width() * 2 // 3, image.get_height() * 2 // 3))
     return image
