@@ -13,7 +13,7 @@ def main(argv=None):
 
     problem = startup.python_problem(sys.version_info, sys.executable) or startup.package_problem()
     if problem:
-        sys.stderr.write("hitbox: " + problem + "\n")
+        startup.say(problem)
         return 2
     startup.prepare_environment()
 

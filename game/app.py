@@ -1,6 +1,6 @@
 """The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens/stack.py."""
 
-from time import perf_counter, strftime
+from time import perf_counter
 
 import pygame
 
@@ -9,13 +9,13 @@ from game.drawing.colors import GOLD
 from game.drawing.draw import SMALL
 from game.drawing.picture import Picture, save_png
 from game.errors import UsageError
-from game.files.data_folder import data_folder
+from game.files.data_folder import data_folder, free_name
 from game.files.records import load_records
 from game.files.settings import load_settings, save_settings
 from game.headless import finish, save_or_fail
 from game.inputs import InputState
 from game.loop import STEP_SECONDS, FixedStep
-from game.screens.loading import Loading
+from game.screens.loading import Loading, LoadingStopped
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.stack import Screens
@@ -67,12 +67,16 @@ class App:
 
     def _open_first(self, message):
         recording = self.options.recording
-        if recording is not None and not self._is_a_run():
-            self.screens.stack.append(self.screens.watching(self.options.replay))
-        elif self.options.scene:
-            self.screens.play_first()
-        else:
+        try:
+            if recording is not None and not self._is_a_run():
+                self.screens.stack.append(self.screens.watching(self.options.replay))
+            elif self.options.scene:
+                self.screens.play_first()
+            else:
+                self.screens.title(message)
+        except LoadingStopped:
             self.screens.title(message)
+            self.stop_if_closed()
 
     def _is_a_run(self):
         """True for a run that the command line measures or saves: it is about one scene, and ends with it."""
@@ -108,9 +112,9 @@ class App:
     def turn(self):
         """One turn of the loop: events, due steps, one picture."""
         started = perf_counter()
-        for event in pygame.event.get():
-            self._feed(event)
         try:
+            for event in pygame.event.get():
+                self._feed(event)
             if hasattr(self.screen, "advance"):
                 self._turn_scene(started)
             else:
@@ -119,6 +123,10 @@ class App:
             if self._is_a_run():
                 raise
             self.screens.complain(error)
+            self._arrive()
+            return
+        except LoadingStopped:
+            self.stop_if_closed()
             return
         self.wipe.draw(self.picture.presenter.frame.surface, started, self.settings.reduced_flashing)
         self._sound(started)
@@ -198,21 +206,25 @@ class App:
             if not (hasattr(self.screen, "feed") and self.screen.feed(event)):
                 self.devices.feed(event)
 
-    def was_closed(self):
-        """True if the window's closing waits in the queue."""
-        return pygame.event.peek(pygame.QUIT)
+    def stop_if_closed(self):
+        """End the program if the window's closing waits in the queue: it was what stopped the loading."""
+        self.running = self.running and not pygame.event.peek(pygame.QUIT)
 
     def _follow(self, outcome):
         """Go where the top screen leads; the old picture is wiped away."""
-        if self.screens.played is self.screen and outcome[0] == "menu":
+        if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self._is_a_run() or self.options.recording):
                 self.running = False       # such a run is about one scene; leaving it ends the program
                 self.screen.outcome = None
                 return
             self.options.scene = None
         self.wipe.begin(self.picture.presenter.frame.surface, perf_counter())
-        self.devices.release_all()
         self.screens.follow(outcome)
+        self._arrive()
+
+    def _arrive(self):
+        """Another screen is on top: nothing is held there yet, and its time begins."""
+        self.devices.release_all()
         self.devices.menus = not isinstance(self.screen, Play)
         self.devices.lost_pad = False
         if isinstance(self.screen, PauseMenu):
@@ -245,19 +257,21 @@ class App:
 
     def _save_what_is_open(self):
         """The window is closed mid-game: the run is kept, and what was asked for is written."""
+        if not self.options.frames:
+            self.screens.enter_results()
+        self.save_settings()
         play = self.screens.played
         if play is not None and self.options.record and play.recorder is not None:
             save_or_fail(play.recorder.save, self.options.record)
         elif play is not None:
             play.end_run()
-        self.save_settings()
 
     def _save_screenshot(self, name):
         """F12: into the player's folder, under the time."""
         folder = data_folder() / "screenshots"
-        path = folder / f"{name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}.png"
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            path = free_name(folder, name, ".png")
             save_png(self.picture.presenter.frame.surface, path)
             say(f"saved {path}")
         except OSError as error:

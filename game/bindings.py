@@ -102,7 +102,7 @@ def key_name(code):
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
-            if constant.startswith("K_"):
+            if constant.startswith("K_") and constant != "K_UNKNOWN":      # that is every key without a name
                 _NAMES.setdefault(getattr(pygame, constant), spelled.get(constant[2:], constant[2:].lower()))
     return _NAMES.get(code)
 

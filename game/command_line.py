@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 import warnings
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.files.own_levels import level_digest
+from game.files.replay import LARGEST_SEED
 from game.files.replay_check import load_replay_for
 from game.overlays import LAYER_NAMES
 
@@ -30,8 +32,10 @@ class Parser(argparse.ArgumentParser):
 def run(arguments, registry):
     """Run the program with these arguments and return the exit code."""
     try:
-        options = read_options(arguments, registry)
-        return _dispatch(options, registry)
+        code = _dispatch(read_options(arguments, registry), registry)
+        if sys.stdout is not None:
+            sys.stdout.flush()           # here it can still be said that it was not written
+        return code
     except (UsageError, ReplayDiverged, StrictFailure) as error:
         startup.say(str(error))
         return error.exit_code
@@ -39,10 +43,20 @@ def run(arguments, registry):
         startup.say(f"--strict: {type(warning).__name__}: {warning}")
         return StrictFailure.exit_code
     except BrokenPipeError:          # the reader of our output went away (| head)
-        sys.stderr.close()
+        _give_up_output()
         return 0
+    except OSError as error:         # a full disk behind our output
+        startup.say(str(error))
+        _give_up_output()
+        return UsageError.exit_code
     except KeyboardInterrupt:
         return 130
+
+
+def _give_up_output():
+    """What could not be written is not tried again at the end of the program."""
+    if sys.stdout is not None and sys.stdout is sys.__stdout__:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def make_parser():
@@ -82,8 +96,12 @@ def read_options(arguments, registry):
     options.overlay = read_layers(options.overlay)
     if options.frames is not None and options.frames < 1:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
-    if options.seed is not None and options.seed < 0:
-        raise UsageError(f"--seed must be 0 or more (got {options.seed})")
+    if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
+        raise UsageError(f"--seed must be 0 to {LARGEST_SEED} (got {options.seed})")
+    for flag in ("record", "screenshot"):
+        name = getattr(options, flag)
+        if name and Path(name).is_dir():       # not only after everything was played
+            raise UsageError(f"--{flag}: {name} is a folder; it takes the name of a file")
     if options.replay and (options.bot or options.record):
         raise UsageError("--replay brings its own input: leave out --bot and --record")
     options.recording = load_replay_for(options.replay, registry)[0] if options.replay else None
@@ -117,6 +135,8 @@ def read_layers(text):
         return ()
     for name in names:
         _known(name, "overlay", (*LAYER_NAMES, "all", "none"))
+        if name in ("all", "none"):
+            raise UsageError(f"--overlay: {name} stands alone (got {text})")
     return tuple(names)
 
 

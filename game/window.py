@@ -67,5 +67,5 @@ def copy_text(text):
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text
-    except (AttributeError, pygame.error):
+    except (AttributeError, UnicodeEncodeError, pygame.error):      # a file name need not be text
         return False

@@ -1,10 +1,13 @@
 """One finished picture of a scene: canvas, scaling, overlays, panel. The same for a window and a screenshot."""
 
+from io import BytesIO
+
 import pygame
 
 from game.drawing.colors import INK, SHADE
 from game.drawing.draw import Canvas
 from game.drawing.presenter import SCREENSHOT_SCALE, Presenter
+from game.files.data_folder import write_atomically
 from game.overlays.stack import draw_legend, legend_columns, legend_size
 
 GRAPH_LEAST = 120          # [text px] of the strip's width are kept for the stage times when they are on
@@ -76,8 +79,7 @@ def draw_strip(frame, rect, overlays):
 
 
 def save_png(surface, path):
-    """Write a surface as PNG; raises OSError when that is not possible."""
-    try:
-        pygame.image.save(surface, str(path))
-    except pygame.error as error:
-        raise OSError(f"{path}: {error}") from error
+    """Write a surface as PNG, whatever the file is called, whole or not at all; raises OSError when that is not possible."""
+    picture = BytesIO()
+    pygame.image.save(surface, picture, "picture.png")
+    write_atomically(path, picture.getvalue(), makes_folder=False)

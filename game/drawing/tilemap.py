@@ -163,8 +163,8 @@ class _Reader:
             self.fail(f"{place}.{name}", f"must be a number (got {value!r})")
         return float(value)
 
-    def listing(self, data, place, name):
-        value = data.get(name)
+    def listing(self, data, place, name, default=None):
+        value = data.get(name, default)
         if not isinstance(value, list):
             self.fail(f"{place}.{name}", "is missing or not a list")
         return value
@@ -202,9 +202,10 @@ class _Reader:
             return np.array(data, dtype=np.int64)
         if encoding != "base64":
             self.fail(f"{place}.encoding", f"must be csv or base64 (got {encoding!r})")
-        unpack = {"": bytes, "zlib": zlib.decompress, "gzip": gzip.decompress}.get(layer.get("compression", ""))
-        if unpack is None:
-            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {layer['compression']!r})")
+        compression = layer.get("compression", "")
+        if compression not in ("", "zlib", "gzip"):
+            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {compression!r})")
+        unpack = {"": bytes, "zlib": zlib.decompress, "gzip": gzip.decompress}[compression]
         try:
             packed = unpack(base64.b64decode(data, validate=True))
             return np.frombuffer(packed, dtype="<u4").astype(np.int64)
@@ -213,15 +214,15 @@ class _Reader:
 
     def properties(self, data, place):
         found = {}
-        for index, entry in enumerate(data.get("properties", [])):
-            if not isinstance(entry, dict) or "name" not in entry or "value" not in entry:
+        for index, entry in enumerate(self.listing(data, place, "properties", [])):
+            if not isinstance(entry, dict) or not isinstance(entry.get("name"), str) or "value" not in entry:
                 self.fail(f"{place}.properties[{index}]", "must have a name and a value")
             found[entry["name"]] = entry["value"]
         return found
 
     def tile_properties(self, tileset):
         found = {}
-        for index, tile in enumerate(tileset.get("tiles", [])):
+        for index, tile in enumerate(self.listing(tileset, "tilesets[0]", "tiles", [])):
             place = f"tilesets[0].tiles[{index}]"
             if not isinstance(tile, dict) or not isinstance(tile.get("id"), int):
                 self.fail(place, "must have a whole number as id")

@@ -7,7 +7,7 @@ never stops a game.
 import json
 
 from game.errors import FileError
-from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.data_folder import data_folder, is_there, refusal, write_atomically
 from game.files.json_file import read_json
 
 FORMAT, VERSION = "hitbox ghost", 1
@@ -23,7 +23,7 @@ def ghost_path(table):
 def load_ghost(table):
     """(rows or None, seconds or None, message) of the best run so far."""
     path = ghost_path(table)
-    if not path.exists():
+    if not is_there(path):
         return None, None, ""
     try:
         data = read_json(path)

@@ -1,8 +1,13 @@
 """Where settings, recordings and screenshots of this user live, by the platform's rule."""
 
+import errno
 import os
 import sys
+from itertools import count
 from pathlib import Path
+from time import strftime
+
+from game.errors import UsageError
 
 OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player who keeps the game on a stick
 
@@ -15,24 +20,58 @@ def data_folder(environment=None, platform=None):
         return Path(environment[OVERRIDE])
     if platform == "win32":
         root = environment.get("APPDATA")
-        return (Path(root) if root else Path.home() / "AppData" / "Roaming") / "Hitbox"
+        return (Path(root) if root else _home() / "AppData" / "Roaming") / "Hitbox"
     if platform == "darwin":
-        return Path.home() / "Library" / "Application Support" / "Hitbox"
+        return _home() / "Library" / "Application Support" / "Hitbox"
     root = environment.get("XDG_DATA_HOME")
-    return (Path(root) if root else Path.home() / ".local" / "share") / "hitbox"
+    return (Path(root) if root else _home() / ".local" / "share") / "hitbox"
 
 
-def write_atomically(path, text):
-    """Write a text file so that a reader sees the old file or the new one, never half of one.
+def _home():
+    try:
+        return Path.home()
+    except RuntimeError as error:
+        raise UsageError(f"this user has no home folder; name one for the game's files in {OVERRIDE}") from error
 
-    Raises OSError when the folder cannot be written; the old file is then untouched.
+
+def is_there(path):
+    """False where there is no such file; True also where nobody may look: reading it then says why not."""
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def free_name(folder, scene_name, suffix=".json"):
+    """A path that no file has yet: the scene and the time."""
+    name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
+    path, number = folder / f"{name}{suffix}", 2
+    while path.exists():
+        path, number = folder / f"{name}-{number}{suffix}", number + 1
+    return path
+
+
+def write_atomically(path, content, makes_folder=True):
+    """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
+
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError when the folder cannot be written; the old file is then
+    untouched.
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path, content = Path(path), content.encode() if isinstance(content, str) else content
+    if not path.name:
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if path.exists() and not path.is_file():
+        path.write_bytes(content)
+        return
+    if makes_folder:
+        path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f"{path.name}.{os.getpid()}.part")
     try:
-        with open(beside, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with open(beside, "wb") as file:
+            file.write(content)
             file.flush()
             os.fsync(file.fileno())
         os.replace(beside, path)
@@ -44,21 +83,23 @@ def keep_beside(path, why="damaged"):
     """Copy a file that cannot be used to the first free `name.damaged-N` (or another word), and return that path.
 
     The name is claimed with exclusive creation, so an earlier kept file is never overwritten; one that already holds
-    the same is enough, or every start would leave another.
+    the same is enough, or every start would leave another. What cannot be read is not copied but renamed: the next save
+    would write over the only one there is. Raises OSError where that is not possible either.
     """
     path = Path(path)
-    content = path.read_bytes()
-    number = 1
-    while True:
-        kept = path.with_name(f"{path.name}.{why}-{number}")
+    names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return path.rename(next(kept for kept in names if not kept.exists()))
+    for kept in names:
         try:
             with open(kept, "xb") as file:
                 file.write(content)
             return kept
         except FileExistsError:
-            if kept.read_bytes() == content:
+            if kept.is_file() and kept.read_bytes() == content:
                 return kept
-            number += 1
 
 
 def refusal(path, place, reason, instead, why="damaged"):
@@ -66,5 +107,5 @@ def refusal(path, place, reason, instead, why="damaged"):
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"
     except OSError as error:
-        kept = f"the old file could not be copied ({error})"
+        kept = f"the old file could not be put aside ({error})"
     return f"{path}: {place}: {reason}; {instead}, {kept}"

@@ -11,7 +11,7 @@ def read_json(path):
         with open(path, encoding="utf-8") as file:
             return json.load(file)
     except OSError as error:
-        raise FileError(path, "file", error.strerror) from error
+        raise FileError(path, "file", error.strerror or str(error)) from error
     except UnicodeDecodeError as error:
         raise FileError(path, f"byte {error.start}", "not UTF-8 text") from error
     except json.JSONDecodeError as error:

@@ -16,11 +16,13 @@ def levels_folder():
 
 def own_levels(scene_class):
     """Paths of the files that a scene could play, by name; () where it takes none or there is no such folder."""
-    folder = levels_folder()
-    if not scene_class.takes_level or not folder.is_dir():
+    if not scene_class.takes_level:
         return ()
     suffixes = (scene_class.level_suffix,) if scene_class.level_suffix else SUFFIXES
-    return tuple(sorted(path for path in folder.iterdir() if path.suffix in suffixes and path.is_file()))
+    try:
+        return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
+    except OSError:            # there is no such folder, or nobody may look into it
+        return ()
 
 
 def level_digest(path):
@@ -29,3 +31,5 @@ def level_digest(path):
         return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
+    except ValueError as error:        # a name that no system has, out of a recording
+        raise FileError(path, "file", str(error)) from error

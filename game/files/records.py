@@ -7,7 +7,7 @@ import json
 from dataclasses import asdict, dataclass, fields
 
 from game.errors import FileError
-from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.data_folder import data_folder, is_there, refusal, write_atomically
 from game.files.json_file import read_json
 from game.files.own_levels import level_digest
 from game.files.settings import LETTERS
@@ -93,7 +93,7 @@ def load_records(path=None):
     """(records, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
     path = path or records_path()
     records = Records(path)
-    if not path.exists():
+    if not is_there(path):
         return records, ""
     try:
         data = read_json(path)

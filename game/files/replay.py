@@ -20,6 +20,11 @@ FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1       # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
 KEPT_EVERY = 30        # frames between the digests of runs that are kept unasked: half a second is exact enough
 DIGITS = 16            # hex digits kept per frame: 64 bits
+LONGEST = 24 * 60 * 60 * 60    # frames: a day; a file of a few bytes could ask for all memory there is
+LARGEST_SEED = 2**62           # the physics takes 63 bits, and each further world of a scene counts on by one
+FARTHEST = 1_000_000           # canvas px of the pointer, and notches of the wheel
+LONGEST_DATE = 40              # letters
+MOST_POINTS = 10**15
 
 
 class Recorder:
@@ -115,6 +120,8 @@ def load_replay(path):
         place = f"inputs[{index}]"
         if not (isinstance(run, list) and len(run) == 2 and _whole(run[0]) and run[0] > 0):
             raise FileError(path, place, "must be [repeats, input] with repeats of at least 1")
+        if run[0] > data["frames"] - len(frames):
+            raise FileError(path, "inputs", f"hold more than the {data['frames']} frames that the head says")
         frames += [_from_json(path, place, run[1])] * run[0]
     if len(frames) != data["frames"]:
         raise FileError(path, "inputs", f"hold {len(frames)} frames, the head says {data['frames']}")
@@ -127,11 +134,16 @@ def _whole(value):
     return isinstance(value, int) and not isinstance(value, bool)
 
 
+def _near(value):
+    return _whole(value) and abs(value) <= FARTHEST
+
+
 def _is_result(result):
     if set(result) != {"won", "points", "seconds"} or not isinstance(result["won"], bool):
         return False
     seconds = result["seconds"]
-    return _whole(result["points"]) and isinstance(seconds, (int, float)) and 0 <= seconds < 1e6
+    points = result["points"]
+    return _whole(points) and abs(points) <= MOST_POINTS and isinstance(seconds, (int, float)) and 0 <= seconds < 1e6
 
 
 def _check_head(path, data):
@@ -147,8 +159,12 @@ def _check_head(path, data):
             raise FileError(path, name, "is missing")
         if not isinstance(data[name], kind) or (kind is int and not _whole(data[name])):
             raise FileError(path, name, f"has the wrong kind of value: {data[name]!r:.60}")
-    if data["every"] < 1 or data["frames"] < 0 or data["seed"] < 0:
-        raise FileError(path, "every, frames, seed", "must not be negative, every at least 1")
+    for name, least, most in (("every", 1, None), ("frames", 0, LONGEST), ("seed", 0, LARGEST_SEED)):
+        if data[name] < least or (most is not None and data[name] > most):
+            must = f"at least {least}" if most is None else f"{least} to {most}"
+            raise FileError(path, name, f"must be {must} (got {data[name]!r:.40})")
+    if len(data["date"]) > LONGEST_DATE:
+        raise FileError(path, "date", f"must be at most {LONGEST_DATE} letters")
     level, result = data["level"], data["result"]
     if level is not None and not (set(level) == {"path", "digest"} and all(isinstance(v, str) for v in level.values())):
         raise FileError(path, "level", "must be null or have path and digest, both text")
@@ -186,10 +202,10 @@ def _from_json(path, place, data):
         raise FileError(path, place, f"has unknown entries: {', '.join(sorted(unknown))}")
     if not isinstance(actions, list) or any(action not in ACTIONS for action in actions):
         raise FileError(path, place, f"actions must be among {', '.join(ACTIONS)}")
-    if not (isinstance(pointer, list) and len(pointer) == 2 and all(_whole(v) for v in pointer)):
-        raise FileError(path, place, "pointer must be two whole numbers")
-    if not isinstance(down, bool) or not _whole(wheel):
-        raise FileError(path, place, "down must be true or false, wheel a whole number")
+    if not (isinstance(pointer, list) and len(pointer) == 2 and all(_near(v) for v in pointer)):
+        raise FileError(path, place, f"pointer must be two whole numbers up to {FARTHEST}")
+    if not isinstance(down, bool) or not _near(wheel):
+        raise FileError(path, place, f"down must be true or false, wheel a whole number up to {FARTHEST}")
     if not isinstance(changes, list) or any(not (isinstance(c, list) and len(c) == 2) for c in changes):
         raise FileError(path, place, "changes must be a list of [name, value]")
     return InputFrame(frozenset(actions), tuple(pointer), down, wheel, tuple((c[0], c[1]) for c in changes))

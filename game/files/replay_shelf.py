@@ -3,11 +3,11 @@
 Only files in recent/ are ever deleted, the oldest first; what a player kept stays.
 """
 
-import shutil
-from time import strftime
+from itertools import chain, count
+from stat import S_ISREG
 
 from game.errors import FileError
-from game.files.data_folder import data_folder
+from game.files.data_folder import data_folder, free_name
 from game.files.replay_check import load_replay_for
 
 RECENT = 10            # runs that are kept unasked
@@ -26,9 +26,26 @@ def recent_folder():
 
 def shelf():
     """Paths of all replays, newest first: (path, kept on purpose) each."""
-    found = [(path, True) for path in replays_folder().glob("*.json")]
-    found += [(path, False) for path in recent_folder().glob("*.json")]
-    return sorted(found, key=lambda each: (-each[0].stat().st_mtime, each[0].name))
+    found = [(changed, path, True) for changed, path in files_of(replays_folder())]
+    found += [(changed, path, False) for changed, path in files_of(recent_folder())]
+    return [(path, kept) for _, path, kept in sorted(found, key=lambda each: (-each[0], each[1].name))]
+
+
+def files_of(folder):
+    """(when it was changed, path) of each replay in a folder. What is no file, or gone by now, is left out."""
+    found = []
+    try:
+        paths = list(folder.glob("*.json"))
+    except OSError:                # nobody may look into the folder
+        return []
+    for path in paths:
+        try:
+            status = path.stat()
+        except OSError:            # a link to nowhere, or deleted in between
+            continue
+        if S_ISREG(status.st_mode):
+            found.append((status.st_mtime, path))
+    return found
 
 
 def put_recent(recorder, result=None):
@@ -37,32 +54,29 @@ def put_recent(recorder, result=None):
         return None
     path = free_name(recent_folder(), recorder.head["scene"])
     recorder.save(path, result)
-    runs = sorted(recent_folder().glob("*.json"), key=lambda each: (each.stat().st_mtime, each.name))
-    for old in runs[:-RECENT]:
+    runs = sorted(files_of(recent_folder()), key=lambda each: (each[1] == path, each))     # a clock may have been set back
+    for _, old in runs[:-RECENT]:
         old.unlink(missing_ok=True)
     return path
 
 
 def keep(path):
-    """Copy a replay out of recent/ so that it stays, and return where it is now. Raises OSError."""
-    kept = replays_folder() / path.name
+    """Copy a replay out of recent/ so that it stays, and return where it is now. Raises OSError.
+
+    Another file of its name is left alone; one that holds the same is the copy.
+    """
+    content = path.read_bytes()
+    names = chain((path.name,), (f"{path.stem}-{number}{path.suffix}" for number in count(2)))
+    kept = next(place for place in map(replays_folder().joinpath, names)
+                if not place.exists() or (place.is_file() and place.read_bytes() == content))
     if not kept.exists():
         part = kept.with_name(kept.name + ".part")
         try:
-            shutil.copyfile(path, part)
+            part.write_bytes(content)
             part.replace(kept)
         finally:
             part.unlink(missing_ok=True)
     return kept
-
-
-def free_name(folder, scene_name):
-    """A path that no file has yet: the scene and the time."""
-    name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
-    path, number = folder / f"{name}.json", 2
-    while path.exists():
-        path, number = folder / f"{name}-{number}.json", number + 1
-    return path
 
 
 def read_shelf_entry(path, registry):

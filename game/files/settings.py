@@ -10,9 +10,9 @@ from dataclasses import asdict, dataclass, field, fields
 from game.bindings import REBOUND, button_actions, key_codes
 from game.comfort import PALETTES, Comfort
 from game.errors import FileError
-from game.files.data_folder import data_folder, refusal, write_atomically
+from game.files.data_folder import data_folder, is_there, refusal, write_atomically
 from game.files.json_file import read_json
-from game.screens.rebinding import FIXED, clash, completed, default_table
+from game.rebinding import FIXED, clash, completed, default_table
 
 VERSION = 2
 FILE = "settings.json"
@@ -64,7 +64,7 @@ def settings_path():
 def load_settings(path=None):
     """(settings, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
     path = path or settings_path()
-    if not path.exists():
+    if not is_there(path):
         return Settings(), ""
     try:
         data = _upgraded(path, read_json(path))
@@ -101,11 +101,11 @@ def _upgraded(path, data):
             data["effects"] = data.pop("volume")
         if isinstance(data.get("shake"), bool):
             data["shake"] = 1.0 if data["shake"] else 0.0
-        if isinstance(data.get("keys"), dict):
-            kept = {action: [key for key in keys if key not in FIXED["keys"]] if isinstance(keys, list) else keys
-                    for action, keys in data["keys"].items() if action in REBOUND}
-            if all(isinstance(keys, list) for keys in kept.values()):
-                data["keys"] = completed(kept, "keys")
+        table = data.get("keys")
+        if isinstance(table, dict) and all(_are_names(keys) for keys in table.values()):
+            kept = {action: [key for key in keys if key not in FIXED["keys"]] for action, keys in table.items()
+                    if action in REBOUND}
+            data["keys"] = completed(kept, "keys")
     return data
 
 
@@ -131,11 +131,15 @@ def _refusal_of(name, value):
     return "" if known else f"must be one of {', '.join(map(str, valid))} (got {value!r:.60})"
 
 
+def _are_names(controls):
+    return isinstance(controls, list) and all(isinstance(each, str) for each in controls)
+
+
 def _table_refusal(device, value):
     if not isinstance(value, dict) or set(value) != set(REBOUND):
         return f"must name each of {', '.join(REBOUND)}"
     for action, controls in value.items():
-        if not isinstance(controls, list) or not controls or not all(isinstance(each, str) for each in controls):
+        if not _are_names(controls) or not controls:
             return f"{action} must be a list of names"
         taken = [each for each in controls if each in FIXED[device]]
         if taken:

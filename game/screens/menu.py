@@ -3,10 +3,11 @@
 import pygame
 
 from game.drawing.boxes import draw_box
-from game.drawing.clock_text import clock, points_text
+from game.drawing.figures import clock, points_text
 from game.drawing.colors import FOG, GOLD, PAPER, SKY
 from game.drawing.draw import SMALL, TEXT, shorten, wrap
 from game.drawing.pictures import SIZE, draw_picture
+from game.errors import FileError
 from game.files.own_levels import own_levels
 from game.files.records import table_of
 from game.screens.ground import MARGIN, DuskGround, draw_page
@@ -28,6 +29,7 @@ class Menu:
         self.registry, self.records = registry, records
         self.ground = DuskGround()
         self.cues = []
+        self.tables = {}                           # (scene class, level file) -> its table, asked once: the file is read
         self.entries = self._entries()             # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
         self.list = RowList(lambda: self.rows, (inside.x, LIST.y + 36, inside.width, 192), self.cues)
@@ -66,6 +68,7 @@ class Menu:
     def resume(self):
         """Called when the screen is seen again: levels may have been put into the folder meanwhile."""
         mark = self.list.mark
+        self.tables.clear()
         self.entries = self._entries()
         self.list.mark = min(mark, len(self.entries) - 1)
         self.list.show_marked()
@@ -108,11 +111,20 @@ class Menu:
                 canvas.text(shorten(text, width, font), x, y, color, font)
             y += height
 
+    def _table(self, scene_class, level):
+        """The key of a scene's table; None for a level that cannot be read: who plays it is told why."""
+        if (scene_class, level) not in self.tables:
+            try:
+                self.tables[scene_class, level] = table_of(scene_class.name, level)
+            except FileError:
+                self.tables[scene_class, level] = None
+        return self.tables[scene_class, level]
+
     def _draw_best(self, canvas, scene_class, level, x, y):
         """The first place of the scene's table, beside the picture."""
         if scene_class.ranked_by is None or self.records is None:
             return
-        best = self.records.best(table_of(scene_class.name, level))
+        best = self.records.best(self._table(scene_class, level))
         canvas.text("BEST", x, y, GOLD, SMALL)
         if best is None:
             canvas.text("nobody yet", x, y + 12, FOG, SMALL)

@@ -66,7 +66,7 @@ def _time(play):
         Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
         Row(CHOICE, "Speed", f"{clock.speed:.0%}", "- +",
             turn=lambda way: clock.faster() if way > 0 else clock.slower(), hint=f"down to {SPEEDS[-1]:.0%}"),
-        Row(BUTTON, "Restart", key="R", press=play.restart),
+        Row(BUTTON, "Restart", key="R", press=play.wish_restart),
     ]
 
 

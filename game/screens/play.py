@@ -2,6 +2,7 @@
 
 import pygame
 
+from game.files.records import table_of
 from game.files.replay import KEPT_EVERY, Recorder
 from game.inputs import BotSource
 from game.loop import FixedStep
@@ -34,6 +35,7 @@ class Play:
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records       # each attempt is a recording of its own
+        self.table = table_of(scene.name, scene.level_file)     # now: by the end the level's file may be another, or gone
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
@@ -150,6 +152,7 @@ class Play:
 
         Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
         """
+        self.table = table_of(self.scene.name, self.scene.level_file)
         if self.renews:
             self.end_run()
             self.recorder = self.session.recorder = Recorder(self.scene, False, KEPT_EVERY)
@@ -158,6 +161,13 @@ class Play:
                 self.devices.change(name, value)
         self.since_result = 0
         self.devices.change("restart", True)
+
+    def wish_restart(self):
+        """Restart; from a game that has ended to its result first: no score is lost by a hasty key."""
+        if self.person and self.scene.result is not None:
+            self.outcome = ("result",)
+        else:
+            self.restart()
 
     def switch_solver(self, way):
         """The next solver, or the one before; its kernels are compiled first, behind a bar."""
@@ -237,10 +247,8 @@ class Play:
             change("tier", following(scene.tiers, scene.tier, 1))
         elif key == pygame.K_n:
             change("narrowphase", not scene.narrowphase)
-        elif key == pygame.K_r and scene.result is not None and self.person:
-            self.outcome = ("result",)         # no score is lost by a hasty key
         elif key == pygame.K_r:
-            self.restart()
+            self.wish_restart()
         elif key == pygame.K_p:
             self.toggle_pause()        # not through the input of a step: a paused game makes none
         elif key == pygame.K_o:

@@ -3,7 +3,7 @@
 import pygame
 
 from game.drawing.boxes import draw_box
-from game.drawing.clock_text import clock, points_text, short_clock
+from game.drawing.figures import clock, points_text, short_clock
 from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
 from game.drawing.draw import SMALL, TEXT, shorten, wrap
 from game.files.replay_shelf import keep, read_shelf_entry, replays_folder, shelf

@@ -1,7 +1,7 @@
 """After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
 
 from game.drawing.boxes import draw_box
-from game.drawing.clock_text import clock, points_text
+from game.drawing.figures import clock, points_text
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
 from game.drawing.draw import SMALL, TEXT, shorten
 from game.screens.ground import SceneGround
@@ -58,15 +58,21 @@ class ResultScreen:
         self.time += dt
         if self.entering:
             self.initials.step(inputs, dt)
-            if inputs.pressed("cancel"):
-                self.initials.done = True      # as it stands: a place is not lost by a hasty Esc
             if self.initials.done:
                 self.enter(self.initials.text)
+            elif inputs.pressed("cancel"):
+                self.accept()
             return
         if inputs.pressed("cancel"):
             self.cues.append("back")
             self.outcome = ("menu",)
         self.list.step(inputs, dt)
+
+    def accept(self):
+        """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
+        if self.entering:
+            self.initials.done = True
+            self.enter(self.initials.text)
 
     def draw(self, canvas, alpha):
         """Draw the picture."""

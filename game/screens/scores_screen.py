@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.drawing.clock_text import clock, points_text
+from game.drawing.figures import clock, points_text
 from game.drawing.colors import DUSK, FOG, GOLD, PAPER, SKY
 from game.drawing.draw import SMALL, TEXT
 from game.screens.ground import DuskGround, draw_page

@@ -6,7 +6,7 @@ from game.bindings import REBOUND, shown
 from game.comfort import PALETTES
 from game.drawing.colors import FOG
 from game.files.settings import FRAME_CAPS, LARGEST_SCALE, SLOWEST
-from game.screens.rebinding import default_table
+from game.rebinding import default_table
 from game.screens.rows import Row
 
 PAGES = ("Sound", "Picture", "Comfort", "Keyboard", "Controller")

@@ -11,9 +11,10 @@ from game.bindings import help_pairs
 from game.command_line import make_scene
 from game.errors import UsageError
 from game.files.best_run import keep_ghost, load_ghost
-from game.files.records import Entry, ranks, table_of
+from game.files.data_folder import free_name
+from game.files.records import Entry, ranks
 from game.files.replay_check import load_replay_for
-from game.files.replay_shelf import free_name, put_recent, replays_folder
+from game.files.replay_shelf import put_recent, replays_folder
 from game.files.tape import Tape
 from game.garbage import set_loaded_aside
 from game.screens.attract import Attract
@@ -66,14 +67,17 @@ class Screens:
         try:
             self.table[name](*rest)
         except UsageError as error:
-            self.complain(error)
+            self.complain(error, name != "watch")
         except LoadingStopped:
-            self.app.running = self.app.running and not self.app.was_closed()
+            self.app.stop_if_closed()
 
-    def complain(self, error):
-        """Show why a file cannot be used, over what can be gone on with."""
+    def complain(self, error, ends_scene=True):
+        """Show why a file cannot be used, over what can be gone on with.
+
+        ends_scene: False where it is about another file than that of the scene on top, which then goes on.
+        """
         ended = self.played
-        while self.stack and isinstance(self.top, (Play, Watch, Tour, Attract)):
+        if ends_scene and isinstance(self.top, (Play, Watch, Tour, Attract)):
             self.stack.pop()
         if ended is not None and ended not in self.stack:
             ended.end_run()
@@ -186,17 +190,18 @@ class Screens:
         play.run_ended = self._keep_run
         play.settings_changed = self.app.save_settings
         if play.person:
-            self._bring_best(play.scene)
+            self._bring_best(play)
         self.stack.append(play)
 
-    def _bring_best(self, scene):
+    def _bring_best(self, play):
         """What the scene shows of the best run so far: its points, or its ghost."""
-        best = self.app.records.best(table_of(scene.name, scene.level_file))
+        scene = play.scene
+        best = self.app.records.best(play.table)
         if best is not None and hasattr(scene, "best"):
             scene.best = best.points
         scene.ghost = None
         if self.app.settings.ghost and scene.ranked_by == "seconds":
-            scene.ghost, _, message = load_ghost(table_of(scene.name, scene.level_file))
+            scene.ghost, _, message = load_ghost(play.table)
             say(message)
 
     def _keep_run(self, recorder, result):
@@ -211,8 +216,11 @@ class Screens:
             play.end_run()
 
     def pause(self, message=""):
-        """The pause menu."""
+        """The pause menu; after the end of a game its result, or its place in the table would be lost."""
         play = self.played
+        if play.scene.result is not None:
+            self.result()
+            return
         pairs = help_pairs(play.scene, self.app.settings.keys)
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
@@ -220,8 +228,8 @@ class Screens:
         """From the pause menu or the result back into the game, from its start."""
         while not isinstance(self.top, Play):
             self.stack.pop()
-        self._bring_best(self.top.scene)
         self.top.restart()
+        self._bring_best(self.top)
         self.top.resume()
 
     def result(self):
@@ -230,7 +238,7 @@ class Screens:
         scene, result = play.scene, play.scene.result
         entry = Entry(app.settings.initials, int(result.points), round(float(result.seconds), 3), strftime("%Y-%m-%d"),
                       scene.seed, play.assisted)
-        table, notes = table_of(scene.name, scene.level_file), []
+        table, notes = play.table, []
         place = app.records.place(table, scene.ranked_by, entry) if ranks(result, scene.ranked_by) else None
         if result.won and scene.trail and scene.ranked_by == "seconds" and not play.assisted:
             try:
@@ -250,6 +258,15 @@ class Screens:
 
         screen = ResultScreen(scene, result, place, app.settings.initials, enter, play.renews, notes, play.assisted)
         self.stack.append(screen)
+
+    def enter_results(self):
+        """The window closes: a place in the table that waits for its initials is taken with those entered last."""
+        play = self.played
+        if play is not None and play.since_result and not any(isinstance(screen, ResultScreen) for screen in self.stack):
+            self.result()
+        for screen in self.stack:
+            if isinstance(screen, ResultScreen):
+                screen.accept()
 
     def save_replay(self):
         """Keep the run so far for good, and say where."""

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.drawing.clock_text import short_clock
+from game.drawing.figures import short_clock
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
 from game.drawing.draw import SMALL, TEXT
 from game.loop import FixedStep

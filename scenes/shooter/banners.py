@@ -7,6 +7,7 @@ import pygame
 
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
 from game.drawing.draw import TEXT, whole
+from game.drawing.figures import count_text, points_text
 from game.drawing.hud import banner
 from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
@@ -103,9 +104,9 @@ def _draw_continue(canvas, scene):
 
 def _summary(scene):
     score = scene.score
-    kills = sum(score.kills.values())
-    return [f"{score.points:,} points", f"{kills} planes shot down   {score.grazes} grazes   best chain {score.best_chain}",
-            "fire: go on"]
+    counts = (f"{count_text(sum(score.kills.values()), 'plane')} shot down", count_text(score.grazes, "graze"),
+              f"best chain {score.best_chain}")
+    return [f"{points_text(score.points)} points", "   ".join(counts), "fire: go on"]
 
 
 def _band(canvas, top, high):

@@ -3,6 +3,7 @@
 `scene.result` is set once, at the very end; then the picture stands and keys do nothing.
 """
 
+from game.drawing.figures import count_text
 from game.scene import Result
 from scenes.shooter.cast import steps
 
@@ -91,9 +92,9 @@ class Ending:
 
     def _result(self, scene, won):
         score = scene.score
-        lines = (f"{sum(score.kills.values())} planes, {score.waves} whole waves",
-                 f"{score.grazes} grazes, best chain {score.best_chain}",
-                 f"{score.hits} hits, {score.bombs} bombs, {score.continues} continues")
+        lines = (f"{count_text(sum(score.kills.values()), 'plane')}, {count_text(score.waves, 'whole wave')}",
+                 f"{count_text(score.grazes, 'graze')}, best chain {score.best_chain}",
+                 ", ".join(map(count_text, (score.hits, score.bombs, score.continues), ("hit", "bomb", "continue"))))
         return Result(won, score.points, (scene.frame + 1) / 60, lines)
 
     def state(self):

@@ -92,7 +92,7 @@ WRONG = [
     (["--scene", "arena", "--tier", "voxels"], "no tier 'voxels'; valid: "),
     (["--frames", "0", "--scene", "arena"], "--frames must be at least 1"),
     (["--frames", "ten", "--scene", "arena"], "invalid int value: 'ten'"),
-    (["--seed", "-1", "--scene", "arena"], "--seed must be 0 or more"),
+    (["--seed", "-1", "--scene", "arena"], "--seed must be 0 to"),
     (["--headless"], "--headless needs --scene; valid: arena"),
     (["--json"], "--json needs --list or --scene"),
     (["--replay", "/nowhere/run.json"], "/nowhere/run.json: file: No such file"),

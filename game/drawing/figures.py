@@ -1,4 +1,4 @@
-"""Times and points as text, the same everywhere."""
+"""Times, points and counts as text, the same everywhere."""
 
 
 def clock(seconds):
@@ -20,6 +20,11 @@ def short_clock(seconds):
 def points_text(points):
     """12 345 678: groups of three."""
     return f"{points:,}".replace(",", " ")
+
+
+def count_text(number, what):
+    """"1 plane", "2 planes"."""
+    return f"{number} {what}{'s' if number != 1 else ''}"
 
 
 def standing(entry, ranked_by):

@@ -1,0 +1,11 @@
+"""Copying the path of a file whose name is no valid text stopped the program."""
+
+import pygame
+
+from game.window import copy_text
+
+
+def test_the_clipboard_refuses(monkeypatch):
+    pygame.display.init()
+    pygame.display.set_mode((480, 270))
+    assert copy_text("replay-\udcff.json") is False

@@ -1,0 +1,16 @@
+"""A settings file of the first version whose keys held anything but text stopped the program at its start."""
+
+import json
+
+import pytest
+
+from game.files.settings import load_settings, settings_path
+from game.rebinding import default_table
+
+
+@pytest.mark.parametrize("keys", [[["a"]], [{}], [5], 5, None])
+def test_the_default_is_used_and_the_file_kept(keys):
+    settings_path().write_text(json.dumps({"version": 1, "volume": 0.5, "keys": {"left": keys}}))
+    settings, message = load_settings()
+    assert settings.effects == 0.5 and settings.keys == default_table("keys")
+    assert "keys: " in message and "damaged-1" in message

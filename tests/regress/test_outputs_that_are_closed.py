@@ -1,0 +1,33 @@
+"""A closed standard error made exit 1 and no word of every mistake; a full disk behind standard output was a traceback."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from game.command_line import run
+from game.registry import Registry
+from tests.game.arena import LISTING
+
+MAIN = Path(__file__).resolve().parents[2] / "main.py"
+
+
+def test_no_standard_error(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", None)
+    assert run(["--scene", "bogus"], Registry(LISTING)) == 2
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only where there is a device that is always full")
+@pytest.mark.parametrize("flag", ["--version", "--list"])
+def test_a_full_disk(flag):
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run([sys.executable, MAIN, flag], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert ended.returncode == 2 and ended.stderr.count("\n") == 1 and "No space left" in ended.stderr
+
+
+def test_a_reader_that_has_gone():
+    program = subprocess.Popen([sys.executable, MAIN, "--version"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    program.stdout.close()
+    assert program.stderr.read() == "" and program.wait() == 0
+    program.stderr.close()

@@ -1,0 +1,37 @@
+"""After the end of a game, looking at another window or the panel's Restart led past the result: its place was lost."""
+
+import pygame as K
+
+from game.inputs import InputFrame, ScriptSource
+from game.screens.panel import act
+from game.screens.panel_rows import play_rows
+from tests.game.test_runs import SEEN, Settings
+
+
+def ended(drive):
+    d = drive("--scene", "race", settings=Settings(**SEEN))
+    d.screen.session.source = ScriptSource([InputFrame(frozenset({"right"}))] * 60)
+    d.turns(60)
+    assert d.name == "Play" and d.screen.scene.result is not None
+    return d
+
+
+def test_the_focus_goes(drive):
+    d = ended(drive)
+    d.post(K.WINDOWFOCUSLOST)
+    d.turns(2)
+    assert d.name == "ResultScreen" and d.screen.entering
+
+
+def test_the_pad_goes(drive):
+    d = ended(drive)
+    d.app.devices.lost_pad = True
+    d.turns(2)
+    assert d.name == "ResultScreen" and d.screen.entering
+
+
+def test_restart_in_the_panel(drive):
+    d = ended(drive)
+    act(next(row for row in play_rows(d.screen) if row.label == "Restart"))
+    d.turns(2)
+    assert d.name == "ResultScreen" and d.screen.entering
