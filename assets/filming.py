@@ -55,15 +55,15 @@ SHOTS = {
     "lab/sensors": Shot(240, 96, 56, 1),
     "lab/stacks": Shot(240, zoom=3),
     "lab/pyramid": Shot(480, 160, 78),
-    "lab/card_house": Shot(240, 0, 26),
+    "lab/card_house": Shot(240, 60, 32, 1),
     "lab/dominoes": Shot(120, 130, 51, 1),
     "lab/tumbler": Shot(240, 142, 70),
-    "lab/cradle": Shot(100, 142, 2, 1),
+    "lab/cradle": Shot(80, 227, 14, 1),
     "lab/billiards": Shot(150, 62, 20),
     "lab/tunnelling": Shot(240, 196, 142, 1),
-    "lab/conveyor": Shot(240, 94, 48, 1),
+    "lab/conveyor": Shot(240, 180, 16, 1),
     "lab/one_way": Shot(240, 60, 76),
-    "lab/ghost_bumps": Shot(240, 30, 31, 1),
+    "lab/ghost_bumps": Shot(240, 0, 20),
 }
 
 
