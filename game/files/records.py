@@ -35,6 +35,7 @@ class Records:
     def __init__(self, path=None):
         self.path = path or records_path()
         self.tables = {}
+        self.ranking = {}          # key -> ranked_by, of the tables that something was added to here
 
     def entries(self, key):
         """The entries of a table, best first."""
@@ -57,12 +58,25 @@ class Records:
             table = self.tables.setdefault(key, [])
             table.insert(place - 1, entry)
             del table[PLACES:]
+            self.ranking[key] = ranked_by
         return place
 
     def save(self):
-        """Write the file; raises OSError when that is not possible."""
+        """Write the file, with what another window of the game has put into it; raises OSError when that is not possible.
+
+        Returns "" or a message about the file that was there, as load_records does.
+        """
+        there, message = load_records(self.path)
+        for key, table in there.tables.items():
+            mine = self.tables.get(key, [])
+            if key in self.ranking:
+                both = mine + [entry for entry in table if entry not in mine]
+                self.tables[key] = sorted(both, key=lambda entry: order(entry, self.ranking[key]))[:PLACES]
+            else:
+                self.tables[key] = table
         tables = {key: [asdict(entry) for entry in table] for key, table in sorted(self.tables.items())}
         write_atomically(self.path, json.dumps({"version": VERSION, "tables": tables}, indent=1) + "\n")
+        return message
 
 
 def order(entry, ranked_by):

@@ -252,7 +252,7 @@ class Screens:
             app.save_settings()
             self.newest = table, app.records.add(table, scene.ranked_by, Entry(**{**vars(entry), "name": initials}))
             try:
-                app.records.save()
+                say(app.records.save())
             except OSError as error:
                 screen.notes.append(f"the table could not be saved: {error.strerror or error}")
 
