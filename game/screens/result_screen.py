@@ -15,7 +15,7 @@ COUNT_SECONDS = 0.8        # the numbers count up this long
 class ResultScreen:
     """`place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
 
-    `outcome`: ("again",), ("save_replay",), ("scores", scene name) or ("menu",).
+    `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
 
     shows_pointer = True
@@ -43,7 +43,7 @@ class ResultScreen:
         if self.can_save:
             rows.append(Row("Save replay", press=lambda: self._leave(("save_replay",))))
         if self.scene.ranked_by is not None:
-            rows.append(Row("High scores", press=lambda: self._leave(("scores", self.scene.name))))
+            rows.append(Row("High scores", press=lambda: self._leave(("scores",))))
         return [*rows, Row("Menu", press=lambda: self._leave(("menu",)))]
 
     def _leave(self, outcome):

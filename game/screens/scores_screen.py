@@ -1,10 +1,15 @@
-"""High scores: one page per ranked scene, left and right turn them."""
+"""High scores: one page per ranked scene and per level of one's own that has been played; left and right turn them."""
+
+from typing import NamedTuple
 
 import pygame
 
-from game.drawing.figures import clock, points_text
 from game.drawing.colors import DUSK, FOG, GOLD, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT
+from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.figures import clock, points_text
+from game.errors import FileError
+from game.files.own_levels import own_levels
+from game.files.records import table_of
 from game.screens.ground import DuskGround, draw_page
 from game.screens.rows import GRID, Repeat, Row, RowList, confirmed
 
@@ -14,18 +19,44 @@ COLUMNS = ((0, "left"), (28, "left"), (150, "right"), (224, "right"), (240, "lef
 HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
+class Page(NamedTuple):
+    """What stands over a table, its key in the records, and what it is ordered by."""
+    title: str
+    table: str
+    ranked_by: str
+
+
+def pages_of(registry, records, played=None):
+    """The pages in menu order; played: (scene name, level file) of a game that need not be in the levels' folder."""
+    found = []
+    for scene_class in registry.all_classes():
+        if scene_class.ranked_by is None:
+            continue
+        found.append(Page(scene_class.title, scene_class.name, scene_class.ranked_by))
+        levels = own_levels(scene_class)
+        if played is not None and played[0] == scene_class.name and played[1] not in (None, *levels):
+            levels += (played[1],)
+        for level in levels:
+            try:
+                table = table_of(scene_class.name, level)
+            except FileError:              # it cannot be read: who plays it is told why
+                continue
+            if records.entries(table) and all(page.table != table for page in found):
+                found.append(Page(f"{scene_class.title}: {level.stem}", table, scene_class.ranked_by))
+    return found
+
+
 class ScoresScreen:
-    """`outcome` becomes ("back",). shown: the name of the scene to begin with; newest: (table, place) to mark."""
+    """`outcome` becomes ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
 
     shows_pointer = True
     tune = None
 
-    def __init__(self, registry, records, shown=None, newest=None, ground=None):
-        self.records, self.newest = records, newest
+    def __init__(self, pages, records, shown=None, newest=None, ground=None):
+        self.pages, self.records, self.newest = pages, records, newest
         self.ground = ground or DuskGround()
-        self.pages = [c for c in registry.all_classes() if c.ranked_by is not None]
         self.cues = []
-        self.at = next((number for number, c in enumerate(self.pages) if c.name == shown), 0)
+        self.at = next((number for number, page in enumerate(self.pages) if page.table == shown), 0)
         self.sideways = Repeat(("left", "right"))
         self.turners = RowList(self._rows, (PAGE.x + 16, PAGE.bottom - 34, PAGE.width - 32, 16), self.cues)
         self.time = 0.0
@@ -69,25 +100,25 @@ class ScoresScreen:
         if not self.pages:
             canvas.text("No scene here keeps scores.", PAGE.centerx, PAGE.centery, FOG, TEXT, 1, "center")
             return
-        scene_class = self.pages[self.at]
+        page = self.pages[self.at]
         for rect, arrow in zip(self.arrows, "\u2190\u2192", strict=True):
             if len(self.pages) > 1:
                 canvas.text(arrow, rect.centerx, rect.y + 4, GOLD, TEXT, 1, "center")
-        canvas.text(scene_class.title, PAGE.centerx, PAGE.y + 40, PAPER, TEXT, 1, "center")
-        self._draw_table(canvas, scene_class)
+        canvas.text(shorten(page.title, PAGE.width - 80), PAGE.centerx, PAGE.y + 40, PAPER, TEXT, 1, "center")
+        self._draw_table(canvas, page)
 
-    def _draw_table(self, canvas, scene_class):
+    def _draw_table(self, canvas, page):
         x, y = PAGE.x + 28, PAGE.y + 58
-        by_time = scene_class.ranked_by == "seconds"
+        by_time = page.ranked_by == "seconds"
         for (dx, align), head in zip(COLUMNS, HEADS, strict=True):
             if head:
                 canvas.text(head, x + dx, y, GOLD, SMALL, 1, align)
-        entries = self.records.entries(scene_class.name)
+        entries = self.records.entries(page.table)
         if not entries:
             canvas.text("Nobody yet. Be the first.", PAGE.centerx, y + 60, FOG, TEXT, 1, "center")
         for number, entry in enumerate(entries):
             top = y + 9 + number * LINE
-            if self.newest == (scene_class.name, number + 1):
+            if self.newest == (page.table, number + 1):
                 canvas.surface.fill(DUSK, (x - GRID, top - 3, PAGE.width - 40, LINE - 1))
                 canvas.surface.fill(GOLD, (x - GRID, top - 3, 2, LINE - 1))
             color = PAPER if number < 3 else FOG

@@ -26,7 +26,7 @@ from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.replays_screen import ReplaysScreen
 from game.screens.result_screen import ResultScreen
-from game.screens.scores_screen import ScoresScreen
+from game.screens.scores_screen import ScoresScreen, pages_of
 from game.screens.settings_screen import SettingsScreen
 from game.screens.title import Title
 from game.screens.tour import Tour
@@ -118,10 +118,11 @@ class Screens:
         if self.played:
             self.played.apply_settings()
 
-    def scores(self, shown=None):
-        """The high scores."""
-        app = self.app
-        self.stack.append(ScoresScreen(app.registry, app.records, shown, self.newest, self._ground()))
+    def scores(self):
+        """The high scores, from a game those of its scene or level."""
+        app, play = self.app, self.played
+        pages = pages_of(app.registry, app.records, play and (play.scene.name, play.scene.level_file))
+        self.stack.append(ScoresScreen(pages, app.records, play and play.table, self.newest, self._ground()))
 
     def replays(self):
         """The list of replays."""

@@ -203,6 +203,9 @@ def test_own_levels_are_in_the_menu_and_have_a_table_of_their_own(drive, tmp_pat
     d.key(K.K_ESCAPE)
     records, _ = load_records()
     assert records.entries("race") == [] and len(records.tables) == 1
+    d.mark("High scores")
+    assert d.name == "ScoresScreen" and d.screen.pages[d.screen.at].title == "Race: mine"
+    assert records.entries(d.screen.pages[d.screen.at].table)
 
 
 def test_a_mistake_in_a_level_is_a_message_and_the_menu_goes_on(drive, tmp_path):

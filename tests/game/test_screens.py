@@ -10,7 +10,7 @@ from game.comfort import Comfort
 from game.devices import DeviceSource
 from game.drawing.picture import Picture
 from game.errors import FileError, UsageError
-from game.files.records import Entry, Records
+from game.files.records import Entry, Records, table_of
 from game.files.replay import load_replay
 from game.files.replay_shelf import recent_folder, replays_folder
 from game.files.settings import Settings
@@ -27,7 +27,7 @@ from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.replays_screen import ReplaysScreen
 from game.screens.result_screen import ResultScreen
-from game.screens.scores_screen import ScoresScreen
+from game.screens.scores_screen import ScoresScreen, pages_of
 from game.screens.settings_rows import PAGES
 from game.screens.settings_screen import SettingsScreen
 from game.screens.title import Title
@@ -171,11 +171,19 @@ def test_result(place, won):
         check(screen)
 
 
-def test_high_scores():
-    check(settled(ScoresScreen(Registry(GAMES), Records())))
-    for shown in ("race", "dash"):
-        check(settled(ScoresScreen(Registry(GAMES), crowded_records(), shown, ("race", 10))))
-    check(settled(ScoresScreen(Registry({"arena": GAMES["arena"]}), Records())))
+def test_high_scores(tmp_path):
+    levels = tmp_path / "levels"
+    levels.mkdir()
+    level = levels / "a very long name of a level that somebody made and a little longer than it should be.json"
+    level.write_text("{}")
+    records = crowded_records()
+    records.add(table_of("race", level), "seconds", Entry("WWW", 1, 5999.99, "2026-12-31"))
+    pages = pages_of(Registry(GAMES), records)
+    assert [page.table for page in pages] == ["race", table_of("race", level), "dash"]
+    for page in pages:
+        check(settled(ScoresScreen(pages, records, page.table, (page.table, 10))))
+    check(settled(ScoresScreen(pages, Records())))
+    check(settled(ScoresScreen(pages_of(Registry({"arena": GAMES["arena"]}), Records()), Records())))
 
 
 def test_replays(tmp_path):
