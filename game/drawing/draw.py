@@ -81,8 +81,10 @@ class Canvas:
 
     def is_free(self, rect):
         """True if the rect is on the canvas and meets no text box and no reserved rect."""
-        taken = [box for box, _ in self.boxes] + self.reserved
-        return self.rect.contains(rect) and rect.collidelist(taken) < 0
+        return self.rect.contains(rect) and rect.collidelist(self._taken()) < 0
+
+    def _taken(self):
+        return [box for box, _ in self.boxes] + self.reserved
 
     def reserve(self, rect):
         """Keep text_if_free and free_place out of a rect (a graph, a panel, a life bar)."""
@@ -90,9 +92,11 @@ class Canvas:
 
     def free_place(self, size, places):
         """The first (x, y) of `places` where a box of that size is free, or None."""
+        inside, taken = self.rect, self._taken()
         for x, y in places:
-            if self.is_free(pygame.Rect(whole(x), whole(y), *size)):
-                return whole(x), whole(y)
+            rect = pygame.Rect(whole(x), whole(y), *size)
+            if inside.contains(rect) and rect.collidelist(taken) < 0:
+                return rect.topleft
         return None
 
 

@@ -47,24 +47,22 @@ class Structure:
         self.total += len(rows)
         if len(rows) == 0:
             return
-        axis = rows[:, 0].astype(int)
-        low = np.where(axis == 0, rows[:, 1] * lens.scale + lens.dx, rows[:, 1] * lens.scale + lens.dy)
-        high = np.where(axis == 0, rows[:, 2] * lens.scale + lens.dx, rows[:, 2] * lens.scale + lens.dy)
-        clip = lens.clip
-        start = np.where(axis == 0, clip.left, clip.top)
-        end = np.where(axis == 0, clip.right, clip.bottom)
-        seen = thinned(np.flatnonzero((high >= start) & (low <= end)), INTERVAL_BUDGET // self.views)
+        along_y, clip = rows[:, 0] != 0.0, lens.clip
+        shift = np.where(along_y, lens.dy - clip.top, lens.dx - clip.left)
+        length = np.where(along_y, clip.height, clip.width)
+        low, high = rows[:, 1] * lens.scale + shift, rows[:, 2] * lens.scale + shift
+        seen = thinned(np.flatnonzero((high >= 0.0) & (low <= length)), INTERVAL_BUDGET // self.views)
         self.drawn += len(seen)
-        low = np.maximum(low, start).astype(int)[seen]
-        high = np.minimum(np.maximum(high[seen], low + 1), end[seen]).astype(int)
-        lanes, along_x = np.arange(len(seen)) % LANES, axis[seen] == 0
+        low = np.maximum(low, 0.0).astype(int)[seen]
+        high = np.minimum(np.maximum(high[seen], low + 1), length[seen]).astype(int)
+        lanes = np.arange(len(seen)) % LANES + LANES * along_y[seen]
         thick, yellow, pink = max(1, frame.scale - 1), frame.tone(YELLOW), frame.tone(PINK)
-        for lane in range(LANES):
-            shift = lane * (thick + 1) + 1
-            for first, last in joined(low, high, along_x & (lanes == lane)):
-                frame.surface.fill(yellow, (first, clip.top + shift, last - first, thick))
-            for first, last in joined(low, high, ~along_x & (lanes == lane)):
-                frame.surface.fill(pink, (clip.left + shift, first, thick, last - first))
+        for lane, first, last in covered(low, high, lanes, 2 * LANES, max(clip.size)):
+            across = lane % LANES * (thick + 1) + 1
+            if lane < LANES:
+                frame.surface.fill(yellow, (clip.left + first, clip.top + across, last - first, thick))
+            else:
+                frame.surface.fill(pink, (clip.left + across, clip.top + first, thick, last - first))
 
     def notes(self):
         """(color, text) lines for the legend."""
@@ -76,14 +74,17 @@ class Structure:
         return [(self.color, f"{kinds}: {self.drawn} of {self.total} {what}")]
 
 
-def joined(low, high, chosen):
-    """(first, last) of the stretches that the chosen intervals cover together: bars that overlap are one bar."""
-    if not chosen.any():
-        return ()
-    order = np.argsort(low[chosen], kind="stable")
-    low, reach = low[chosen][order], np.maximum.accumulate(high[chosen][order])
-    apart = np.flatnonzero(low[1:] > reach[:-1])           # after these a new stretch begins
-    return zip(low[np.append(0, apart + 1)].tolist(), reach[np.append(apart, len(reach) - 1)].tolist(), strict=True)
+def covered(low, high, lanes, count, length):
+    """(lane, first, last) of the stretches that each lane's intervals cover together: bars that overlap are one bar.
+
+    low, high: whole numbers 0..length; lanes: whole numbers below count.
+    """
+    edges = np.zeros((count, length + 1), int)
+    np.add.at(edges, (lanes, low), 1)
+    np.add.at(edges, (lanes, high), -1)
+    turns = np.diff(np.cumsum(edges, axis=1) > 0, axis=1, prepend=False)       # on and off again, in the order of each lane
+    lane, place = np.nonzero(turns)
+    return zip(lane[::2].tolist(), place[::2].tolist(), place[1::2].tolist(), strict=True)
 
 
 def thinned(rows, room):
