@@ -7,13 +7,15 @@ def read_parts(text, letters, source):
     """Return {name: (h, w, 4) uint8} of every part of a drawing.
 
     letters: {letter: (r, g, b)}; "." is clear. Raises ValueError naming the source, the part and the row for an
-    unknown letter, an uneven row or a name used twice.
+    unknown letter, an uneven row, a name used twice or a part without rows.
     """
     parts, rows, name = {}, [], None
     for line in text.splitlines() + ["= "]:
         if line.startswith(";") or not line.strip():
             continue
         if line.startswith("="):
+            if name is not None and not rows:
+                raise ValueError(f"{source}: part {name!r} has no rows")
             if rows:
                 parts[name] = _picture(rows, letters, f"{source}, part {name!r}")
             name, rows = line[1:].strip(), []

@@ -160,8 +160,13 @@ def main(arguments=None):
         sys.stderr.write(f"python -m assets.filming SCENE SEED FIRST LAST EVERY FILE; scenes: {', '.join(SCENES)}\n")
         return 2
     name, target = words[0], words[5]
+    seed, first, last, every = (int(word) for word in words[1:5])
+    if first > last or every < 1:
+        sys.stderr.write(f"FIRST must not be after LAST, and EVERY at least 1 (got {first} {last} {every})\n")
+        return 2
+    picture = png.encode(reel(name, seed, first, last, every))
     with open(target, "wb") as file:
-        file.write(png.encode(reel(name, *(int(word) for word in words[1:5]))))
+        file.write(picture)
     sys.stdout.write(f"{target}\n")
     return 0
 
