@@ -93,7 +93,7 @@ def set_shapes(world, identity, shapes):
         own = world.shapes["body"] == identity
         world.pairs.free_proxies(world.shapes["proxy"][own])
         world.shapes["proxy"][own] = -1
-    sleep.forget(world, [])
+    sleep.forget(world)
     world._tiers.pop(identity, None)
     world._sources.pop(identity, None)
 

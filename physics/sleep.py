@@ -83,19 +83,21 @@ def in_order(contacts) -> np.ndarray:
     return contacts[np.lexsort((np.arange(len(contacts)), contacts["shape_b"], contacts["shape_a"]))]
 
 
-def forget(world, ids):
-    """Drop the kept contacts of bodies that are gone, and of shapes that were replaced; refresh the rows of the others."""
-    bodies, shapes = world.bodies["id"], world.shapes["id"]
-    kept = []
-    for contacts in (world.found_contacts, world.parked):
-        if not len(contacts):
-            kept.append(contacts)
-            continue
-        there = np.isin(contacts["shape_a"], shapes) & np.isin(contacts["shape_b"], shapes)
-        there &= ~(np.isin(contacts["body_a"], ids) | np.isin(contacts["body_b"], ids))
-        contacts = contacts[there]
-        for side in ("a", "b"):
-            contacts["body_row_" + side] = np.searchsorted(bodies, contacts["body_" + side])
-            contacts["row_" + side] = np.searchsorted(shapes, contacts["shape_" + side])
-        kept.append(contacts)
-    world.found_contacts, world.parked = kept
+def forget(world):
+    """Drop the kept contacts of bodies and shapes that are gone; refresh the rows of the others."""
+    bodies, shapes = np.append(world.bodies["id"], -1), np.append(world.shapes["id"], -1)      # no id is -1
+    world.found_contacts, world.parked = (_refreshed(each, bodies, shapes) for each in (world.found_contacts, world.parked))
+
+
+def _refreshed(contacts, bodies, shapes):
+    if not len(contacts):
+        return contacts
+    there, rows = np.ones(len(contacts), bool), {}
+    for side in "ab":
+        for ids, name, row in ((bodies, "body_", "body_row_"), (shapes, "shape_", "row_")):
+            rows[row + side] = np.searchsorted(ids[:-1], contacts[name + side])
+            there &= ids[rows[row + side]] == contacts[name + side]
+    contacts = contacts[there]
+    for row, found in rows.items():
+        contacts[row] = found[there]
+    return contacts

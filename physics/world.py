@@ -296,15 +296,15 @@ class World:
         keep = np.ones(self._bodies.count, bool)
         keep[self.rows(ids)] = False
         sleep.wake_ids(self, ids)
-        self._drop_shapes(~np.isin(self.shapes["body"], ids))
+        self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
-        self.shapes["body_row"] = np.searchsorted(np.ascontiguousarray(self.bodies["id"]), self.shapes["body"])
+        self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
         gone = set(ids.tolist())
         for table in (self._users, self._shapes_of, self._tiers, self._sources):
             for identity in gone & table.keys():
                 del table[identity]
         self.characters.keep(~np.isin(self.characters.rows["body"], ids))
-        sleep.forget(self, ids)
+        sleep.forget(self)
 
     def _drop_shapes(self, keep):
         self.pairs.ids              # named while the rows still stand
