@@ -3,9 +3,9 @@
 import pygame
 
 from game.drawing.boxes import draw_box
-from game.drawing.figures import clock, points_text
 from game.drawing.colors import FOG, GOLD, PAPER, SKY
 from game.drawing.draw import SMALL, TEXT, shorten, wrap
+from game.drawing.figures import clock, points_text
 from game.drawing.pictures import SIZE, draw_picture
 from game.errors import FileError
 from game.files.own_levels import own_levels

@@ -3,9 +3,9 @@
 import pygame
 
 from game.drawing.boxes import draw_box
-from game.drawing.figures import clock, points_text, short_clock
 from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
 from game.drawing.draw import SMALL, TEXT, shorten, wrap
+from game.drawing.figures import clock, points_text, short_clock
 from game.files.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
 from game.screens.ground import MARGIN, DuskGround, draw_page
 from game.screens.rows import LINE, Row, RowList

@@ -1,9 +1,9 @@
 """After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
 
 from game.drawing.boxes import draw_box
-from game.drawing.figures import clock, points_text
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
 from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.figures import clock, points_text
 from game.screens.ground import SceneGround
 from game.screens.initials import Initials
 from game.screens.rows import LINE, Row, RowList

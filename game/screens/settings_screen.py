@@ -6,8 +6,8 @@ from game.bindings import key_name, shown
 from game.drawing.boxes import draw_box
 from game.drawing.colors import FOG, GOLD, PAPER
 from game.drawing.draw import SMALL, wrap
-from game.screens.ground import MARGIN, DuskGround, draw_page
 from game.rebinding import rebind
+from game.screens.ground import MARGIN, DuskGround, draw_page
 from game.screens.rows import Row, RowList, confirmed
 from game.screens.settings_rows import PAGES, rows_of
 

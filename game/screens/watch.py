@@ -2,9 +2,9 @@
 
 import pygame
 
-from game.drawing.figures import short_clock
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
 from game.drawing.draw import SMALL, TEXT
+from game.drawing.figures import short_clock
 from game.loop import FixedStep
 from game.overlays.stack import Overlays
 from game.run_report import solver_name

@@ -81,7 +81,6 @@ class OneWay(Scene):
         self.throws = 0
         self.passed = {"body": 0, "hero": 0}
         self.landed = {"body": 0, "hero": 0}
-        self.hero_below = dict.fromkeys(PLANKS, True)
         self.hero_through = None                     # the plank he came through and did not land on yet
         self.offsets = None                          # where the riders stood when they had settled
         self.slip = {"crate": 0.0, "walker": 0.0}
