@@ -23,7 +23,8 @@ def test_no_standard_error(monkeypatch):
 def test_a_full_disk(flag):
     with open("/dev/full", "w") as full:
         ended = subprocess.run([sys.executable, MAIN, flag], stdout=full, stderr=subprocess.PIPE, text=True)
-    assert ended.returncode == 2 and ended.stderr.count("\n") == 1 and "No space left" in ended.stderr
+    assert ended.returncode == 2 and "Traceback" not in ended.stderr
+    assert ended.stderr.splitlines()[-1].startswith("hitbox:") and "No space left" in ended.stderr.splitlines()[-1]
 
 
 def test_a_reader_that_has_gone():
