@@ -12,8 +12,8 @@ from physics.distance import gjk_steps
 from physics.narrowphase.axes import sat_axes
 from physics.settings import MASK_ANGLE_BUCKETS
 
-__all__ = ["bounds", "contact_points", "drawn_masks", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
-           "pairs", "sat_axes", "shape_rows", "structure"]
+__all__ = ["bounds", "contact_points", "drawn_masks", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion",
+           "outlines", "pairs", "sat_axes", "shape_rows", "structure"]
 
 ROW = np.dtype([("shape", np.int64), ("body", np.int64), ("kind", np.int64), ("membership", np.int64),
                 ("mask", np.int64), ("sensor", np.bool_), ("awake", np.bool_)])

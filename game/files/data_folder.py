@@ -57,8 +57,8 @@ def free_name(folder, scene_name, suffix=".json"):
 def write_atomically(path, content, makes_folder=True):
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError when the folder cannot be written; the old file is then
-    untouched.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError when the
+    folder cannot be written; the old file is then untouched.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:

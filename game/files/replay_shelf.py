@@ -7,7 +7,7 @@ from itertools import chain, count
 from stat import S_ISREG
 
 from game.errors import FileError
-from game.files.data_folder import data_folder, free_name
+from game.files.data_folder import data_folder, free_name, write_atomically
 from game.files.replay_check import load_replay_for
 
 RECENT = 10            # runs that are kept unasked
@@ -70,12 +70,7 @@ def keep(path):
     kept = next(place for place in map(replays_folder().joinpath, names)
                 if not place.exists() or (place.is_file() and place.read_bytes() == content))
     if not kept.exists():
-        part = kept.with_name(kept.name + ".part")
-        try:
-            part.write_bytes(content)
-            part.replace(kept)
-        finally:
-            part.unlink(missing_ok=True)
+        write_atomically(kept, content)
     return kept
 
 
