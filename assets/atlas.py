@@ -9,8 +9,8 @@ import numpy as np
 
 from assets import png
 
-GAP = 1   # [px] clear pixels between frames, so that scaling or turning one never picks up its neighbour
-WIDTH = 256   # [px] sheets are this wide unless a frame is wider
+GAP = 1  # [px] clear pixels between frames, so that scaling or turning one never picks up its neighbour
+WIDTH = 256  # [px] sheets are this wide unless a frame is wider
 
 
 class Sheet:
@@ -18,9 +18,9 @@ class Sheet:
 
     def __init__(self, name, gap=GAP):
         self.name = name
-        self.gap = gap          # [px] 0 for a tile set, whose tiles a level finds by number
-        self.frames = {}        # name -> (h, w, 4) uint8
-        self.animations = {}    # name -> {"frames": [...], "fps": n}
+        self.gap = gap  # [px] 0 for a tile set, whose tiles a level finds by number
+        self.frames = {}  # name -> (h, w, 4) uint8
+        self.animations = {}  # name -> {"frames": [...], "fps": n}
 
     def add(self, name, pixels):
         """Add one frame. pixels: (h, w, 4) uint8. Raises ValueError for a name that is taken."""
@@ -65,7 +65,7 @@ class Sheet:
 def _shelves(frames, gap):
     """Place frames left to right on shelves, tallest first. Returns ({name: (x, y)}, (width, height))."""
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
-    order = sorted(frames, key=lambda name: -frames[name].shape[0])   # stable: equal heights keep their order
+    order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order
     places, x, y, shelf = {}, gap, gap, 0
     for name in order:
         height, frame_width = frames[name].shape[:2]

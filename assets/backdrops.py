@@ -15,7 +15,12 @@ from assets.skyline import backdrop_layers
 from assets.stronghold import stronghold
 from assets.terrain import ground
 
-LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70   # clear enough that nothing behind a cloud can surprise
+LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = (
+    130,
+    90,
+    150,
+    70,
+)  # clear enough that nothing behind a cloud can surprise
 
 
 def backdrop_files(game):

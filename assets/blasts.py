@@ -10,8 +10,8 @@ from assets.fields import capsule, dither, layered_noise, length
 from assets.palette import RAMPS, WHITE
 from assets.shading import Sprite
 
-RING_SIZES = (48, 96, 144, 184, 216, 240)   # [px] of the square frames
-WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)   # width of the wake behind the front, as a share of the radius
+RING_SIZES = (48, 96, 144, 184, 216, 240)  # [px] of the square frames
+WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)  # width of the wake behind the front, as a share of the radius
 
 
 def bomb_ring(frame):
@@ -21,7 +21,7 @@ def bomb_ring(frame):
     radius = size / 2 - 1.5
     distance = length(sprite.x - size / 2, sprite.y - size / 2)
     grain = layered_noise(size, size, 8, 8, 3, 410 + frame) - 0.5
-    behind = (radius - distance) / (radius * WAKE[frame])   # 0 at the front, 1 where the wake ends
+    behind = (radius - distance) / (radius * WAKE[frame])  # 0 at the front, 1 where the wake ends
     level = behind + grain * (0.5 + 0.12 * frame) + dither(size, size) * 0.34
     tones = (RAMPS["teal"][5], RAMPS["teal"][4], RAMPS["teal"][3], RAMPS["blue"][3], RAMPS["blue"][2])
     inside = distance < radius - 1
@@ -31,12 +31,12 @@ def bomb_ring(frame):
         sprite.rgb[band] = tone
         sprite.solid |= band
     front = np.abs(distance - radius + 1.4) < (1.4, 1.3, 1.2, 1.0, 0.8, 0.6)[frame]
-    if frame == 5:   # breaks up before it goes
+    if frame == 5:  # breaks up before it goes
         front &= dither(size, size) > -0.2
     sprite.rgb[front] = WHITE
     sprite.solid |= front
     for i, way in enumerate(directions(32)):
-        if i % 2 == frame % 2 and frame < 3:   # splinters of the flash, until the front has outrun them
+        if i % 2 == frame % 2 and frame < 3:  # splinters of the flash, until the front has outrun them
             reach = radius - 2 - (i * 7 % 5)
             start = (size / 2 + way[0] * (reach - 4 - i % 3), size / 2 + way[1] * (reach - 4 - i % 3))
             end = (size / 2 + way[0] * reach, size / 2 + way[1] * reach)
@@ -62,8 +62,17 @@ def graze_spark(frame):
     sprite = Sprite(12, 12)
     start, end = ((0.0, 3.0), (1.6, 4.6), (3.4, 5.2))[frame]
     for dx, dy in ((0.7, -0.7), (-0.7, -0.7), (-0.7, 0.7), (0.7, 0.7)):
-        sprite.flat(capsule(sprite.x, sprite.y, (6 + dx * start, 6 + dy * start), (6 + dx * end, 6 + dy * end),
-                            0.9 - 0.2 * frame, 0.5), (WHITE, RAMPS["gold"][5], RAMPS["gold"][4])[frame])
+        sprite.flat(
+            capsule(
+                sprite.x,
+                sprite.y,
+                (6 + dx * start, 6 + dy * start),
+                (6 + dx * end, 6 + dy * end),
+                0.9 - 0.2 * frame,
+                0.5,
+            ),
+            (WHITE, RAMPS["gold"][5], RAMPS["gold"][4])[frame],
+        )
         if frame == 0:
             sprite.flat(capsule(sprite.x, sprite.y, (6, 6), (6 + dx * 5, 6 + dy * 5), 1.2, 0.5), WHITE)
     return sprite.pixels()

@@ -1,8 +1,8 @@
 """Write every file of assets/ that a script makes, or check that the files in the folder are what the scripts make.
 
-    python -m assets.build            regenerate all
-    python -m assets.build sounds     only products whose name contains "sounds"
-    python -m assets.build --check    regenerate in memory; exit 1 and name the files that differ
+python -m assets.build            regenerate all
+python -m assets.build sounds     only products whose name contains "sounds"
+python -m assets.build --check    regenerate in memory; exit 1 and name the files that differ
 """
 
 import argparse

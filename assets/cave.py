@@ -11,7 +11,7 @@ from assets.fields import box, capsule, circle, noise, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite, opaque
 
-SEEDS = ((2, 3), (8, 1), (13, 5), (5, 9), (11, 11), (1, 13))   # middles of the boulders, px; they repeat with the tile
+SEEDS = ((2, 3), (8, 1), (13, 5), (5, 9), (11, 11), (1, 13))  # middles of the boulders, px; they repeat with the tile
 CLODS = ((3, 2), (11, 4), (6, 9), (14, 11), (2, 14), (9, 15))
 WALL_DARK = (18, 17, 38)
 
@@ -43,13 +43,13 @@ def boulders(variant):
     picture[edge < 0.9] = ramp[0]
     lit = (edge >= 0.9) & (edge < 1.9) & (facing > 1.4)
     picture[lit] = mix(ramp[2], ramp[3], 0.6)
-    if variant == 1:   # a vein
+    if variant == 1:  # a vein
         for step, (column, row) in enumerate(((10, 2), (11, 3), (11, 4), (12, 5), (13, 6))):
             picture[row, column] = RAMPS["teal"][3 if step % 2 else 2]
-    if variant == 2:   # a crack
+    if variant == 2:  # a crack
         for column, row in ((4, 7), (5, 8), (5, 9), (6, 10), (7, 10)):
             picture[row, column] = OUTLINE
-    if variant == 3:   # pebbles
+    if variant == 3:  # pebbles
         picture[12, 10:13] = ramp[3]
         picture[13, 10:13] = ramp[1]
         picture[3, 4:6] = ramp[3]
@@ -61,8 +61,14 @@ def clods(ramp, seed):
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5
     level = 1.0 + facing * 0.10 + grain * 1.5
-    tones = np.array([mix(ramp[1], ramp[0], 0.12), mix(ramp[1], ramp[2], 0.22), mix(ramp[1], ramp[2], 0.48),
-                      mix(ramp[1], ramp[2], 0.72)])
+    tones = np.array(
+        [
+            mix(ramp[1], ramp[0], 0.12),
+            mix(ramp[1], ramp[2], 0.22),
+            mix(ramp[1], ramp[2], 0.48),
+            mix(ramp[1], ramp[2], 0.72),
+        ]
+    )
     picture = tones[np.clip(np.floor(level + 0.5), 0, 3).astype(int)]
     edge = second - nearest
     picture[(edge < 0.8) & (grain < 0.12)] = mix(ramp[1], ramp[0], 0.42)
@@ -98,14 +104,29 @@ def crystal(variant):
     )[variant]
     for foot_x, foot_y, tip_x, tip_y, half in spears:
         shoulder = tip_y + 2.6
-        body = [(tip_x, tip_y), (tip_x + half, shoulder), (foot_x + half * 0.8, foot_y), (foot_x - half * 0.8, foot_y),
-                (tip_x - half, shoulder)]
+        body = [
+            (tip_x, tip_y),
+            (tip_x + half, shoulder),
+            (foot_x + half * 0.8, foot_y),
+            (foot_x - half * 0.8, foot_y),
+            (tip_x - half, shoulder),
+        ]
         sprite.flat(polygon(sprite.x, sprite.y, body) - 0.9, OUTLINE)
         sprite.flat(polygon(sprite.x, sprite.y, body), ramp[3])
-        sprite.paint(polygon(sprite.x, sprite.y, [body[0], body[4], body[3], (foot_x - half * 0.1, foot_y),
-                                                  (tip_x - half * 0.2, shoulder)]), ramp[5])
-        sprite.paint(polygon(sprite.x, sprite.y, [(tip_x + half * 0.35, shoulder), body[1], body[2],
-                                                  (foot_x + half * 0.3, foot_y)]), ramp[2])
+        sprite.paint(
+            polygon(
+                sprite.x,
+                sprite.y,
+                [body[0], body[4], body[3], (foot_x - half * 0.1, foot_y), (tip_x - half * 0.2, shoulder)],
+            ),
+            ramp[5],
+        )
+        sprite.paint(
+            polygon(
+                sprite.x, sprite.y, [(tip_x + half * 0.35, shoulder), body[1], body[2], (foot_x + half * 0.3, foot_y)]
+            ),
+            ramp[2],
+        )
     sprite.flat(polygon(sprite.x, sprite.y, [(1, 16), (3, 13.4), (8, 14.4), (13, 13.2), (15, 16)]), RAMPS["rock"][1])
     return sprite.pixels()
 
@@ -115,7 +136,9 @@ def glowcap():
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
     for middle, top, radius in ((10.6, 9.4, 3.2), (5.4, 6, 4.2)):
-        sprite.part(capsule(x, y, (middle, top + 1), (middle, 14.6), 1.1), RAMPS["steel"], bulge=1.4, base=0.66, grain=0)
+        sprite.part(
+            capsule(x, y, (middle, top + 1), (middle, 14.6), 1.1), RAMPS["steel"], bulge=1.4, base=0.66, grain=0
+        )
         cap = np.maximum(circle(x, y, middle, top + 0.6, radius), y - top - 1.4)
         sprite.part(cap, RAMPS["teal"], bulge=3, base=0.60, gain=0.4, grain=0)
         sprite.paint(box(x, y, middle - radius, top + 0.4, middle + radius, top + 1.4), RAMPS["teal"][5])
@@ -130,7 +153,7 @@ def banner():
     x, y = sprite.x, sprite.y
     cloth = polygon(x, y, [(3, 1), (13, 1), (13, 14.6), (8, 11.6), (3, 14.6)])
     sprite.part(cloth, mix(RAMPS["red"], OUTLINE, 0.2), bulge=3, base=0.44, gain=0.35, grain=0.2)
-    for column in (5, 10):   # folds
+    for column in (5, 10):  # folds
         sprite.paint(box(x, y, column, 2, column + 1, 15), RAMPS["red"][1], 0.45)
     sprite.stamp(("#..##..#", ".#.##.#.", "..####..", "...##..."), 4, 5, {"#": RAMPS["gold"][3]})
     sprite.part(box(x, y, 2, 0.6, 14, 2.4), RAMPS["wood"], bulge=1.4, base=0.5, grain=0)
@@ -148,7 +171,7 @@ def window():
     sprite.flat(box(x, y, 6, 2.6, 10, 14, 2), RAMPS["orange"][3])
     sprite.paint(box(x, y, 6, 5, 10, 14), RAMPS["gold"][4])
     sprite.paint(box(x, y, 7, 7, 9, 13), RAMPS["gold"][5])
-    sprite.paint(box(x, y, 6, 2, 7, 14), OUTLINE, 0.5)   # the wall's thickness
+    sprite.paint(box(x, y, 6, 2, 7, 14), OUTLINE, 0.5)  # the wall's thickness
     lay(picture, sprite.pixels(), 0, 0)
     return picture
 
@@ -156,7 +179,16 @@ def window():
 def chain():
     """A hanging chain of iron, repeating downwards, clear around it."""
     sprite = Sprite(TILE, TILE)
-    links = ("..ab..", ".a..b.", ".a..b.", "..ab..", "..ab..", "..ab..", "..ab..", "..ab..")   # one open, one from its edge
+    links = (
+        "..ab..",
+        ".a..b.",
+        ".a..b.",
+        "..ab..",
+        "..ab..",
+        "..ab..",
+        "..ab..",
+        "..ab..",
+    )  # one open, one from its edge
     for top in (0, 8):
         sprite.stamp(links, 5, top, {"a": RAMPS["gunmetal"][4], "b": RAMPS["gunmetal"][2]})
     return sprite.outline().pixels()

@@ -22,7 +22,7 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
 def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
     """Clouds over the ground, (540, 480, 4) uint8, seamless in both directions. alpha: 0..255 of a thick part."""
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
-    lit = np.roll(thickness, (3, 2), (0, 1)) - thickness   # thicker towards the bottom right: faces the light
+    lit = np.roll(thickness, (3, 2), (0, 1)) - thickness  # thicker towards the bottom right: faces the light
     level = 1.6 - lit * 26 + thickness * 3 + dither(540, 480) * 0.9
     out = np.zeros((540, 480, 4), np.uint8)
     out[..., :3] = graded(tones, level)

@@ -1,7 +1,7 @@
 """Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of both games.
 
-    python -m assets.contact_sheet            both; the games are played by their bots for some minutes of game time
-    python -m assets.contact_sheet sprites    only that one
+python -m assets.contact_sheet            both; the games are played by their bots for some minutes of game time
+python -m assets.contact_sheet sprites    only that one
 """
 
 import json
@@ -15,12 +15,26 @@ from assets.palette import OUTLINE, RAMPS, oklch
 from assets.shading import opaque
 
 SCALE = 3
-WIDTH = 496   # [px] before scaling: the widest frame and its gaps
-GAP, HEADING = 4, 16   # [px] around a frame, above a sheet for its name
+WIDTH = 496  # [px] before scaling: the widest frame and its gaps
+GAP, HEADING = 4, 16  # [px] around a frame, above a sheet for its name
 SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lab")
-BACKDROPS = ("sea", "coast", "storm", "clouds_low", "clouds_high", "clouds_storm", "sky_dusk", "clouds", "mountains_far",
-             "mountains_mid", "keep_far", "mountains_near", "cave_far", "cave_near")
-SHRUNK = 3   # a backdrop is shown at a third of its size, so at its own after scaling
+BACKDROPS = (
+    "sea",
+    "coast",
+    "storm",
+    "clouds_low",
+    "clouds_high",
+    "clouds_storm",
+    "sky_dusk",
+    "clouds",
+    "mountains_far",
+    "mountains_mid",
+    "keep_far",
+    "mountains_near",
+    "cave_far",
+    "cave_near",
+)
+SHRUNK = 3  # a backdrop is shown at a third of its size, so at its own after scaling
 BACKGROUND = oklch(0.36, 0.045, 285)
 PAPER = oklch(0.27, 0.045, 285)
 
@@ -53,7 +67,7 @@ def section(name, frames):
     for row, height in zip(rows, heights, strict=True):
         x = GAP
         for frame in row:
-            top = y + height - frame.shape[0]   # on one base line
+            top = y + height - frame.shape[0]  # on one base line
             solid = frame[..., 3] > 0
             out[top : top + frame.shape[0], x : x + frame.shape[1]][solid] = frame[solid][:, :3]
             x += frame.shape[1] + GAP

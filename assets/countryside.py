@@ -7,21 +7,35 @@ import numpy as np
 
 from assets.fields import layered_noise, noise
 from assets.palette import mix, oklch, oklch_all
-from assets.terrain import (FOAM, HEIGHT, MEADOW, ROCK, SAND, SEA, WET_SAND, WIDTH, border, glints, height_map, hill_light,
-                            pick, plant)
+from assets.terrain import (
+    FOAM,
+    HEIGHT,
+    MEADOW,
+    ROCK,
+    SAND,
+    SEA,
+    WET_SAND,
+    WIDTH,
+    border,
+    glints,
+    height_map,
+    hill_light,
+    pick,
+    plant,
+)
 
-SHORE, BEACH, CRAGS = 0.36, 0.385, 0.80   # heights where one ground gives way to the next: mostly land
+SHORE, BEACH, CRAGS = 0.36, 0.385, 0.80  # heights where one ground gives way to the next: mostly land
 CROPS = oklch_all(
-    (0.46, 0.058, 112), (0.50, 0.056, 98), (0.42, 0.062, 132), (0.47, 0.050, 86), (0.38, 0.055, 142),
-    (0.44, 0.040, 70))
+    (0.46, 0.058, 112), (0.50, 0.056, 98), (0.42, 0.062, 132), (0.47, 0.050, 86), (0.38, 0.055, 142), (0.44, 0.040, 70)
+)
 EARTH = oklch(0.45, 0.036, 72)
 HEDGE = oklch(0.29, 0.046, 155)
 RIVER = oklch_all((0.33, 0.055, 238), (0.38, 0.056, 230))
 ROOF_LIT = oklch_all((0.54, 0.070, 42), (0.50, 0.030, 60), (0.50, 0.055, 30))
 ROOF_DARK = oklch_all((0.38, 0.060, 32), (0.36, 0.026, 50), (0.35, 0.050, 20))
 SHADOW = oklch(0.20, 0.03, 170)
-LAND_CELLS = 70   # fields on the whole picture
-VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))   # [px] middles, those in water are left out
+LAND_CELLS = 70  # fields on the whole picture
+VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles, those in water are left out
 
 
 def patchwork(count, seed):
@@ -35,7 +49,7 @@ def patchwork(count, seed):
         middle_x, middle_y = random.random(2) * (WIDTH, HEIGHT)
         dx = abs((x + bend - middle_x + WIDTH / 2) % WIDTH - WIDTH / 2)
         dy = abs((y + bend - middle_y + HEIGHT / 2) % HEIGHT - HEIGHT / 2)
-        distance = np.maximum(dx, dy) * 0.62 + (dx + dy) * 0.38   # nearly rectangles
+        distance = np.maximum(dx, dy) * 0.62 + (dx + dy) * 0.38  # nearly rectangles
         closer = distance < nearest
         second = np.where(closer, nearest, np.minimum(second, distance))
         number = np.where(closer, i, number)
@@ -69,7 +83,7 @@ def countryside():
     picture[bank & ~rock & ~flat] = mix(MEADOW[1], SEA[3], 0.3)
     picture[river] = RIVER[(noise(WIDTH, HEIGHT, 60, 135, 8) > 0.62).astype(int)][river]
     picture[np.roll(river, 1, 0) & ~river & land] = mix(SAND[0], MEADOW[2], 0.5)
-    picture[road & river] = ROOF_DARK[1]   # bridges
+    picture[road & river] = ROOF_DARK[1]  # bridges
     plant(picture, woods & ~road, 616)
     hedges = flat & (layered_noise(WIDTH, HEIGHT, 20, 22, 2, 71) > 0.60) & ~road & ~river
     plant(picture, hedges, 617, spacing=(8, 7))
@@ -113,7 +127,7 @@ def _villages(picture, where, road):
                 continue
             picture[y + 1 : y + deep + 2, x + 1 : x + wide + 2] = SHADOW
             picture[y : y + deep, x : x + wide] = ROOF_DARK[kind]
-            if wide > deep:   # the ridge runs across
+            if wide > deep:  # the ridge runs across
                 picture[y : y + (deep + 1) // 2, x : x + wide] = ROOF_LIT[kind]
             else:
                 picture[y : y + deep, x : x + (wide + 1) // 2] = ROOF_LIT[kind]

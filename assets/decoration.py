@@ -12,14 +12,24 @@ from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite, opaque
 from assets.things import LETTERS as THING_LETTERS
 
-TILE = 16   # [px] side of a tile
+TILE = 16  # [px] side of a tile
 GRASS = RAMPS["grass"]
 LETTERS = {
-    "O": OUTLINE, "d": GRASS[1], "f": GRASS[2], "g": GRASS[3],
-    "p": RAMPS["pink"][4], "y": RAMPS["gold"][4], "w": RAMPS["steel"][5], "r": RAMPS["red"][3], "k": RAMPS["red"][1],
+    "O": OUTLINE,
+    "d": GRASS[1],
+    "f": GRASS[2],
+    "g": GRASS[3],
+    "p": RAMPS["pink"][4],
+    "y": RAMPS["gold"][4],
+    "w": RAMPS["steel"][5],
+    "r": RAMPS["red"][3],
+    "k": RAMPS["red"][1],
     "s": RAMPS["steel"][3],
-    "a": RAMPS["stone"][4], "b": RAMPS["stone"][3], "c": RAMPS["stone"][2],
-    "n": RAMPS["wood"][3], "m": RAMPS["wood"][2],
+    "a": RAMPS["stone"][4],
+    "b": RAMPS["stone"][3],
+    "c": RAMPS["stone"][2],
+    "n": RAMPS["wood"][3],
+    "m": RAMPS["wood"][2],
 }
 # name: (width in tiles, height in tiles); the pieces are tiles <name>_<column>_<row>, row 0 on top
 SCENERY = {"tree_green": (4, 5), "tree_autumn": (4, 5), "tree_small": (3, 4), "bush": (2, 1)}
@@ -41,13 +51,41 @@ def scenery(name):
     x, y, middle = sprite.x, sprite.y, width / 2
     if name != "bush":
         thick = width / 15
-        sprite.part(polygon(x, y, [(middle - thick, 24), (middle + thick, 24), (middle + thick, height - 7),
-                                   (middle + thick * 2.4, height + 1), (middle - thick * 2.4, height + 1),
-                                   (middle - thick, height - 7)]), RAMPS["wood"], bulge=4, base=0.30, gain=0.3)
+        sprite.part(
+            polygon(
+                x,
+                y,
+                [
+                    (middle - thick, 24),
+                    (middle + thick, 24),
+                    (middle + thick, height - 7),
+                    (middle + thick * 2.4, height + 1),
+                    (middle - thick * 2.4, height + 1),
+                    (middle - thick, height - 7),
+                ],
+            ),
+            RAMPS["wood"],
+            bulge=4,
+            base=0.30,
+            gain=0.3,
+        )
         for side in (-1, 1):
-            sprite.part(polygon(x, y, [(middle - 2, height * 0.62), (middle + 2, height * 0.62),
-                                       (middle + side * 13, height * 0.40), (middle + side * 10, height * 0.38)]),
-                        RAMPS["wood"], bulge=3, base=0.30, gain=0.3)
+            sprite.part(
+                polygon(
+                    x,
+                    y,
+                    [
+                        (middle - 2, height * 0.62),
+                        (middle + 2, height * 0.62),
+                        (middle + side * 13, height * 0.40),
+                        (middle + side * 10, height * 0.38),
+                    ],
+                ),
+                RAMPS["wood"],
+                bulge=3,
+                base=0.30,
+                gain=0.3,
+            )
     ramp = np.array([mix(tone, OUTLINE, 0.18) for tone in RAMPS[LEAVES[name]]])[:5]
     rough = layered_noise(width, height, max(2, width // 5), max(2, height // 5), 2, 91 + len(name)) - 0.5
     for ball_x, ball_y, radius in CROWNS[name]:

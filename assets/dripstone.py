@@ -9,7 +9,7 @@ from assets.fields import dither, layered_noise, length, noise
 from assets.palette import graded, mix, oklch_all
 from assets.shading import cut_out
 
-WIDTH, HEIGHT = 480, 270   # [px]
+WIDTH, HEIGHT = 480, 270  # [px]
 FAR = oklch_all((0.215, 0.040, 292), (0.250, 0.048, 286), (0.290, 0.056, 276), (0.335, 0.060, 262), (0.385, 0.060, 245))
 HAZE = oklch_all((0.335, 0.062, 250), (0.40, 0.068, 225), (0.47, 0.068, 205))
 NEAR = oklch_all((0.130, 0.030, 292), (0.165, 0.034, 288), (0.210, 0.040, 280), (0.290, 0.048, 262))
@@ -18,10 +18,26 @@ CRYSTAL = oklch_all((0.42, 0.080, 215), (0.56, 0.095, 200), (0.72, 0.085, 190))
 CLUSTERS = ((70, 206, 15), (212, 70, 11), (330, 190, 18), (436, 96, 12), (146, 150, 8))
 # Hanging and standing stone of the near layer: x, half width at the root, length, whether it hangs; px
 SPIKES = (
-    (18, 16, 86, True), (52, 9, 44, True), (84, 7, 30, True), (132, 20, 118, True), (170, 8, 38, True),
-    (222, 12, 66, True), (262, 7, 26, True), (304, 17, 98, True), (346, 9, 48, True), (398, 13, 72, True),
-    (446, 8, 34, True), (36, 18, 60, False), (96, 10, 34, False), (138, 24, 74, False), (206, 12, 40, False),
-    (250, 20, 56, False), (318, 11, 36, False), (366, 22, 68, False), (424, 13, 44, False), (466, 9, 26, False),
+    (18, 16, 86, True),
+    (52, 9, 44, True),
+    (84, 7, 30, True),
+    (132, 20, 118, True),
+    (170, 8, 38, True),
+    (222, 12, 66, True),
+    (262, 7, 26, True),
+    (304, 17, 98, True),
+    (346, 9, 48, True),
+    (398, 13, 72, True),
+    (446, 8, 34, True),
+    (36, 18, 60, False),
+    (96, 10, 34, False),
+    (138, 24, 74, False),
+    (206, 12, 40, False),
+    (250, 20, 56, False),
+    (318, 11, 36, False),
+    (366, 22, 68, False),
+    (424, 13, 44, False),
+    (466, 9, 26, False),
 )
 
 
@@ -54,8 +70,14 @@ def _cluster(picture, middle_x, middle_y, size):
     glow = 1 - length(dx, dy + size * 0.3) / (size * 2.2) + dither(HEIGHT, WIDTH) * 0.22
     for limit, share in ((0.15, 0.16), (0.45, 0.18), (0.7, 0.2)):
         picture[glow > limit] = mix(picture[glow > limit], CRYSTAL[0], share)
-    for lean, reach, thick in ((-0.9, 0.62, 0.20), (0.85, 0.70, 0.20), (-0.42, 0.9, 0.22), (0.4, 0.82, 0.22), (0, 1.1, 0.26)):
-        along = -dy / (size * reach)   # 0 at the foot, 1 at the tip
+    for lean, reach, thick in (
+        (-0.9, 0.62, 0.20),
+        (0.85, 0.70, 0.20),
+        (-0.42, 0.9, 0.22),
+        (0.4, 0.82, 0.22),
+        (0, 1.1, 0.26),
+    ):
+        along = -dy / (size * reach)  # 0 at the foot, 1 at the tip
         across = dx - lean * size * reach * np.clip(along, 0, 1)
         half = size * thick * np.minimum(1, (1 - along) * 3.2)
         body = (along > -0.05) & (along < 1) & (abs(across) < half)

@@ -41,8 +41,9 @@ def muzzle_flash(frame):
     x, y = sprite.x, sprite.y
     reach, waist = ((5.4, 2.6), (6.6, 2.0), (4.2, 1.2))[frame]
     points = []
-    for i, (step_x, step_y) in enumerate(((0, -1), (0.7, -0.7), (1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0),
-                                          (-0.7, -0.7))):
+    for i, (step_x, step_y) in enumerate(
+        ((0, -1), (0.7, -0.7), (1, 0), (0.7, 0.7), (0, 1), (-0.7, 0.7), (-1, 0), (-0.7, -0.7))
+    ):
         distance = reach if i % 2 == 0 else waist
         points.append((7 + step_x * distance, 7 + step_y * distance))
     star = polygon(x, y, points)
@@ -56,8 +57,9 @@ def spark(frame):
     sprite = Sprite(16, 16)
     if frame < 2:
         sprite.flat(circle(sprite.x, sprite.y, 8, 8, (3.4, 2.2)[frame]), FIRE[frame])
-    for i, (step_x, step_y) in enumerate(((0.1, -1), (0.8, -0.6), (1, 0.2), (0.5, 0.9), (-0.3, 1), (-0.9, 0.5),
-                                          (-1, -0.2), (-0.6, -0.8))):
+    for i, (step_x, step_y) in enumerate(
+        ((0.1, -1), (0.8, -0.6), (1, 0.2), (0.5, 0.9), (-0.3, 1), (-0.9, 0.5), (-1, -0.2), (-0.6, -0.8))
+    ):
         start = 1.5 + frame * 1.3 * (0.8 + 0.2 * (i % 3))
         stroke = max(0.6, 2.6 - frame * 0.5)
         begin = (8 + step_x * start, 8 + step_y * start)
@@ -75,7 +77,7 @@ def smoke(frame):
     grain = (noise(20, 20, 5, 5, 50 + frame) - 0.5) * (0.4 + 2.6 * t)
     spread = 1.0 + 0.45 * t
     lobes = ((0, 1.4, 4.3), (-3.2, 2.0, 3.0), (3.4, 1.8, 3.0), (-2.2, -2.0, 3.2), (2.4, -1.8, 3.0), (0.2, -3.8, 2.6))
-    for i, (shift, share) in enumerate(((0.0, 1.0), (0.5, 0.74), (0.9, 0.36))):   # dark, body, light: upper left
+    for i, (shift, share) in enumerate(((0.0, 1.0), (0.5, 0.74), (0.9, 0.36))):  # dark, body, light: upper left
         for dx, dy, size in lobes:
             middle_x, middle_y = 10 + dx * spread, 10.6 + dy * spread - t * 1.6
             radius = size * (0.86 + 0.42 * t) - t * t * 3.3
@@ -91,7 +93,7 @@ def debris(kind):
     turns = np.sort(random.random(6)) * 8
     points = []
     for turn in turns:
-        side, along = int(turn) // 2, turn % 2 - 1   # around a square: no sine needed
+        side, along = int(turn) // 2, turn % 2 - 1  # around a square: no sine needed
         reach = 2.2 + 1.9 * random.random()
         corner = ((1, along), (-along, 1), (-1, -along), (along, -1))[side]
         points.append((5 + corner[0] * reach, 5 + corner[1] * reach))
@@ -105,8 +107,9 @@ def glow(size, ramp, brightest=0.70):
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)
     level = np.clip(np.floor(fall * fall * 6 + 0.5 + dither(size, size) * 0.7), 0, 5).astype(int)
-    tones = np.array([mix((0, 0, 0), RAMPS[ramp][3], share * brightest / 0.70)
-                      for share in (0, 0.10, 0.22, 0.36, 0.52, 0.70)])
+    tones = np.array(
+        [mix((0, 0, 0), RAMPS[ramp][3], share * brightest / 0.70) for share in (0, 0.10, 0.22, 0.36, 0.52, 0.70)]
+    )
     out = np.full((size, size, 4), 255, np.uint8)
     out[..., :3] = tones[level]
     return out

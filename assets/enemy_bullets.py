@@ -10,7 +10,7 @@ from assets.fields import capsule, length
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite
 
-FPS = 12   # frames per second of the breathing
+FPS = 12  # frames per second of the breathing
 # name: (outer radius of the dark ring in px, frame size in px, ramp)
 ROUND = {
     "bullet_red": (4.9, 12, "red"),
@@ -62,8 +62,9 @@ def round_bullet(name, safe, frame):
     if shape == "bar":
         field = np.maximum(abs(dx) - 1.05, abs(dy) - core - 0.4)
     elif shape == "cross":
-        field = np.minimum(np.maximum(abs(dx) - 1.05, abs(dy) - core - 0.5),
-                           np.maximum(abs(dy) - 1.05, abs(dx) - core - 0.5))
+        field = np.minimum(
+            np.maximum(abs(dx) - 1.05, abs(dy) - core - 0.5), np.maximum(abs(dy) - 1.05, abs(dx) - core - 0.5)
+        )
     elif shape == "diamond":
         field = abs(dx) + abs(dy) - core - 0.9
     else:
@@ -80,7 +81,7 @@ def needle(safe):
     sprite.flat(capsule(x, y, (3.5, 3.4), (3.5, 10), 1.6, 3.2), RING_DARK)
     sprite.flat(capsule(x, y, (3.5, 4.2), (3.5, 10), 0.7, 2.15), body)
     sprite.flat(capsule(x, y, (3.5, 6), (3.5, 10), 0.6, 1.3), WHITE)
-    if safe:   # its core is split
+    if safe:  # its core is split
         sprite.dot(3, 8, body).dot(3, 9, body)
     return sprite.pixels()
 

@@ -11,8 +11,8 @@ from assets.palette import FIRE
 from assets.shading import Sprite
 
 BALLS = 22
-DIRECTIONS = 64   # the balls start in one of that many directions
-RING_FRAMES = range(1, 5)   # the shock ring is seen in these
+DIRECTIONS = 64  # the balls start in one of that many directions
+RING_FRAMES = range(1, 5)  # the shock ring is seen in these
 
 
 def directions(count):
@@ -20,7 +20,7 @@ def directions(count):
     quarter = []
     for i in range(count // 4):
         t = i / (count // 4)
-        t = t * (0.785 + 0.215 * t * t)   # nearly even angles
+        t = t * (0.785 + 0.215 * t * t)  # nearly even angles
         quarter.append(((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)))
     out = []
     for _ in range(4):
@@ -50,7 +50,7 @@ def explosion(frames, size, seed):
 def _frame(t, index, size, balls, grain, compass):
     sprite = Sprite(size, size)
     x, y, centre = sprite.x, sprite.y, size / 2
-    if index == 0:   # the first instant: a white disc
+    if index == 0:  # the first instant: a white disc
         sprite.flat(length(x - centre, y - centre) - size * 0.25, FIRE[0])
         sprite.flat(abs(length(x - centre, y - centre) - size * 0.25) - 0.6, FIRE[1])
         return sprite.pixels()
@@ -59,10 +59,10 @@ def _frame(t, index, size, balls, grain, compass):
         late = ball["delay"] * 0.6
         age = min(1.0, max(0.0, (t - late) / (1 - late)))
         flown = 0.30 + 0.70 * (1 - (1 - age) * (1 - age) * (1 - age))
-        pulse = 4 * (age * 0.82 + 0.12) * (1 - (age * 0.82 + 0.12))   # a parabola: 0 at birth, 1 half way
+        pulse = 4 * (age * 0.82 + 0.12) * (1 - (age * 0.82 + 0.12))  # a parabola: 0 at birth, 1 half way
         radius = size * 0.165 * ball["size"] * (0.55 + 0.75 * pulse)
         away = min(size * 0.37 * ball["reach"] * flown, centre - 2 - radius)
-        rise = size * 0.06 * age   # hot gas climbs
+        rise = size * 0.06 * age  # hot gas climbs
         distance = length(x - centre - ball["way"][0] * away, y - centre + rise - ball["way"][1] * away)
         heat = np.maximum(heat, 1 - distance / radius)
     heat = heat + grain * (0.35 + 0.5 * t)
@@ -82,7 +82,7 @@ def _ring(sprite, radius, index):
     centre = sprite.solid.shape[0] / 2
     distance = abs(length(sprite.x - centre, sprite.y - centre) - min(radius, centre - 1.5))
     ring = (distance < (0.9, 0.75, 0.6, 0.5)[index - 1]) & ~sprite.solid
-    if index == 4:   # breaks up before it goes
+    if index == 4:  # breaks up before it goes
         ring &= dither(*ring.shape) > 0
     sprite.rgb[ring] = FIRE[(1, 2, 3, 4)[index - 1]]
     sprite.solid |= ring

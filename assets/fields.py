@@ -6,7 +6,7 @@ the way, which round the same on every machine, so a picture regenerates to the 
 
 import numpy as np
 
-BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]) / 16   # ordered dither, 0 .. 15/16
+BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]) / 16  # ordered dither, 0 .. 15/16
 
 
 def grid(width, height):

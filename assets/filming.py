@@ -24,8 +24,8 @@ from game.registry import Registry
 from game.session import Session
 from scenes import SCENES
 
-SIZE = (160, 90)   # [px] of a menu picture
-MOST = 20000   # frames within which every moment of a game comes
+SIZE = (160, 90)  # [px] of a menu picture
+MOST = 20000  # frames within which every moment of a game comes
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Shot:
     left: int = 0
     top: int = 0
     zoom: int = 2
-    layers: tuple = ()   # overlays that are on
+    layers: tuple = ()  # overlays that are on
 
     @property
     def part(self):

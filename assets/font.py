@@ -11,10 +11,10 @@ from assets import FOLDER, png
 from assets.atlas import to_json
 
 FONTS = {
-    "font5x7": {"height": 9, "baseline": 7, "space": 4},   # capitals 5x7, two rows for descenders
-    "font3x5": {"height": 6, "baseline": 5, "space": 3},   # capitals 3x5, one row for descenders
+    "font5x7": {"height": 9, "baseline": 7, "space": 4},  # capitals 5x7, two rows for descenders
+    "font3x5": {"height": 6, "baseline": 5, "space": 3},  # capitals 3x5, one row for descenders
 }
-SHEET_WIDTH = 128   # [px]
+SHEET_WIDTH = 128  # [px]
 
 
 def read_drawing(text, height):

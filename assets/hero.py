@@ -12,20 +12,32 @@ from assets.drawn import lay, read_parts
 from assets.palette import OUTLINE, RAMPS, oklch, ramp
 from assets.shading import flashed
 
-SIZE = 24   # [px] width and height of a frame
+SIZE = 24  # [px] width and height of a frame
 HEAD_X, HEAD_Y = 6, 2
 
 SKIN = ramp(55, 0.10, 0.42, 0.95)
 LETTERS = {
-    "O": OUTLINE, "E": oklch(0.20, 0.03, 285),
-    "H": RAMPS["wood"][2], "h": RAMPS["wood"][3], "D": RAMPS["wood"][1],        # leather helmet
-    "G": RAMPS["gold"][4], "C": RAMPS["glass"][5], "c": RAMPS["glass"][2],      # goggles
-    "S": SKIN[4], "s": SKIN[3],
-    "R": RAMPS["red"][3], "r": RAMPS["red"][2],                                 # scarf
-    "T": RAMPS["teal"][4], "t": RAMPS["teal"][3], "d": RAMPS["teal"][1],        # jacket
-    "L": RAMPS["wood"][1], "Y": RAMPS["gold"][4],                               # belt, buckle
-    "P": RAMPS["blue"][3], "p": RAMPS["blue"][1],                               # trousers: near leg, far leg
-    "B": RAMPS["wood"][4], "b": RAMPS["wood"][2],                               # boots
+    "O": OUTLINE,
+    "E": oklch(0.20, 0.03, 285),
+    "H": RAMPS["wood"][2],
+    "h": RAMPS["wood"][3],
+    "D": RAMPS["wood"][1],  # leather helmet
+    "G": RAMPS["gold"][4],
+    "C": RAMPS["glass"][5],
+    "c": RAMPS["glass"][2],  # goggles
+    "S": SKIN[4],
+    "s": SKIN[3],
+    "R": RAMPS["red"][3],
+    "r": RAMPS["red"][2],  # scarf
+    "T": RAMPS["teal"][4],
+    "t": RAMPS["teal"][3],
+    "d": RAMPS["teal"][1],  # jacket
+    "L": RAMPS["wood"][1],
+    "Y": RAMPS["gold"][4],  # belt, buckle
+    "P": RAMPS["blue"][3],
+    "p": RAMPS["blue"][1],  # trousers: near leg, far leg
+    "B": RAMPS["wood"][4],
+    "b": RAMPS["wood"][2],  # boots
 }
 
 # frame: (body, (head, dx, dy), (scarf, x, y)); the head moves with the body, the scarf lies behind both.
@@ -82,7 +94,7 @@ def compose(frame, parts):
     out = np.zeros((SIZE, SIZE, 4), np.uint8)
     lay(out, parts[scarf], scarf_x, scarf_y)
     height, width = parts[body].shape[:2]
-    lay(out, parts[body], (SIZE - width) // 2, SIZE - height)   # feet on the bottom row, in the middle
+    lay(out, parts[body], (SIZE - width) // 2, SIZE - height)  # feet on the bottom row, in the middle
     lay(out, parts[head], HEAD_X + dx, HEAD_Y + dy)
     return out
 

@@ -8,17 +8,29 @@ import numpy as np
 from assets.fields import dither, noise
 from assets.palette import mix, oklch, oklch_all
 
-WIDTH, HEIGHT = 480, 150   # [px]
-BODY, LIGHT, SHADE, EDGE = oklch_all(
-    (0.300, 0.070, 300), (0.355, 0.080, 312), (0.250, 0.062, 292), (0.50, 0.095, 350))
+WIDTH, HEIGHT = 480, 150  # [px]
+BODY, LIGHT, SHADE, EDGE = oklch_all((0.300, 0.070, 300), (0.355, 0.080, 312), (0.250, 0.062, 292), (0.50, 0.095, 350))
 WINDOW, ROOF, ROOF_LIT = oklch_all((0.80, 0.120, 75), (0.265, 0.080, 330), (0.36, 0.095, 345))
 FOG = oklch(0.44, 0.090, 335)
 # x of the left edge, width, height, kind: "wall", "tower" with battlements, "spire" with a pointed roof; all px
 PARTS = (
-    (0, 480, 30, "wall"), (0, 120, 46, "wall"), (150, 130, 54, "wall"), (330, 150, 42, "wall"),
-    (8, 26, 78, "tower"), (62, 20, 66, "spire"), (92, 34, 92, "tower"), (138, 16, 58, "tower"), (166, 24, 84, "spire"),
-    (204, 44, 104, "tower"), (214, 22, 124, "spire"), (262, 18, 72, "tower"), (296, 22, 62, "spire"),
-    (338, 30, 86, "tower"), (384, 18, 64, "tower"), (408, 26, 96, "spire"), (452, 22, 60, "tower"),
+    (0, 480, 30, "wall"),
+    (0, 120, 46, "wall"),
+    (150, 130, 54, "wall"),
+    (330, 150, 42, "wall"),
+    (8, 26, 78, "tower"),
+    (62, 20, 66, "spire"),
+    (92, 34, 92, "tower"),
+    (138, 16, 58, "tower"),
+    (166, 24, 84, "spire"),
+    (204, 44, 104, "tower"),
+    (214, 22, 124, "spire"),
+    (262, 18, 72, "tower"),
+    (296, 22, 62, "spire"),
+    (338, 30, 86, "tower"),
+    (384, 18, 64, "tower"),
+    (408, 26, 96, "spire"),
+    (452, 22, 60, "tower"),
 )
 
 
@@ -57,7 +69,7 @@ def _part(out, stone, left, width, height, kind):
     if kind == "spire":
         _roof(out, left, width, top)
     if kind != "wall":
-        for row in range(top + 16, HEIGHT - 24, 22):   # lit slits
+        for row in range(top + 16, HEIGHT - 24, 22):  # lit slits
             if (left + row) % 3:
                 for dy in range(5):
                     _put(out, left + width // 2, row + dy, WINDOW)
@@ -71,8 +83,12 @@ def _roof(out, left, width, top):
         half = (width / 2 + 2) * i / (reach + 6)
         middle = left + width / 2
         for x in range(int(np.floor(middle - half)), int(np.ceil(middle + half))):
-            _put(out, x, top - reach - 6 + i, EDGE if x == int(np.floor(middle - half)) else
-                 ROOF_LIT if x < middle - half * 0.15 else ROOF)
+            _put(
+                out,
+                x,
+                top - reach - 6 + i,
+                EDGE if x == int(np.floor(middle - half)) else ROOF_LIT if x < middle - half * 0.15 else ROOF,
+            )
 
 
 def _fog(out):

@@ -11,10 +11,10 @@ from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite
 
 TOYS = ("red", "blue", "gold", "green", "purple", "teal")
-BALLS = ("gold", "blue", "red", "purple", "orange", "green", "wood")      # of 1 to 7, and again of 9 to 15
-TABLE = (384, 208)      # [px] with its wooden frame
+BALLS = ("gold", "blue", "red", "purple", "orange", "green", "wood")  # of 1 to 7, and again of 9 to 15
+TABLE = (384, 208)  # [px] with its wooden frame
 FRAME, CUSHION = 12, 8  # [px] of wood, of cloth-covered cushion
-POCKET = 9.0            # [px] radius of a hole
+POCKET = 9.0  # [px] radius of a hole
 
 
 def crate(size, look):
@@ -30,8 +30,12 @@ def crate(size, look):
         sprite.part(capsule(x, y, (low, high), (high, low), thick), wood, bulge=2, base=0.56)
     if look == 2:
         sprite.part(capsule(x, y, (low, low), (high, high), thick), wood, bulge=2, base=0.62)
-    for left, top, right, bottom in ((1, 1, 1 + edge, size - 1), (size - 1 - edge, 1, size - 1, size - 1),
-                                     (1, 1, size - 1, 1 + edge), (1, size - 1 - edge, size - 1, size - 1)):
+    for left, top, right, bottom in (
+        (1, 1, 1 + edge, size - 1),
+        (size - 1 - edge, 1, size - 1, size - 1),
+        (1, 1, size - 1, 1 + edge),
+        (1, size - 1 - edge, size - 1, size - 1),
+    ):
         sprite.part(box(x, y, left, top, right, bottom), wood, bulge=1.8, base=0.6, grain=0.6)
     return sprite.outline().pixels()
 
@@ -61,8 +65,14 @@ def pill(length, radius, ramp):
     """A capsule lying along x: `length` between the centres of its ends."""
     sprite = Sprite(length + 2 * radius, 2 * radius)
     x, y, end = sprite.x, sprite.y, length + radius
-    sprite.part(capsule(x, y, (radius, radius), (end, radius), radius - 0.7), RAMPS[ramp], bulge=3, base=0.5, gain=0.3,
-                grain=0.3)
+    sprite.part(
+        capsule(x, y, (radius, radius), (end, radius), radius - 0.7),
+        RAMPS[ramp],
+        bulge=3,
+        base=0.5,
+        gain=0.3,
+        grain=0.3,
+    )
     sprite.paint(box(x, y, radius + length / 2, 0, end + radius, 2 * radius), RAMPS["steel"][5], 0.75)
     return sprite.outline().pixels()
 

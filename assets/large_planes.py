@@ -8,7 +8,7 @@ from assets.fields import box, capsule, circle, ellipse, length, polygon
 from assets.palette import RAMPS, WHITE, mix
 from assets.shading import Sprite
 
-JET, BOMBER = (112, 112), (128, 104)   # [px] width, height
+JET, BOMBER = (112, 112), (128, 104)  # [px] width, height
 
 
 def jet():
@@ -17,8 +17,13 @@ def jet():
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
         _jet_side(sprite, side)
-    sprite.part(polygon(x, y, [(56, 3), (52, 14), (49, 30), (47, 50), (47, 92), (65, 92), (65, 50), (63, 30),
-                               (60, 14)]), RAMPS["steel"], bulge=8, base=0.55, grain=0.9)
+    sprite.part(
+        polygon(x, y, [(56, 3), (52, 14), (49, 30), (47, 50), (47, 92), (65, 92), (65, 50), (63, 30), (60, 14)]),
+        RAMPS["steel"],
+        bulge=8,
+        base=0.55,
+        grain=0.9,
+    )
     for line in (24, 46, 60, 78):
         sprite.paint(box(x, y, 46, line, 66, line + 1), RAMPS["steel"][1], 0.45)
     sprite.part(polygon(x, y, [(56, 2), (52.6, 13), (59.4, 13)]), RAMPS["gunmetal"], bulge=3, base=0.6)
@@ -39,8 +44,13 @@ def _jet_side(sprite, side):
     def at(offset, down):
         return 56 + side * offset, down
 
-    sprite.part(polygon(x, y, [at(6, 38), at(14, 46), at(53, 70), at(53.5, 79), at(40, 77), at(12, 78)]),
-                RAMPS["blue"], bulge=6, base=0.50 + lit, grain=1.0)
+    sprite.part(
+        polygon(x, y, [at(6, 38), at(14, 46), at(53, 70), at(53.5, 79), at(40, 77), at(12, 78)]),
+        RAMPS["blue"],
+        bulge=6,
+        base=0.50 + lit,
+        grain=1.0,
+    )
     sprite.paint(polygon(x, y, [at(12, 45), at(16, 47), at(54, 70), at(54, 73)]), RAMPS["blue"][4], 0.55)
     sprite.paint(polygon(x, y, [at(14, 71.5), at(44, 73.6), at(44, 74.6), at(14, 72.7)]), RAMPS["blue"][1], 0.7)
     sprite.paint(_strip(sprite, at(45, 60), at(49, 82)), RAMPS["gold"][4], 0.9)
@@ -49,17 +59,25 @@ def _jet_side(sprite, side):
     sprite.paint(circle(x, y, star_x, star_y, 3.6), RAMPS["red"][3], 1.0)
     sprite.paint(circle(x, y, star_x, star_y, 1.4), RAMPS["steel"][5], 1.0)
     sprite.part(capsule(x, y, at(53, 60), at(53, 80), 1.6), RAMPS["steel"], bulge=1.8, base=0.55)
-    sprite.part(polygon(x, y, [at(8, 86), at(12, 84), at(31, 97), at(31, 104), at(12, 101)]), RAMPS["blue"], bulge=4,
-                base=0.46 + lit, grain=0.8)
-    sprite.part(_strip(sprite, at(6, 40), at(17, 100), 4), RAMPS["steel"], bulge=6, base=0.48 + lit,
-                grain=0.8)
+    sprite.part(
+        polygon(x, y, [at(8, 86), at(12, 84), at(31, 97), at(31, 104), at(12, 101)]),
+        RAMPS["blue"],
+        bulge=4,
+        base=0.46 + lit,
+        grain=0.8,
+    )
+    sprite.part(_strip(sprite, at(6, 40), at(17, 100), 4), RAMPS["steel"], bulge=6, base=0.48 + lit, grain=0.8)
     sprite.paint(_strip(sprite, at(7, 40), at(16, 43)), RAMPS["gunmetal"][0], 0.85)
     sprite.part(_strip(sprite, at(7, 98), at(16, 107), 2), RAMPS["gunmetal"], bulge=4, base=0.45)
     sprite.paint(_strip(sprite, at(8.6, 104), at(14.4, 107)), RAMPS["orange"][4])
     for line in (54, 68, 82):
         sprite.paint(_strip(sprite, at(6, line), at(17, line + 1)), RAMPS["steel"][1], 0.4)
-    sprite.part(polygon(x, y, [at(13.5, 78), at(16.5, 76), at(19.5, 95), at(19, 100), at(16, 98)]), RAMPS["red"],
-                bulge=2, base=0.55 + lit)
+    sprite.part(
+        polygon(x, y, [at(13.5, 78), at(16.5, 76), at(19.5, 95), at(19, 100), at(16, 98)]),
+        RAMPS["red"],
+        bulge=2,
+        base=0.55 + lit,
+    )
 
 
 def _strip(sprite, first, second, corner=0.0):
@@ -84,8 +102,13 @@ def bomber():
     sprite.paint(box(x, y, 60, 20, 68, 21), RAMPS["olive"][1], 0.9)
     sprite.part(circle(x, y, 64, 58, 3.8), RAMPS["gunmetal"], bulge=3.4, base=0.55)
     for side in (-1, 1):
-        sprite.part(capsule(x, y, (64 + side * 1.4, 60), (64 + side * 1.4, 65.5), 0.7), RAMPS["steel"], bulge=1,
-                    base=0.6, grain=0)
+        sprite.part(
+            capsule(x, y, (64 + side * 1.4, 60), (64 + side * 1.4, 65.5), 0.7),
+            RAMPS["steel"],
+            bulge=1,
+            base=0.6,
+            grain=0,
+        )
     sprite.part(capsule(x, y, (64, 84), (64, 100), 1.5, 1.2), RAMPS["red"], bulge=1.6, base=0.6)
     for spot in ((61, 6), (62, 5), (61, 18), (61, 19)):
         sprite.dot(*spot, WHITE)
@@ -101,16 +124,27 @@ def _bomber_side(sprite, side):
     def at(offset, down):
         return 64 + side * offset, down
 
-    sprite.part(polygon(x, y, [at(3, 27), at(30, 29), at(60, 35), at(62, 39), at(58, 43), at(30, 46), at(3, 51)]),
-                RAMPS["olive"], bulge=6, base=0.52 + lit, grain=1.0)
+    sprite.part(
+        polygon(x, y, [at(3, 27), at(30, 29), at(60, 35), at(62, 39), at(58, 43), at(30, 46), at(3, 51)]),
+        RAMPS["olive"],
+        bulge=6,
+        base=0.52 + lit,
+        grain=1.0,
+    )
     sprite.paint(polygon(x, y, [at(14, 44.5), at(56, 40), at(56, 41), at(14, 45.7)]), RAMPS["olive"][1], 0.7)
     sprite.paint(polygon(x, y, [at(52, 30), at(55.5, 30), at(55.5, 46), at(52, 46)]), RAMPS["gold"][4], 0.85)
-    sprite.part(polygon(x, y, [at(1, 82), at(20, 86), at(21, 90), at(18, 93), at(1, 94)]), RAMPS["olive"], bulge=4,
-                base=0.48 + lit, grain=0.8)
+    sprite.part(
+        polygon(x, y, [at(1, 82), at(20, 86), at(21, 90), at(18, 93), at(1, 94)]),
+        RAMPS["olive"],
+        bulge=4,
+        base=0.48 + lit,
+        grain=0.8,
+    )
     for offset, nose in ((17, 22), (36, 25.5)):
         hub_x, hub_y = at(offset, nose)
-        sprite.part(capsule(x, y, (hub_x, nose + 3), (hub_x, nose + 17), 3.8, 2.6), RAMPS["olive"], bulge=4,
-                    base=0.58 + lit)
+        sprite.part(
+            capsule(x, y, (hub_x, nose + 3), (hub_x, nose + 17), 3.8, 2.6), RAMPS["olive"], bulge=4, base=0.58 + lit
+        )
         sprite.part(box(x, y, hub_x - 3.5, nose + 1, hub_x + 3.5, nose + 4, 1), RAMPS["gunmetal"], bulge=2, base=0.5)
         blade = (abs(y - hub_y) < 0.8 + abs(x - hub_x) * 0.03) & (abs(x - hub_x) < 8)
         sprite.rgb[blade] = mix(RAMPS["steel"][3], RAMPS["steel"][4], 0.5)

@@ -7,16 +7,23 @@ from assets.decoration import TILE
 
 # letter: (type, width, height) of objects that stand on the tile's bottom, centred on the tile
 STANDING = {
-    "H": ("hero_start", 10, 20), "s": ("spring", 16, 16), "w": ("walker", 20, 16), "h": ("hedgehog", 20, 14),
-    "K": ("checkpoint", 16, 32), "?": ("sign", 20, 17), "o": ("coin", 14, 14), "$": ("secret", 14, 14), "c": ("crate", 16, 16),
+    "H": ("hero_start", 10, 20),
+    "s": ("spring", 16, 16),
+    "w": ("walker", 20, 16),
+    "h": ("hedgehog", 20, 14),
+    "K": ("checkpoint", 16, 32),
+    "?": ("sign", 20, 17),
+    "o": ("coin", 14, 14),
+    "$": ("secret", 14, 14),
+    "c": ("crate", 16, 16),
 }
-HANGING = {"V": ("bat", 20, 14)}          # its upper edge is the tile's
-RUNS = {">": ("belt", 60.0), "<": ("belt", -60.0), "^": ("spikes", None)}     # a row of the letter is one object
+HANGING = {"V": ("bat", 20, 14)}  # its upper edge is the tile's
+RUNS = {">": ("belt", 60.0), "<": ("belt", -60.0), "^": ("spikes", None)}  # a row of the letter is one object
 FLOATING = ("coin", "secret")
 WALKERS = ("walker", "hedgehog")
 FLOORS = "#BR-<>"
 WALLS = "#BRc^/\\1234"
-SPIKES_INSET = (3, 7)                     # [px] kinder than it looks: the points' outer pixels do not hurt
+SPIKES_INSET = (3, 7)  # [px] kinder than it looks: the points' outer pixels do not hurt
 
 
 def objects(level):
@@ -53,8 +60,10 @@ def objects(level):
 
 def hints(level):
     """The rows of the scripted player's way, in its order."""
-    return [("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
-            for number, (x, y, act) in enumerate(level.hints)]
+    return [
+        ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
+        for number, (x, y, act) in enumerate(level.hints)
+    ]
 
 
 def _standing(level, letter, x, y, signs):

@@ -13,23 +13,37 @@ from assets.decoration import SCENERY, TILE
 from assets.level_things import HANGING, STANDING, hints, objects
 from assets.tiles import DEPTHS, NE, NW, SE, SW, E, N, S, W, reduced, tile_table
 
-SHEET_WIDTH = 256   # [px] as assets/atlas.py packs the sheet "tiles", without gaps
+SHEET_WIDTH = 256  # [px] as assets/atlas.py packs the sheet "tiles", without gaps
 GROUND = "#"
 SOLIDS = {"#": "ground", "B": "stone", "R": "rock"}
-DEEP = 4   # [tiles] below the surface the ground is dark
+DEEP = 4  # [tiles] below the surface the ground is dark
 SLOPE_LETTERS = {
-    "/": "slope_up", "\\": "slope_down", "1": "slope_up_low", "2": "slope_up_high", "3": "slope_down_high",
+    "/": "slope_up",
+    "\\": "slope_down",
+    "1": "slope_up_low",
+    "2": "slope_up_high",
+    "3": "slope_down_high",
     "4": "slope_down_low",
 }
 SCENERY_LETTERS = {"T": "tree_green", "A": "tree_autumn", "Y": "tree_small", "b": "bush"}
 DECOR_LETTERS = {
-    "f": "fence", "m": "mushroom", "k": "rock", "*": "flower_1", "v": "vine", "!": "torch", "i": "stalactite",
-    "j": "stalagmite", "x": "crystal_0", "g": "glowcap", "n": "banner", "L": "ladder",
+    "f": "fence",
+    "m": "mushroom",
+    "k": "rock",
+    "*": "flower_1",
+    "v": "vine",
+    "!": "torch",
+    "i": "stalactite",
+    "j": "stalagmite",
+    "x": "crystal_0",
+    "g": "glowcap",
+    "n": "banner",
+    "L": "ladder",
 }
-WALLS = {",": "back_wall", ":": "back_cave"}    # behind these letters, and behind what stands or hangs among them
+WALLS = {",": "back_wall", ":": "back_cave"}  # behind these letters, and behind what stands or hangs among them
 THINGS = "".join(STANDING) + "".join(HANGING) + "!ijxgnLCP-"
 AROUND = ((N, 0, -1), (NE, 1, -1), (E, 1, 0), (SE, 1, 1), (S, 0, 1), (SW, -1, 1), (W, -1, 0), (NW, -1, -1))
-GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))   # running percent of free grass tiles
+GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  # running percent of free grass tiles
 ACTS = ("meadow", "cave", "keep")
 
 
@@ -42,7 +56,9 @@ class Map:
         self.platforms = [_platform(line, source) for line in sections.get("platforms", [])]
         self.signs = sections.get("signs", [])
         self.zones = [_zone(line, source) for line in sections.get("zones", [])]
-        self.covers = [_numbers(line, 4, source, "a cover is 'x y width height'") for line in sections.get("covers", [])]
+        self.covers = [
+            _numbers(line, 4, source, "a cover is 'x y width height'") for line in sections.get("covers", [])
+        ]
         self.hints = [_hint(line, source) for line in sections.get("hints", [])]
         self.width, self.height = len(self.rows[0]) if self.rows else 0, len(self.rows)
         for number, row in enumerate(self.rows, 1):
@@ -51,8 +67,13 @@ class Map:
         for letter, given, name in (("P", self.platforms, "[platforms]"), ("?", self.signs, "[signs]")):
             if len(self.places(letter)) != len(given):
                 raise ValueError(f"{source}: {len(self.places(letter))} {letter!r} on the map, {len(given)} in {name}")
-        self.rooms = {(x, y) for left, top, width, height in self.covers for x in range(left, left + width)
-                      for y in range(top, top + height) if self.at(x, y) not in SOLIDS}   # open tiles under covers
+        self.rooms = {
+            (x, y)
+            for left, top, width, height in self.covers
+            for x in range(left, left + width)
+            for y in range(top, top + height)
+            if self.at(x, y) not in SOLIDS
+        }  # open tiles under covers
 
     def at(self, x, y):
         """The letter at a tile; outside counts as ground, so that edges of the map are drawn as inside."""
@@ -175,8 +196,12 @@ class Filled:
 def _depth(level, x, y):
     """Tiles from here to the nearest open one, at most DEEP. A covered room is not open: nothing may tell where it is."""
     for reach in range(1, DEEP + 1):
-        ring = [(dx, dy) for dx in range(-reach, reach + 1) for dy in range(-reach, reach + 1)
-                if max(abs(dx), abs(dy)) == reach and abs(dx) + abs(dy) < 2 * reach]   # without its corners: rounder
+        ring = [
+            (dx, dy)
+            for dx in range(-reach, reach + 1)
+            for dy in range(-reach, reach + 1)
+            if max(abs(dx), abs(dy)) == reach and abs(dx) + abs(dy) < 2 * reach
+        ]  # without its corners: rounder
         if any(level.buried(x + dx, y + dy) not in SOLIDS for dx, dy in ring):
             return reach - 1
     return DEEP
@@ -246,9 +271,17 @@ def tileset(table):
     columns = SHEET_WIDTH // TILE
     rows = -(-len(table) // columns)
     return {
-        "firstgid": 1, "name": "tiles", "image": "../images/tiles.png", "imagewidth": SHEET_WIDTH,
-        "imageheight": rows * TILE, "tilewidth": TILE, "tileheight": TILE, "margin": 0, "spacing": 0,
-        "columns": columns, "tilecount": len(table),
+        "firstgid": 1,
+        "name": "tiles",
+        "image": "../images/tiles.png",
+        "imagewidth": SHEET_WIDTH,
+        "imageheight": rows * TILE,
+        "tilewidth": TILE,
+        "tileheight": TILE,
+        "margin": 0,
+        "spacing": 0,
+        "columns": columns,
+        "tilecount": len(table),
         "tiles": [
             {"id": i, "properties": _properties({"name": name} | table[name][1])} for i, name in enumerate(table)
         ],
@@ -261,9 +294,18 @@ def tiled_map(level):
     groups = _object_layers(level)
     layers = _tile_layers(level, table) + groups
     return {
-        "type": "map", "version": "1.10", "tiledversion": "1.10.2", "orientation": "orthogonal",
-        "renderorder": "right-down", "infinite": False, "compressionlevel": -1, "width": level.width,
-        "height": level.height, "tilewidth": TILE, "tileheight": TILE, "nextlayerid": len(layers) + 1,
+        "type": "map",
+        "version": "1.10",
+        "tiledversion": "1.10.2",
+        "orientation": "orthogonal",
+        "renderorder": "right-down",
+        "infinite": False,
+        "compressionlevel": -1,
+        "width": level.width,
+        "height": level.height,
+        "tilewidth": TILE,
+        "tileheight": TILE,
+        "nextlayerid": len(layers) + 1,
         "nextobjectid": 1 + sum(len(group["objects"]) for group in groups),
         "tilesets": [tileset(table)],
         "layers": [{"id": i, **layer} for i, layer in enumerate(layers, 1)],
@@ -276,13 +318,17 @@ def _tile_layers(level, table):
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
     decor, walls = decor_names(level)
     pictures = {
-        "wall": walls, "decor": decor, "solid": {place: tile_name(level, *place) for place in cells},
+        "wall": walls,
+        "decor": decor,
+        "solid": {place: tile_name(level, *place) for place in cells},
         "cover": cover_names(level),
     }
     size = {"width": level.width, "height": level.height, "x": 0, "y": 0, "opacity": 1, "visible": True}
     # A tree may reach past the map or have clear corners that are no tiles: neither is in the data.
-    return [{"name": name, "type": "tilelayer", **size, "data": [numbers.get(names.get(place), 0) for place in cells]}
-            for name, names in pictures.items()]
+    return [
+        {"name": name, "type": "tilelayer", **size, "data": [numbers.get(names.get(place), 0) for place in cells]}
+        for name, names in pictures.items()
+    ]
 
 
 def _object_layers(level):
@@ -290,12 +336,32 @@ def _object_layers(level):
     numbers, groups = itertools.count(1), []
     for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
         things = [
-            {"id": next(numbers), "name": "", "type": kind, "x": x, "y": y, "width": width, "height": height, "rotation": 0,
-             "visible": True, "properties": _properties(properties)}
+            {
+                "id": next(numbers),
+                "name": "",
+                "type": kind,
+                "x": x,
+                "y": y,
+                "width": width,
+                "height": height,
+                "rotation": 0,
+                "visible": True,
+                "properties": _properties(properties),
+            }
             for kind, x, y, width, height, properties in rows
         ]
-        groups.append({"name": name, "type": "objectgroup", "draworder": "index", "opacity": 1, "visible": True,
-                       "x": 0, "y": 0, "objects": things})
+        groups.append(
+            {
+                "name": name,
+                "type": "objectgroup",
+                "draworder": "index",
+                "opacity": 1,
+                "visible": True,
+                "x": 0,
+                "y": 0,
+                "objects": things,
+            }
+        )
     return groups
 
 

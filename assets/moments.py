@@ -4,8 +4,8 @@ A moment is named by what happens in the game and not by a frame's number, so th
 changed. Moments are looked for one after the other, in the order of the picture.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from assets.font import write
 from assets.palette import OUTLINE, RAMPS, oklch
 
 COLUMNS, ROWS = 3, 4
-FRAME = (480, 270)   # [px]
-GAP, CAPTION, HEADING = 6, 13, 20   # [px] around a picture, below it for its words, above a game
+FRAME = (480, 270)  # [px]
+GAP, CAPTION, HEADING = 6, 13, 20  # [px] around a picture, below it for its words, above a game
 PAPER = oklch(0.22, 0.045, 285)
 SEED = 1
 
@@ -30,26 +30,32 @@ class Moment:
 
 def flying(kind, least):
     """At least so many planes of a kind in the picture."""
-    return lambda scene: sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460
-                             for plane in scene.fleet.planes.values()) >= least
+    return lambda scene: (
+        sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
+        >= least
+    )
 
 
 def leader(frame, bullets=0):
     """A leader of that look fights, with at least so many bullets in the air."""
-    return lambda scene: len(scene.incoming) >= bullets and any(
-        plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
+    return lambda scene: (
+        len(scene.incoming) >= bullets
+        and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
+    )
 
 
 def falling(kind):
     """A leader burns."""
-    return lambda scene: any(plane.leads and plane.kind == kind and plane.mode == "fall"
-                             for plane in scene.fleet.planes.values())
+    return lambda scene: any(
+        plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
+    )
 
 
 def over(ground, bullets, planes=0):
     """Above a kind of ground, with so many bullets and planes."""
-    return lambda scene: (scene.director.ground == ground and len(scene.incoming) >= bullets
-                          and len(scene.fleet.planes) >= planes)
+    return lambda scene: (
+        scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
+    )
 
 
 def bombed(frame):
@@ -84,8 +90,11 @@ MOMENTS = {
         Moment("stomp the walker", done("stomps"), 4),
         Moment("ride the lift", done("lift", 60)),
         Moment("climb down into the cave", done("ladder", 60)),
-        Moment("bats wake", lambda scene: any(enemy.kind == "bat" and enemy.seen
-                                              for enemy in scene.things.enemies.values()), 40),
+        Moment(
+            "bats wake",
+            lambda scene: any(enemy.kind == "bat" and enemy.seen for enemy in scene.things.enemies.values()),
+            40,
+        ),
         Moment("stones that crumble", done("crumbled"), 2),
         Moment("belts carry heroes and crates", done("belt", 24)),
         Moment("lifts take crates along", done("lift with a crate", 60)),
@@ -103,7 +112,7 @@ def sheet():
 
 def game_moments(name):
     """One game's moments under its name."""
-    from assets.filming import film_moments, reduced      # it imports this file
+    from assets.filming import film_moments, reduced  # it imports this file
 
     taken = film_moments(name, SEED, MOMENTS[name])
     cell_width, cell_height = FRAME[0] + GAP, FRAME[1] + CAPTION + GAP

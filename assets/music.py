@@ -16,14 +16,14 @@ from assets.synth import to_wav
 
 TUNES = ("title", "shooter", "boss", "platformer", "lab")
 JINGLES = ("victory", "game_over")
-LOUDNESS = -21.0         # [dB of full scale] of what is above HEARD; the effects peak at -3 dB
-HEARD = 100.0            # [Hz] what is below adds little to how loud a tune seems
-RUMBLE = 25.0            # [Hz] what is below is taken out: nobody hears it
-KNEE, CEILING = 0.45, 0.70      # peaks above the knee are rounded off and never reach the ceiling
-TAIL = 0.9               # [s] a jingle rings out
-STRESS = (1.0, 0.86, 0.93, 0.86)       # of the steps of a beat
+LOUDNESS = -21.0  # [dB of full scale] of what is above HEARD; the effects peak at -3 dB
+HEARD = 100.0  # [Hz] what is below adds little to how loud a tune seems
+RUMBLE = 25.0  # [Hz] what is below is taken out: nobody hears it
+KNEE, CEILING = 0.45, 0.70  # peaks above the knee are rounded off and never reach the ceiling
+TAIL = 0.9  # [s] a jingle rings out
+STRESS = (1.0, 0.86, 0.93, 0.86)  # of the steps of a beat
 ECHO_CORNER, LAST_ECHO = 2400.0, 0.05  # [Hz] above which repeats are duller; softer ones are left out
-TAKES = 3                # strokes of each drum that differ a little, in turn
+TAKES = 3  # strokes of each drum that differ a little, in turn
 PRODUCTS = {f"music/{name}": ("assets.music", "music_files", (name,)) for name in (*TUNES, *JINGLES)}
 
 
@@ -58,7 +58,9 @@ def _sing(tune, notes, voice):
         slide = before if "/" in note.marks else None
         key = (instrument, note.pitches, round(seconds, 6), slide, "~" in note.marks)
         if key not in made:
-            made[key] = tone(instrument, note.pitches, seconds, slide, instrument.vibrato * 2 if "~" in note.marks else None)
+            made[key] = tone(
+                instrument, note.pitches, seconds, slide, instrument.vibrato * 2 if "~" in note.marks else None
+            )
         _add(voice, round(starts * FINE), made[key], _gain(note))
         before = note.pitches[0]
 

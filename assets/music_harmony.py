@@ -9,20 +9,38 @@ from typing import NamedTuple
 
 LETTERS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 SIGNS = {"": 0, "#": 1, "b": -1}
-QUALITIES = {          # semitones above the root
-    "": (0, 4, 7), "m": (0, 3, 7), "7": (0, 4, 7, 10), "m7": (0, 3, 7, 10), "maj7": (0, 4, 7, 11), "6": (0, 4, 7, 9),
-    "m6": (0, 3, 7, 9), "9": (0, 4, 7, 10, 14), "m9": (0, 3, 7, 10, 14), "maj9": (0, 4, 7, 11, 14), "add9": (0, 4, 7, 14),
-    "sus4": (0, 5, 7), "sus2": (0, 2, 7), "7sus4": (0, 5, 7, 10), "dim": (0, 3, 6), "dim7": (0, 3, 6, 9),
-    "m7b5": (0, 3, 6, 10), "5": (0, 7),
+QUALITIES = {  # semitones above the root
+    "": (0, 4, 7),
+    "m": (0, 3, 7),
+    "7": (0, 4, 7, 10),
+    "m7": (0, 3, 7, 10),
+    "maj7": (0, 4, 7, 11),
+    "6": (0, 4, 7, 9),
+    "m6": (0, 3, 7, 9),
+    "9": (0, 4, 7, 10, 14),
+    "m9": (0, 3, 7, 10, 14),
+    "maj9": (0, 4, 7, 11, 14),
+    "add9": (0, 4, 7, 14),
+    "sus4": (0, 5, 7),
+    "sus2": (0, 2, 7),
+    "7sus4": (0, 5, 7, 10),
+    "dim": (0, 3, 6),
+    "dim7": (0, 3, 6, 9),
+    "m7b5": (0, 3, 6, 10),
+    "5": (0, 7),
 }
 SCALES = {
-    "major": (0, 2, 4, 5, 7, 9, 11), "minor": (0, 2, 3, 5, 7, 8, 10), "dorian": (0, 2, 3, 5, 7, 9, 10),
-    "lydian": (0, 2, 4, 6, 7, 9, 11), "mixolydian": (0, 2, 4, 5, 7, 9, 10), "phrygian": (0, 1, 3, 5, 7, 8, 10),
+    "major": (0, 2, 4, 5, 7, 9, 11),
+    "minor": (0, 2, 3, 5, 7, 8, 10),
+    "dorian": (0, 2, 3, 5, 7, 9, 10),
+    "lydian": (0, 2, 4, 6, 7, 9, 11),
+    "mixolydian": (0, 2, 4, 5, 7, 9, 10),
+    "phrygian": (0, 1, 3, 5, 7, 8, 10),
 }
 # Degree in the notation -> which of the chord's tones may stand for it, in semitones above the root.
 DEGREES = {1: (0,), 2: (2, 14), 3: (3, 4, 5, 2), 5: (6, 7), 6: (9,), 7: (10, 11, 9), 8: (12,), 9: (14,)}
 STEPS_PER_BEAT = 4
-STEP_WISE = 2          # semitones: at most a whole tone away is a step
+STEP_WISE = 2  # semitones: at most a whole tone away is a step
 
 
 class Chord(NamedTuple):
@@ -56,7 +74,9 @@ def chord(name):
     """The Chord of a symbol such as F#m7 or C/E. Raises ValueError."""
     match = re.fullmatch(r"([A-G])([#b]?)([a-z0-9]*)(?:/([A-G])([#b]?))?", name)
     if not match or match.group(3) not in QUALITIES:
-        raise ValueError(f"no chord {name!r}; a chord is a root and one of {', '.join(QUALITIES)}, then /bass if wanted")
+        raise ValueError(
+            f"no chord {name!r}; a chord is a root and one of {', '.join(QUALITIES)}, then /bass if wanted"
+        )
     letter, sign, quality, bass, bass_sign = match.groups()
     root = (LETTERS[letter] + SIGNS[sign]) % 12
     return Chord(name, root, QUALITIES[quality], (LETTERS[bass] + SIGNS[bass_sign]) % 12 if bass else root)

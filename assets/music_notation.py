@@ -50,21 +50,31 @@ class Instrument:
     """How a voice sounds. Times in s."""
 
     wave: str = "pulse50"
-    volume: float = 0.5        # 0..1
-    floor: int = 60            # `from` in the notation: a note, where degrees and chord tones start
+    volume: float = 0.5  # 0..1
+    floor: int = 60  # `from` in the notation: a note, where degrees and chord tones start
     attack: float = 0.004
-    decay: float = 0.25        # time constant of the fall to `sustain`
-    sustain: float = 0.6       # share of the volume that is held
+    decay: float = 0.25  # time constant of the fall to `sustain`
+    sustain: float = 0.6  # share of the volume that is held
     release: float = 0.03
-    gate: float = 0.9          # share of a note's last step that sounds
-    vibrato: float = 0.0       # cents, after a fifth of a second
-    bright: float = 5000.0     # [Hz] corner of the low-pass
-    echo: float = 0.0          # share of the first repeat; each further one is that share of the one before
-    delay: float = 3.0         # steps between repeats
+    gate: float = 0.9  # share of a note's last step that sounds
+    vibrato: float = 0.0  # cents, after a fifth of a second
+    bright: float = 5000.0  # [Hz] corner of the low-pass
+    echo: float = 0.0  # share of the first repeat; each further one is that share of the one before
+    delay: float = 3.0  # steps between repeats
 
 
-RANGES = {"volume": (0, 1), "attack": (0.001, 2), "decay": (0.01, 9), "sustain": (0, 1), "release": (0.005, 3),
-          "gate": (0.1, 1), "vibrato": (0, 100), "bright": (200, 20000), "echo": (0, 0.7), "delay": (0.25, 16)}
+RANGES = {
+    "volume": (0, 1),
+    "attack": (0.001, 2),
+    "decay": (0.01, 9),
+    "sustain": (0, 1),
+    "release": (0.005, 3),
+    "gate": (0.1, 1),
+    "vibrato": (0, 100),
+    "bright": (200, 20000),
+    "echo": (0, 0.7),
+    "delay": (0.25, 16),
+}
 
 
 @dataclass(frozen=True)
@@ -90,9 +100,9 @@ class Section:
     """One page: what stands in its lines, with the number of each line."""
 
     line: int
-    chords: list = field(default_factory=list)     # a list of Chord per bar
-    bars: dict = field(default_factory=dict)       # voice -> [(text of the bar, line)]
-    changes: dict = field(default_factory=dict)    # voice -> values of set lines
+    chords: list = field(default_factory=list)  # a list of Chord per bar
+    bars: dict = field(default_factory=dict)  # voice -> [(text of the bar, line)]
+    changes: dict = field(default_factory=dict)  # voice -> values of set lines
 
 
 @dataclass
@@ -106,9 +116,9 @@ class Tune:
     key: frozenset = frozenset()
     loop: bool = True
     voices: dict = field(default_factory=dict)
-    notes: dict = field(default_factory=dict)      # voice -> [Note]
-    chords: list = field(default_factory=list)     # of each step
-    keys: list = field(default_factory=list)       # of each step, pitch classes
+    notes: dict = field(default_factory=dict)  # voice -> [Note]
+    chords: list = field(default_factory=list)  # of each step
+    keys: list = field(default_factory=list)  # of each step, pitch classes
     parts: list = field(default_factory=list)
 
     @property
@@ -152,8 +162,12 @@ class _Reader:
             word, _, rest = raw.split(";")[0].strip().partition(" ")
             if word:
                 self._line(word, rest.strip())
-        for given, what in ((self.tune.tempo, "tempo"), (self.tune.key, "key"), (self.tune.voices, "voice"),
-                            (self.order, "order")):
+        for given, what in (
+            (self.tune.tempo, "tempo"),
+            (self.tune.key, "key"),
+            (self.tune.voices, "voice"),
+            (self.order, "order"),
+        ):
             if not given:
                 self.fail(f"the tune has no {what} line")
         self.tune.notes = {name: [] for name in self.tune.voices}
@@ -162,9 +176,18 @@ class _Reader:
         return self.tune
 
     def _line(self, word, rest):
-        readers = {"name": self._name, "tempo": self._tempo, "beats": self._beats, "swing": self._swing, "key": self._key,
-                   "loop": self._loop, "voice": self._voice, "phrase": self._phrase, "section": self._section,
-                   "order": self._order}
+        readers = {
+            "name": self._name,
+            "tempo": self._tempo,
+            "beats": self._beats,
+            "swing": self._swing,
+            "key": self._key,
+            "loop": self._loop,
+            "voice": self._voice,
+            "phrase": self._phrase,
+            "section": self._section,
+            "order": self._order,
+        }
         if self.section is not None:
             readers |= {"chords": self._chords, "set": self._set}
         if word in readers:
@@ -276,7 +299,9 @@ class _Reader:
             inner, times = match.group(1).strip(), int(match.group(2) or 1)
             if inner.startswith("@"):
                 if inner[1:] not in self.phrases:
-                    self.fail(f"no phrase {inner[1:]!r} above this line; there are: {', '.join(self.phrases) or 'none'}")
+                    self.fail(
+                        f"no phrase {inner[1:]!r} above this line; there are: {', '.join(self.phrases) or 'none'}"
+                    )
                 bars += self.phrases[inner[1:]] * times
             else:
                 bars += [(inner, self.line)] * times
@@ -306,7 +331,9 @@ class _Reader:
         tune.keys += [frozenset((each + move) % 12 for each in tune.key)] * (len(section.chords) * bar_steps)
         for voice, bars in section.bars.items():
             if len(bars) != len(section.chords):
-                self.fail(f"section {name} has {len(section.chords)} bars of chords, {voice} has {len(bars)}", bars[-1][1])
+                self.fail(
+                    f"section {name} has {len(section.chords)} bars of chords, {voice} has {len(bars)}", bars[-1][1]
+                )
             if voice not in mutes:
                 instrument = replace(tune.voices[voice], **section.changes.get(voice, {}))
                 tune.notes[voice] += self._notes(voice, bars, instrument, first, move)
@@ -317,7 +344,9 @@ class _Reader:
         for index, (bar, line) in enumerate(bars):
             tokens = bar.split()
             if not tokens or bar_steps % len(tokens):
-                self.fail(f"{voice}: {len(tokens)} tokens do not share a bar of {bar_steps} steps equally: {bar!r}", line)
+                self.fail(
+                    f"{voice}: {len(tokens)} tokens do not share a bar of {bar_steps} steps equally: {bar!r}", line
+                )
             steps = bar_steps // len(tokens)
             for place, token in enumerate(tokens):
                 start = first + index * bar_steps + place * steps

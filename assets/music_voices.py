@@ -10,15 +10,15 @@ import numpy as np
 
 from assets.synth import sine, triangle
 
-RATE = 22_050            # [Hz] of the files
+RATE = 22_050  # [Hz] of the files
 OVERSAMPLING = 4
 FINE = RATE * OVERSAMPLING
 DUTY = {"pulse12": 0.125, "pulse25": 0.25, "pulse50": 0.5}
-VIBRATO_HERTZ, VIBRATO_DELAY, VIBRATO_RISE = 5.6, 0.20, 0.25   # [Hz], [s], [s]
-SLIDE = 0.07             # [s] from one note to the next
-ARPEGGIO = 1 / 30        # [s] each tone of a rapid arpeggio: two frames of an old television
-DUTY_SWAY = 0.035        # a pulse's width sways a little: held notes stay alive
-FALL_REACH, FALL_STEPS = 8, 1024   # the table of a fall: over so many time constants, in so many steps
+VIBRATO_HERTZ, VIBRATO_DELAY, VIBRATO_RISE = 5.6, 0.20, 0.25  # [Hz], [s], [s]
+SLIDE = 0.07  # [s] from one note to the next
+ARPEGGIO = 1 / 30  # [s] each tone of a rapid arpeggio: two frames of an old television
+DUTY_SWAY = 0.035  # a pulse's width sways a little: held notes stay alive
+FALL_REACH, FALL_STEPS = 8, 1024  # the table of a fall: over so many time constants, in so many steps
 FALL = np.array([round(math.exp(-FALL_REACH * i / FALL_STEPS), 9) for i in range(FALL_STEPS + 1)])
 TAPS, CORNER = 63, 9_000  # [samples], [Hz] of the filter before decimation
 
@@ -68,9 +68,9 @@ def _oscillate(wave, phase, time):
         return 1 - 4 * np.abs((phase + 0.25) % 1.0 - 0.5)
     duty = DUTY[wave] * (1 + DUTY_SWAY * 2 * sine(time * 0.9))
     step = np.diff(phase, append=phase[-1] + (phase[-1] - phase[-2]))
-    away = np.abs((phase - duty / 2 + 0.5) % 1.0 - 0.5)        # of the middle of the high part, in turns
-    level = np.clip((duty / 2 - away) / step + 0.5, 0.0, 1.0)   # the share of this sample that is high
-    return (level - duty) * (1.4 - 0.4 * DUTY[wave] / 0.5)      # narrow pulses are lifted: alike in loudness
+    away = np.abs((phase - duty / 2 + 0.5) % 1.0 - 0.5)  # of the middle of the high part, in turns
+    level = np.clip((duty / 2 - away) / step + 0.5, 0.0, 1.0)  # the share of this sample that is high
+    return (level - duty) * (1.4 - 0.4 * DUTY[wave] / 0.5)  # narrow pulses are lifted: alike in loudness
 
 
 def low_pass(samples, corner, rate=FINE, around=False):

@@ -9,9 +9,9 @@ import math
 import numpy as np
 
 STEPS = 6
-DARKEST, LIGHTEST = 0.18, 0.97   # OKLab lightness of the two ends of a full ramp
-SHADOW_HUE, LIGHT_HUE = 275.0, 95.0   # [deg] where shadows and lights lean to
-SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35   # share of the way to those hues at the ends
+DARKEST, LIGHTEST = 0.18, 0.97  # OKLab lightness of the two ends of a full ramp
+SHADOW_HUE, LIGHT_HUE = 275.0, 95.0  # [deg] where shadows and lights lean to
+SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35  # share of the way to those hues at the ends
 
 
 def oklch(lightness, chroma, hue):
@@ -82,10 +82,18 @@ RAMPS = {
 OUTLINE = oklch(0.16, 0.03, 285)
 WHITE = np.array((255, 255, 255), np.uint8)
 FIRE = np.array(
-    [(255, 255, 255), (255, 250, 190), (255, 214, 90), (255, 148, 40), (224, 78, 36), (140, 40, 52), (74, 38, 60),
-     (44, 34, 52)],
+    [
+        (255, 255, 255),
+        (255, 250, 190),
+        (255, 214, 90),
+        (255, 148, 40),
+        (224, 78, 36),
+        (140, 40, 52),
+        (74, 38, 60),
+        (44, 34, 52),
+    ],
     np.uint8,
-)   # an explosion from its first instant to its last cinder
+)  # an explosion from its first instant to its last cinder
 
 
 def mix(first, second, share):

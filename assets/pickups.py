@@ -13,7 +13,9 @@ def powerup(frame):
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)
     sprite.part(box(x, y, 4.5, 1.5, 13.5, 16.5, 3), RAMPS["gold"], bulge=3, base=0.5)
     sprite.part(circle(x, y, 9, 9, 5.2), RAMPS["red"], bulge=6, base=glow, gain=0.3, grain=0)
-    sprite.stamp(("####.", "##.##", "##.##", "####.", "##...", "##..."), 7, 6, {"#": WHITE})   # P for power, in the glass
+    sprite.stamp(
+        ("####.", "##.##", "##.##", "####.", "##...", "##..."), 7, 6, {"#": WHITE}
+    )  # P for power, in the glass
     sprite.rim(share=0.55).outline()
     return sprite.pixels()
 
@@ -40,7 +42,9 @@ def life_item(frame):
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)
     sprite.part(box(x, y, 4.5, 1.5, 13.5, 16.5, 3), RAMPS["gold"], bulge=3, base=0.5)
-    sprite.part(circle(x, y, 9, 9, 5.4), RAMPS["green"], bulge=6, base=(0.26, 0.36, 0.46, 0.36)[frame], gain=0.3, grain=0)
+    sprite.part(
+        circle(x, y, 9, 9, 5.4), RAMPS["green"], bulge=6, base=(0.26, 0.36, 0.46, 0.36)[frame], gain=0.3, grain=0
+    )
     sprite.stamp(("...#...", "...#...", ".#.#.#.", "#######", "...#...", "..###.."), 5, 6, {"#": WHITE})
     sprite.rim(share=0.55).outline()
     return sprite.pixels()

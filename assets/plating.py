@@ -10,7 +10,7 @@ import numpy as np
 from assets.fields import box, capsule, circle, length, noise, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
 
-STRIPE = 3   # [px] width of a warning stripe
+STRIPE = 3  # [px] width of a warning stripe
 GLOWS = {
     # name: colours from the rim of a glowing lens to its middle
     "red": (RAMPS["red"][1], RAMPS["red"][2], RAMPS["red"][3], RAMPS["orange"][4], RAMPS["gold"][5]),
@@ -77,8 +77,11 @@ def lens(sprite, x, y, radius, glow, strength):
     tones = GLOWS[glow]
     for i, tone in enumerate(tones):
         share = (0.88, 0.72, 0.52, 0.34, 0.18)[i] * (1.0 if i == 0 else 0.62 + 0.5 * strength)
-        sprite.flat(length(sprite.x - x + i * 0.12 * radius * 0.3, sprite.y - y + i * 0.12 * radius * 0.4)
-                    - radius * min(share, 0.88), tone)
+        sprite.flat(
+            length(sprite.x - x + i * 0.12 * radius * 0.3, sprite.y - y + i * 0.12 * radius * 0.4)
+            - radius * min(share, 0.88),
+            tone,
+        )
     sprite.flat(length(sprite.x - x + radius * 0.3, sprite.y - y + radius * 0.38) - max(0.6, radius * 0.14), WHITE)
 
 

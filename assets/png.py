@@ -20,14 +20,11 @@ def encode(pixels):
     if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] not in (3, 4):
         raise ValueError(f"pixels must be uint8 of shape (h, w, 3) or (h, w, 4) (got {pixels.dtype} {pixels.shape})")
     height, width, channels = pixels.shape
-    rows = np.zeros((height, 1 + width * channels), np.uint8)   # the leading 0 of a row: filter "none"
+    rows = np.zeros((height, 1 + width * channels), np.uint8)  # the leading 0 of a row: filter "none"
     rows[:, 1:] = pixels.reshape(height, width * channels)
     header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     return (
-        SIGNATURE
-        + _chunk(b"IHDR", header)
-        + _chunk(b"IDAT", zlib.compress(rows.tobytes(), 9))
-        + _chunk(b"IEND", b"")
+        SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + _chunk(b"IEND", b"")
     )
 
 

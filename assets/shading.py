@@ -9,7 +9,7 @@ import numpy as np
 from assets.fields import dither, grid
 from assets.palette import OUTLINE, WHITE, graded, mix
 
-LIGHT = (-0.55, -0.80)   # direction towards the light: up and a little left
+LIGHT = (-0.55, -0.80)  # direction towards the light: up and a little left
 RIM = np.array((255, 250, 236), np.uint8)
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 

@@ -10,10 +10,16 @@ from assets.fields import circle, dither, grid, layered_noise, length
 from assets.palette import mix, oklch, oklch_all
 from assets.shading import cut_out
 
-WIDTH = 480   # [px] one screen; scenes repeat the layers
+WIDTH = 480  # [px] one screen; scenes repeat the layers
 SKY_HEIGHT = 270
-SKY = ((0.22, 0.075, 282), (0.30, 0.095, 290), (0.42, 0.115, 310), (0.56, 0.125, 350), (0.70, 0.125, 35),
-       (0.82, 0.110, 65))
+SKY = (
+    (0.22, 0.075, 282),
+    (0.30, 0.095, 290),
+    (0.42, 0.115, 310),
+    (0.56, 0.125, 350),
+    (0.70, 0.125, 35),
+    (0.82, 0.110, 65),
+)
 # Rows of firs, far to near: px below the crest, height of its tallest [px], (body, mist or light, lit edge)
 FIR_ROWS = (
     (0, 30, ((0.285, 0.062, 292), (0.330, 0.072, 300), (0.400, 0.082, 318))),
@@ -21,8 +27,8 @@ FIR_ROWS = (
     (26, 24, ((0.205, 0.044, 286), (0.235, 0.050, 288), (0.280, 0.056, 292))),
     (38, 22, ((0.225, 0.045, 285), (0.225, 0.045, 285), (0.248, 0.048, 286))),
 )
-BANDS = 26   # colour bands of the sky, dithered into each other
-SUN = (338, 196, 21)   # [px] x, y, radius
+BANDS = 26  # colour bands of the sky, dithered into each other
+SUN = (338, 196, 21)  # [px] x, y, radius
 
 
 def sky():
@@ -51,7 +57,7 @@ def _stars(picture):
         u, v, bright = random.random(3)
         column, row = int(u * WIDTH), int(v * v * 120)
         picture[row, column] = mix(picture[row, column], (225, 220, 255), 0.25 + 0.6 * bright * (1 - row / 130))
-        if bright > 0.93 and 0 < column < WIDTH - 1 and row > 0:   # a few twinkle: a small cross
+        if bright > 0.93 and 0 < column < WIDTH - 1 and row > 0:  # a few twinkle: a small cross
             for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
                 spot = picture[row + dy, column + dx]
                 picture[row + dy, column + dx] = mix(spot, (225, 220, 255), 0.28)
@@ -107,7 +113,7 @@ def pines(height, seed):
         body, light, edge = oklch_all(*tones)
         # Every row's ground rolls on its own, so that the rows do not look like one moved down.
         ground = height - (26 + 30 * np.roll(line, row * 61)) * (1 - 0.16 * row) + drop
-        fog = (y - ground[None, :]) / 16 + dither(height, WIDTH) * 0.8   # mist between the rows, thinner down the hill
+        fog = (y - ground[None, :]) / 16 + dither(height, WIDTH) * 0.8  # mist between the rows, thinner down the hill
         hill = y >= ground[None, :]
         out[hill] = (*body, 255)
         if row < len(FIR_ROWS) - 1:
@@ -115,10 +121,15 @@ def pines(height, seed):
         column = 0
         while column < WIDTH:
             gap, size, lean = random.random(3)
-            _pine(out, column, int(ground[column % WIDTH]) + 3, int(tall * (0.55 + 0.75 * size * size)),
-                  (body, light, edge))
+            _pine(
+                out,
+                column,
+                int(ground[column % WIDTH]) + 3,
+                int(tall * (0.55 + 0.75 * size * size)),
+                (body, light, edge),
+            )
             column += 4 + int(gap * gap * (20 - 3 * row)) + int(lean * 3)
-    out[y + dither(height, WIDTH) * 8 > height - 9] = (*body, 255)   # the foot is one dark, for a scene to go on with
+    out[y + dither(height, WIDTH) * 8 > height - 9] = (*body, 255)  # the foot is one dark, for a scene to go on with
     return out
 
 
@@ -142,8 +153,20 @@ def backdrop_layers():
     mid = oklch_all((0.335, 0.080, 300), (0.375, 0.085, 306), (0.445, 0.095, 325), (0.53, 0.100, 345))
     snow = oklch_all((0.66, 0.060, 340), (0.83, 0.055, 40))
     tones = oklch_all((0.47, 0.090, 325), (0.58, 0.100, 350), (0.70, 0.100, 20), (0.80, 0.085, 50))
-    puffs = ((40, 6, 15), (62, 12, 20), (86, 8, 17), (108, 3, 11), (22, 2, 9), (250, 4, 12), (268, 9, 16), (288, 4, 11),
-             (390, 5, 13), (412, 12, 19), (436, 9, 17), (458, 3, 10))
+    puffs = (
+        (40, 6, 15),
+        (62, 12, 20),
+        (86, 8, 17),
+        (108, 3, 11),
+        (22, 2, 9),
+        (250, 4, 12),
+        (268, 9, 16),
+        (288, 4, 11),
+        (390, 5, 13),
+        (412, 12, 19),
+        (436, 9, 17),
+        (458, 3, 10),
+    )
     return {
         "sky_dusk": sky(),
         "mountains_far": mountains(150, 34, 128, 5, 21, far, snow, oklch(0.70, 0.10, 25)),

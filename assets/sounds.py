@@ -125,7 +125,9 @@ def bomb():
     wind = low_pass(voice("noise", 30, 10, envelope(0.10, 0.20, 1.05), vibrato=(0.15, 5), seed=53), 1_200, 300)
     boom = voice("sine", 105, 27, envelope(0.002, 0.30, 0.85, 0.3))
     sink = voice("triangle", 520, 45, envelope(0.01, 0.30, 0.70), vibrato=(0.03, 11))
-    return soft_clip(mixed((0, 0.35, swell), (0.12, 1.5, roar), (0.12, 0.5, wind), (0.12, 1.3, boom), (0.10, 0.5, sink)), 1.5)
+    return soft_clip(
+        mixed((0, 0.35, swell), (0.12, 1.5, roar), (0.12, 0.5, wind), (0.12, 1.3, boom), (0.10, 0.5, sink)), 1.5
+    )
 
 
 def graze():
@@ -146,8 +148,10 @@ def warning():
 def crumble():
     """A stone block breaks: grains, then pieces, then dust."""
     crack = low_pass(voice("noise", 85, 30, envelope(0, 0.012, 0.06, 0.5), seed=71), 4_200, 1_200)
-    pieces = [low_pass(voice("noise", 36 - 4 * i, 12, envelope(0, 0.012, 0.075, 0.4), seed=72 + i), 2_200, 500)
-              for i in range(4)]
+    pieces = [
+        low_pass(voice("noise", 36 - 4 * i, 12, envelope(0, 0.012, 0.075, 0.4), seed=72 + i), 2_200, 500)
+        for i in range(4)
+    ]
     falls = [(0.07 + 0.075 * i, 0.75 - 0.12 * i, piece) for i, piece in enumerate(pieces)]
     thud = voice("sine", 120, 55, envelope(0.001, 0.02, 0.12))
     return soft_clip(mixed((0, 1.0, crack), (0, 0.6, thud), *falls), 2.0)
@@ -209,9 +213,33 @@ def life():
 SOUNDS = {
     function.__name__: function
     for function in (
-        laser, enemy_shot, hit, explosion, coin, powerup, jump, hurt,
-        big_explosion, spring, land, stomp, blip, confirm, goal, heavy_laser, bomb, graze, warning, crumble,
-        checkpoint, secret, crate, ladder, back, chain_break, life,
+        laser,
+        enemy_shot,
+        hit,
+        explosion,
+        coin,
+        powerup,
+        jump,
+        hurt,
+        big_explosion,
+        spring,
+        land,
+        stomp,
+        blip,
+        confirm,
+        goal,
+        heavy_laser,
+        bomb,
+        graze,
+        warning,
+        crumble,
+        checkpoint,
+        secret,
+        crate,
+        ladder,
+        back,
+        chain_break,
+        life,
     )
 }
 

@@ -8,9 +8,9 @@ from assets.fields import box, capsule, circle, polygon
 from assets.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.shading import Sprite
 
-CRUMBLE = (32, 16)   # [px]
-PHASES = 4           # of the belt: it has moved on by a quarter of its tread in each
-GEM_WIDTHS = (5.4, 4.4, 2.8, 4.4)   # [px] half widths over a turn
+CRUMBLE = (32, 16)  # [px]
+PHASES = 4  # of the belt: it has moved on by a quarter of its tread in each
+GEM_WIDTHS = (5.4, 4.4, 2.8, 4.4)  # [px] half widths over a turn
 CRACKS = (
     # what each look adds to the cracks of the one before: lines of points, px
     (((9, 1), (11, 5), (10, 7)),),
@@ -31,15 +31,16 @@ def crumble(look):
     for seam in (10.5, 21.5):
         sprite.paint(box(x, y, seam - 0.5, 1, seam + 0.5, 15), stone[1], 0.8)
         sprite.paint(box(x, y, seam + 0.5, 2, seam + 1.5, 14), stone[4], 0.5)
-    sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)   # worn yellow edge: not to be trusted
+    sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)  # worn yellow edge: not to be trusted
     sprite.paint(box(x, y, 2, 13, 30, 15), stone[1], 0.5)
     for gap in GAPS[look]:
         sprite.cut(box(x, y, *gap, 1.2))
     for lines in CRACKS[: look + 1]:
         for points in lines:
             for start, end in pairwise(points):
-                sprite.paint(capsule(x, y, (start[0] + 0.8, start[1] + 0.8), (end[0] + 0.8, end[1] + 0.8), 0.6), stone[5],
-                             0.4)
+                sprite.paint(
+                    capsule(x, y, (start[0] + 0.8, start[1] + 0.8), (end[0] + 0.8, end[1] + 0.8), 0.6), stone[5], 0.4
+                )
                 sprite.paint(capsule(x, y, start, end, 0.62 + 0.1 * look), OUTLINE)
     return sprite.outline().pixels()
 
@@ -47,8 +48,11 @@ def crumble(look):
 def crumble_bit(kind):
     """A fallen bit of it, kind 0..2: 8 x 8 px."""
     sprite = Sprite(8, 8)
-    points = (((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)), ((2, 1.6), (6, 2.4), (6.4, 5), (3, 6.6)),
-              ((2.4, 2.6), (5.4, 2), (6, 5.4), (2.6, 5.6)))[kind]
+    points = (
+        ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
+        ((2, 1.6), (6, 2.4), (6.4, 5), (3, 6.6)),
+        ((2.4, 2.6), (5.4, 2), (6, 5.4), (2.6, 5.6)),
+    )[kind]
     sprite.part(polygon(sprite.x, sprite.y, points), RAMPS["stone"], bulge=2, base=0.52, grain=0.3)
     return sprite.outline().pixels()
 
@@ -61,7 +65,7 @@ def belt(part, phase):
     band = box(x, y, left, 1, right, 13, 6)
     sprite.flat(band, RAMPS["gunmetal"][2])
     sprite.flat(band + 2.4, OUTLINE)
-    sprite.flat(band + 3.2, RAMPS["armour"][1])   # the girder between the upper and the lower run
+    sprite.flat(band + 3.2, RAMPS["armour"][1])  # the girder between the upper and the lower run
     sprite.paint(box(x, y, -1, 4.2, 17, 5.4), RAMPS["armour"][3], 0.8)
     shift = phase * 2
     top, bottom = (y < 3.4) & (band < 0), (y > 10.6) & (band < 0)
@@ -86,8 +90,12 @@ def _wheel(sprite, middle, radius, phase):
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
     reach = radius - 1
-    sprite.paint(capsule(x, y, (middle - turn[0] * reach, 7 - turn[1] * reach),
-                         (middle + turn[0] * reach, 7 + turn[1] * reach), 0.5), RAMPS["gunmetal"][0])
+    sprite.paint(
+        capsule(
+            x, y, (middle - turn[0] * reach, 7 - turn[1] * reach), (middle + turn[0] * reach, 7 + turn[1] * reach), 0.5
+        ),
+        RAMPS["gunmetal"][0],
+    )
     sprite.paint(circle(x, y, middle, 7, 0.8), RAMPS["gold"][4])
 
 
@@ -103,8 +111,14 @@ def gem(frame):
     x, y, half = sprite.x, sprite.y, GEM_WIDTHS[frame]
     ramp = RAMPS["teal"]
     crown, girdle, point = 2.0, 5.6, 12.6
-    sprite.flat(polygon(x, y, [(7 - half * 0.62, crown), (7 + half * 0.62, crown), (7 + half, girdle), (7, point),
-                               (7 - half, girdle)]), ramp[3])
+    sprite.flat(
+        polygon(
+            x,
+            y,
+            [(7 - half * 0.62, crown), (7 + half * 0.62, crown), (7 + half, girdle), (7, point), (7 - half, girdle)],
+        ),
+        ramp[3],
+    )
     sprite.paint(polygon(x, y, [(7 - half, girdle), (7 - half * 0.62, crown), (7 - half * 0.25, girdle)]), ramp[5])
     sprite.paint(polygon(x, y, [(7 - half, girdle), (7 - half * 0.25, girdle), (7, point)]), ramp[4])
     sprite.paint(polygon(x, y, [(7 + half * 0.3, girdle), (7 + half, girdle), (7, point)]), ramp[1])

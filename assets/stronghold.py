@@ -10,10 +10,10 @@ from assets.palette import mix, oklch, oklch_all
 from assets.terrain import HEIGHT, WIDTH, border, glints, height_map, hill_light, pick
 
 NIGHT = oklch_all(
-    (0.165, 0.036, 285), (0.188, 0.040, 280), (0.212, 0.044, 275), (0.245, 0.046, 268), (0.29, 0.046, 258))
+    (0.165, 0.036, 285), (0.188, 0.040, 280), (0.212, 0.044, 275), (0.245, 0.046, 268), (0.29, 0.046, 258)
+)
 FOAM = oklch(0.44, 0.030, 255)
-CLIFF = oklch_all(
-    (0.175, 0.020, 292), (0.225, 0.022, 290), (0.28, 0.024, 285), (0.34, 0.026, 278), (0.41, 0.026, 268))
+CLIFF = oklch_all((0.175, 0.020, 292), (0.225, 0.022, 290), (0.28, 0.024, 285), (0.34, 0.026, 278), (0.41, 0.026, 268))
 PAVING = oklch_all((0.265, 0.026, 288), (0.305, 0.026, 284), (0.33, 0.026, 280))
 WALL_TOP = oklch(0.43, 0.018, 272)
 WALL_LIT = oklch(0.52, 0.018, 265)
@@ -23,10 +23,10 @@ SHADOW = oklch(0.14, 0.025, 290)
 LAMP = oklch(0.58, 0.080, 75)
 GLOW = oklch(0.46, 0.075, 60)
 PAINT = oklch(0.50, 0.060, 85)
-SHORE = 0.545   # height at which the rocks rise from the water
-YARD = 0.035    # paving begins so much above the shore
-GRID = 24       # [px] the yard's corners lie on this grid, its slabs on a half of it
-PADS, TANKS, BLOCKS = 9, 26, 90   # how many of each are tried; what finds no free paving is left out
+SHORE = 0.545  # height at which the rocks rise from the water
+YARD = 0.035  # paving begins so much above the shore
+GRID = 24  # [px] the yard's corners lie on this grid, its slabs on a half of it
+PADS, TANKS, BLOCKS = 9, 26, 90  # how many of each are tried; what finds no free paving is left out
 
 
 def stronghold():
@@ -41,7 +41,7 @@ def stronghold():
     surf = (height > SHORE - 0.034) & (height < SHORE - 0.026) & (noise(WIDTH, HEIGHT, 60, 68, 19) > 0.46)
     picture[surf] = mix(FOAM, NIGHT[3], 0.45)
     paved = _paving(picture, height)
-    for half in range(2):   # twice, turned by half a picture between, so that buildings stand across the seams too
+    for half in range(2):  # twice, turned by half a picture between, so that buildings stand across the seams too
         _build(picture, paved, np.random.default_rng(640 + half))
         picture = np.roll(picture, (HEIGHT // 2, WIDTH // 2), (0, 1))
         paved = np.roll(paved, (HEIGHT // 2, WIDTH // 2), (0, 1))
@@ -131,10 +131,10 @@ def _block(picture, paved, left, top, width, depth, high, roof):
     picture[top : top + depth, left] = WALL_LIT
     picture[top + depth - 1, left : left + width] = mix(ROOF[roof], WALL_LIT, 0.4)
     picture[top : top + depth, left + width - 1] = mix(ROOF[roof], SHADOW, 0.5)
-    for column in range(left + 3, left + width - 3, 5):   # windows, most of them dark
+    for column in range(left + 3, left + width - 3, 5):  # windows, most of them dark
         lit = (column // 5 * 7 + top * 3) % 11 < 5
         picture[top + depth + 2 : top + depth + 4, column : column + 2] = GLOW if lit else SHADOW
-    for row in range(top + 4, top + depth - 6, 8):   # what stands on roofs: hatches with their shadows
+    for row in range(top + 4, top + depth - 6, 8):  # what stands on roofs: hatches with their shadows
         for column in range(left + 4, left + width - 6, 10):
             picture[row + 1 : row + 5, column + 1 : column + 6] = mix(ROOF[roof], SHADOW, 0.55)
             picture[row : row + 4, column : column + 5] = mix(ROOF[roof], WALL_TOP, 0.7)
@@ -147,9 +147,14 @@ def _tank(picture, paved, x, y, radius):
     if not _free(paved, x - radius - 1, y - radius - 1, 2 * radius + 5, 2 * radius + 7):
         return
     rows, columns = np.mgrid[y - radius - 1 : y + radius + 8, x - radius - 1 : x + radius + 6]
-    for dx, dy, size, tone in ((3, 5, radius, None), (0, 3, radius, WALL_SIDE), (0, 0, radius, WALL_TOP),
-                               (0.6, 0.6, radius - 1.2, ROOF[0]), (0.2, 0.2, radius * 0.45, WALL_TOP),
-                               (0.6, 0.8, radius * 0.38, ROOF[2])):
+    for dx, dy, size, tone in (
+        (3, 5, radius, None),
+        (0, 3, radius, WALL_SIDE),
+        (0, 0, radius, WALL_TOP),
+        (0.6, 0.6, radius - 1.2, ROOF[0]),
+        (0.2, 0.2, radius * 0.45, WALL_TOP),
+        (0.6, 0.8, radius * 0.38, ROOF[2]),
+    ):
         disc = length(columns - x - dx, rows - y - dy) < size
         spot = (rows[disc], columns[disc])
         picture[spot] = mix(picture[spot], SHADOW, 0.6) if tone is None else tone

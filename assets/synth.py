@@ -10,12 +10,12 @@ import wave
 
 import numpy as np
 
-RATE = 44_100   # [Hz]
+RATE = 44_100  # [Hz]
 OVERSAMPLING = 4
-PEAK = 10 ** (-3 / 20)   # -3 dB of full scale: room for several voices at once
-FADE = 0.002   # [s] at both ends: no click
-KNOTS = 256      # parts of a glide, straight within each
-SINE_STEPS = 4096   # of the table, which holds its first entry again at the end
+PEAK = 10 ** (-3 / 20)  # -3 dB of full scale: room for several voices at once
+FADE = 0.002  # [s] at both ends: no click
+KNOTS = 256  # parts of a glide, straight within each
+SINE_STEPS = 4096  # of the table, which holds its first entry again at the end
 SINE = np.array([round(math.sin(2 * math.pi * i / SINE_STEPS), 9) for i in range(SINE_STEPS + 1)])
 
 
@@ -77,7 +77,7 @@ def _oscillate(kind, phase, duty, seed):
         return triangle(phase)
     if kind == "sine":
         return sine(phase)
-    if kind == "noise":   # 32 random levels a period, held: the pitch of the noise is the rate of new levels
+    if kind == "noise":  # 32 random levels a period, held: the pitch of the noise is the rate of new levels
         level = np.floor(phase * 32).astype(np.int64)
         return np.random.default_rng(seed).random(int(level[-1]) + 2)[level] * 2 - 1
     raise ValueError(f"no oscillator {kind!r}; choose one of pulse, saw, triangle, sine, noise")
@@ -129,7 +129,7 @@ def finish(samples):
     samples[-len(fade) :] *= fade[::-1]
     inner = np.ones(len(samples))
     inner[0] = inner[-1] = 0.0
-    samples = (samples - samples.mean() * len(samples) / inner.sum()) * inner   # the fades must not bring DC back
+    samples = (samples - samples.mean() * len(samples) / inner.sum()) * inner  # the fades must not bring DC back
     return np.round(samples / np.abs(samples).max() * PEAK * 32767).astype(np.int16)
 
 

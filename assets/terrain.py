@@ -9,21 +9,25 @@ from assets.fields import dither, layered_noise, length, noise
 from assets.palette import graded, oklch, oklch_all
 from assets.shading import shifted
 
-WIDTH, HEIGHT = 480, 540   # [px]
+WIDTH, HEIGHT = 480, 540  # [px]
 SEA = oklch_all(
-    (0.245, 0.046, 262), (0.268, 0.050, 258), (0.292, 0.054, 252), (0.325, 0.057, 243), (0.37, 0.058, 230),
-    (0.43, 0.056, 212))   # deep to shallow
+    (0.245, 0.046, 262),
+    (0.268, 0.050, 258),
+    (0.292, 0.054, 252),
+    (0.325, 0.057, 243),
+    (0.37, 0.058, 230),
+    (0.43, 0.056, 212),
+)  # deep to shallow
 FOAM, WET_SAND = oklch(0.56, 0.030, 215), oklch(0.45, 0.040, 80)
 SAND = oklch_all((0.49, 0.045, 75), (0.54, 0.050, 82), (0.58, 0.052, 86))
 MEADOW = oklch_all(
-    (0.305, 0.045, 160), (0.350, 0.055, 148), (0.395, 0.062, 138), (0.440, 0.066, 128), (0.485, 0.066, 118))
-ROCK = oklch_all(
-    (0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))
-TREES = oklch_all(
-    (0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))
+    (0.305, 0.045, 160), (0.350, 0.055, 148), (0.395, 0.062, 138), (0.440, 0.066, 128), (0.485, 0.066, 118)
+)
+ROCK = oklch_all((0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))
+TREES = oklch_all((0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))
 
-SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765   # heights where one ground gives way to the next
-GLINT_CUT = 0.80   # share of the water without glints
+SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765  # heights where one ground gives way to the next
+GLINT_CUT = 0.80  # share of the water without glints
 
 
 def height_map(seed=2024, ridge_seed=77):

@@ -13,18 +13,37 @@ from assets.shading import Sprite, flashed
 from assets.stonework import add_stonework
 
 LETTERS = {
-    "O": OUTLINE, "E": OUTLINE, "W": WHITE,
-    "V": RAMPS["purple"][4], "v": RAMPS["purple"][3], "x": RAMPS["purple"][1], "X": RAMPS["pink"][4],   # shell
-    "L": RAMPS["gold"][4], "l": RAMPS["gold"][2], "M": RAMPS["wood"][2],                               # face, feet
-    "R": RAMPS["red"][4], "r": RAMPS["red"][3], "k": RAMPS["red"][1],
-    "G": RAMPS["gold"][4], "g": RAMPS["gold"][2],
-    "A": RAMPS["steel"][4], "a": RAMPS["steel"][3], "m": RAMPS["steel"][1],
-    "D": RAMPS["wood"][1], "K": RAMPS["wood"][3], "n": RAMPS["wood"][2],
-    "B": RAMPS["blue"][4], "b": RAMPS["blue"][3], "z": RAMPS["blue"][2],                               # bat
+    "O": OUTLINE,
+    "E": OUTLINE,
+    "W": WHITE,
+    "V": RAMPS["purple"][4],
+    "v": RAMPS["purple"][3],
+    "x": RAMPS["purple"][1],
+    "X": RAMPS["pink"][4],  # shell
+    "L": RAMPS["gold"][4],
+    "l": RAMPS["gold"][2],
+    "M": RAMPS["wood"][2],  # face, feet
+    "R": RAMPS["red"][4],
+    "r": RAMPS["red"][3],
+    "k": RAMPS["red"][1],
+    "G": RAMPS["gold"][4],
+    "g": RAMPS["gold"][2],
+    "A": RAMPS["steel"][4],
+    "a": RAMPS["steel"][3],
+    "m": RAMPS["steel"][1],
+    "D": RAMPS["wood"][1],
+    "K": RAMPS["wood"][3],
+    "n": RAMPS["wood"][2],
+    "B": RAMPS["blue"][4],
+    "b": RAMPS["blue"][3],
+    "z": RAMPS["blue"][2],  # bat
 }
-COIN_WIDTHS = (5.0, 4.2, 2.6, 1.2, 2.6, 4.2)   # [px] half widths over a turn
-FLAG_WAVE = (   # [px] how far the cloth hangs, along it, per frame
-    (0, 0, 0, 1, 1, 1, 0, 0), (0, 0, 1, 1, 1, 0, 0, -1), (0, 1, 1, 1, 0, 0, -1, -1), (0, 1, 1, 0, 0, -1, -1, 0),
+COIN_WIDTHS = (5.0, 4.2, 2.6, 1.2, 2.6, 4.2)  # [px] half widths over a turn
+FLAG_WAVE = (  # [px] how far the cloth hangs, along it, per frame
+    (0, 0, 0, 1, 1, 1, 0, 0),
+    (0, 0, 1, 1, 1, 0, 0, -1),
+    (0, 1, 1, 1, 0, 0, -1, -1),
+    (0, 1, 1, 0, 0, -1, -1, 0),
 )
 
 
@@ -34,8 +53,8 @@ def coin(frame):
     x, y, half = sprite.x, sprite.y, COIN_WIDTHS[frame]
     gold = RAMPS["gold"]
     sprite.flat(ellipse(x, y, 7, 7, half + 0.3, 5.3), gold[4])
-    sprite.paint(ellipse(x, y, 7.9, 8.0, half + 0.3, 5.3) * -1, gold[5])   # the lit rim: what a shifted disc leaves
-    sprite.paint(ellipse(x, y, 6.1, 6.0, half + 0.3, 5.3) * -1, gold[2])   # and the rim in shadow
+    sprite.paint(ellipse(x, y, 7.9, 8.0, half + 0.3, 5.3) * -1, gold[5])  # the lit rim: what a shifted disc leaves
+    sprite.paint(ellipse(x, y, 6.1, 6.0, half + 0.3, 5.3) * -1, gold[2])  # and the rim in shadow
     if half > 2:
         sprite.paint(ellipse(x, y, 7, 7, half - 1.5, 3.6), gold[3])
         sprite.paint(ellipse(x, y, 7.6, 7.6, half - 1.8, 3.2), gold[4])
@@ -51,8 +70,16 @@ def sparkle(frame):
     reach = (2.0, 4.0, 5.6, 6.4)[frame]
     for step_x, step_y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         begin = max(0.4, reach - 2.8 + frame * 0.3)
-        sprite.flat(capsule(sprite.x, sprite.y, (7 + step_x * begin, 7 + step_y * begin),
-                            (7 + step_x * reach, 7 + step_y * reach), 0.8), RAMPS["gold"][5 - frame // 2])
+        sprite.flat(
+            capsule(
+                sprite.x,
+                sprite.y,
+                (7 + step_x * begin, 7 + step_y * begin),
+                (7 + step_x * reach, 7 + step_y * reach),
+                0.8,
+            ),
+            RAMPS["gold"][5 - frame // 2],
+        )
     if frame < 2:
         sprite.flat(circle(sprite.x, sprite.y, 7, 7, 1.8 - frame * 0.6), WHITE)
     return sprite.pixels()
@@ -82,8 +109,12 @@ def crate(size):
     for line in range(edge + 4, size - edge, 5):
         sprite.paint(box(x, y, edge, line, size - edge, line + 1), RAMPS["wood"][0], 0.7)
     sprite.part(capsule(x, y, (edge, size - edge), (size - edge, edge), edge * 0.55), RAMPS["wood"], bulge=2, base=0.54)
-    for left, top, right, bottom in ((1, 1, 1 + edge, size - 1), (size - 1 - edge, 1, size - 1, size - 1),
-                                     (1, 1, size - 1, 1 + edge), (1, size - 1 - edge, size - 1, size - 1)):
+    for left, top, right, bottom in (
+        (1, 1, 1 + edge, size - 1),
+        (size - 1 - edge, 1, size - 1, size - 1),
+        (1, 1, size - 1, 1 + edge),
+        (1, size - 1 - edge, size - 1, size - 1),
+    ):
         sprite.part(box(x, y, left, top, right, bottom, 0.5), RAMPS["wood"], bulge=1.8, base=0.58, grain=0.6)
     corner = edge // 2 + 1
     for nail_x in (corner, size - 1 - corner):
@@ -105,8 +136,12 @@ def platform(width):
         sprite.paint(box(x, y, seam - 0.5, 1, seam + 0.5, 9), RAMPS["stone"][1])
     sprite.paint(box(x, y, 2, 1, width - 2, 2.4), RAMPS["teal"][4])
     for middle in (width / 4, width * 3 / 4):
-        sprite.part(polygon(x, y, [(middle - 6, 9.4), (middle + 6, 9.4), (middle + 2.5, 14.5), (middle - 2.5, 14.5)]),
-                    RAMPS["gunmetal"], bulge=3, base=0.5)
+        sprite.part(
+            polygon(x, y, [(middle - 6, 9.4), (middle + 6, 9.4), (middle + 2.5, 14.5), (middle - 2.5, 14.5)]),
+            RAMPS["gunmetal"],
+            bulge=3,
+            base=0.5,
+        )
         sprite.part(circle(x, y, middle, 11.4, 1.8), RAMPS["teal"], bulge=2, base=0.6, grain=0)
     return sprite.rim(share=0.3).outline().pixels()
 
@@ -158,17 +193,29 @@ def hedgehog(frame):
     """A walker full of spines, frame 0..3, facing left: 20 x 14 px. Nobody jumps on that."""
     sprite = Sprite(20, 14)
     x, y = sprite.x, sprite.y
-    for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):   # near and far feet in turn
+    for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):  # near and far feet in turn
         step = ((-0.8, 0.0), (0.0, -1.0), (0.8, 0.0), (0.0, 0.0))[(frame + 2 * i) % 4]
-        sprite.flat(box(x, y, foot - 1.4 + step[0], 10.6 + step[1], foot + 1.2 + step[0], 13 + step[1], 0.6),
-                    RAMPS["wood"][2 if i % 2 else 3])
+        sprite.flat(
+            box(x, y, foot - 1.4 + step[0], 10.6 + step[1], foot + 1.2 + step[0], 13 + step[1], 0.6),
+            RAMPS["wood"][2 if i % 2 else 3],
+        )
     sprite.part(ellipse(x, y, 11.4, 8.4, 7.4, 4.2), RAMPS["wood"], bulge=4, base=0.40, gain=0.4, grain=0)
-    spines = ((5.4, 7.4, 3.8, 3.6), (8.0, 5.8, 6.8, 1.6), (11.0, 5.2, 10.8, 1.2), (14.0, 5.8, 15.0, 1.7),
-              (16.2, 7.4, 18.0, 3.9), (17.0, 9.4, 18.4, 7.4))
+    spines = (
+        (5.4, 7.4, 3.8, 3.6),
+        (8.0, 5.8, 6.8, 1.6),
+        (11.0, 5.2, 10.8, 1.2),
+        (14.0, 5.8, 15.0, 1.7),
+        (16.2, 7.4, 18.0, 3.9),
+        (17.0, 9.4, 18.4, 7.4),
+    )
     for root_x, root_y, tip_x, tip_y in spines[::-1]:
         across_x, across_y = (root_y - tip_y) * 0.34, (tip_x - root_x) * 0.34
-        corners = [(root_x - across_x, root_y - across_y), (tip_x, tip_y), (root_x + across_x, root_y + across_y),
-                   (11.4, 9.6)]
+        corners = [
+            (root_x - across_x, root_y - across_y),
+            (tip_x, tip_y),
+            (root_x + across_x, root_y + across_y),
+            (11.4, 9.6),
+        ]
         sprite.flat(polygon(x, y, corners) - 0.7, OUTLINE)
         sprite.flat(polygon(x, y, corners), RAMPS["steel"][2])
         sprite.paint(polygon(x, y, [corners[0], corners[1], (root_x, root_y)]), RAMPS["steel"][5])

@@ -16,28 +16,31 @@ from assets.shading import opaque
 
 N, NE, E, SE, S, SW, W, NW = (1 << i for i in range(8))
 CORNERS = ((NE, N, E), (SE, S, E), (SW, S, W), (NW, N, W))
-DEPTHS = 4   # variations of the tile that has all eight neighbours
+DEPTHS = 4  # variations of the tile that has all eight neighbours
 MATERIALS = {
     # name: (body ramp, cap ramp, grain seed)
     "ground": ("dirt", "grass", 300),
     "stone": ("stone", "stone", 400),
     "rock": ("rock", "rock", 500),
 }
-LATER = ("rock",)   # materials whose tiles stand behind all others, so that the older numbers stay
+LATER = ("rock",)  # materials whose tiles stand behind all others, so that the older numbers stay
 # name: (surface height at the left edge, at the right edge), as fractions of the tile above its bottom
 SLOPES = {
-    "slope_up": (0.0, 1.0), "slope_down": (1.0, 0.0),
-    "slope_up_low": (0.0, 0.5), "slope_up_high": (0.5, 1.0),
-    "slope_down_high": (1.0, 0.5), "slope_down_low": (0.5, 0.0),
+    "slope_up": (0.0, 1.0),
+    "slope_down": (1.0, 0.0),
+    "slope_up_low": (0.0, 0.5),
+    "slope_up_high": (0.5, 1.0),
+    "slope_down_high": (1.0, 0.5),
+    "slope_down_low": (0.5, 0.0),
 }
 DEEP_FINDS = {
     3: (("44.....", "4444...", ".34444.", "...3444", ".....33"), RAMPS["stone"]),
     4: (("..5....", ".454.4.", ".344.43", ".343243", "2332332"), RAMPS["teal"]),
-}   # variant of deep ground: (rows of ramp indices, ramp)
-BLEMISHES = (((9, 3), (13, 4)), ((3, 3), (7, 2)))   # column and row of pits in each course of worn stone
+}  # variant of deep ground: (rows of ramp indices, ramp)
+BLEMISHES = (((9, 3), (13, 4)), ((3, 3), (7, 2)))  # column and row of pits in each course of worn stone
 DEEP_SHADE = np.array((14, 11, 28), np.uint8)
-DARKER = {"fading": 0.30, "deep": 0.56}   # shares of shade in stone and rock far from any surface
-FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])   # [px] depth of the grass per column
+DARKER = {"fading": 0.30, "deep": 0.56}  # shares of shade in stone and rock far from any surface
+FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] depth of the grass per column
 
 
 def reduced(mask):
@@ -63,7 +66,7 @@ def texture(material, variant=0):
         return _bricks(tones[(grain > 0.48).astype(int) + (grain > 0.66)], ramp, variant)
     picture = clods(ramp, seed + variant)
     random = np.random.default_rng(seed + 10 + variant)
-    for _ in range((0, 1, 2, 1)[variant]):   # pebbles: light on top, dark below
+    for _ in range((0, 1, 2, 1)[variant]):  # pebbles: light on top, dark below
         column, row = (int(value) for value in random.integers(2, 12, 2))
         wide = 2 + int(random.integers(2))
         picture[row, column : column + wide] = ramp[4]
@@ -103,15 +106,15 @@ def _bricks(picture, ramp, variant):
         picture[row + 7] = ramp[0]
         picture[row : row + 8, offset] = ramp[0]
         picture[row : row + 7, (offset + 1) % TILE] = ramp[3]
-        picture[row + 6] = mix(picture[row + 6], ramp[1], 0.55)   # the blocks' lower and right edges turn from the light
+        picture[row + 6] = mix(picture[row + 6], ramp[1], 0.55)  # the blocks' lower and right edges turn from the light
         picture[row + 1 : row + 7, offset - 1] = mix(picture[row + 1 : row + 7, offset - 1], ramp[1], 0.45)
         picture[row + 6 : row + 8, offset] = picture[row + 7] = ramp[0]
         picture[row, offset] = ramp[1]
-        if variant == 2:   # worn by weather
+        if variant == 2:  # worn by weather
             for column, drop in BLEMISHES[row // 8]:
                 picture[row + drop, column] = ramp[1]
                 picture[row + drop + 1, column] = ramp[3]
-    if variant in (1, 3):   # a crack
+    if variant in (1, 3):  # a crack
         for step, (column, row) in enumerate(((8, 9), (9, 10), (9, 11), (10, 12), (11, 12))):
             picture[row, column - variant] = ramp[0 if step % 2 else 1]
     return picture
@@ -135,7 +138,7 @@ def blob(material, mask, variant=0):
         if mask & first and mask & second and not mask & corner:
             _inner_corner(picture, corner, cap, grass)
     for gone, row, column in ((N | W, 0, 0), (N | E, 0, 15), (S | W, 15, 0), (S | E, 15, 15)):
-        if not mask & gone:   # both sides open: knock the corner off
+        if not mask & gone:  # both sides open: knock the corner off
             picture[row, column] = OUTLINE
     return opaque(picture)
 
@@ -152,7 +155,7 @@ def _top(picture, cap, material):
     if material != "ground":
         picture[1] = cap[5]
         picture[2] = cap[4]
-        if material == "rock":   # chipped: no lip is as deep as its neighbour
+        if material == "rock":  # chipped: no lip is as deep as its neighbour
             for column in range(TILE):
                 picture[3 : int(FRINGE[column]), column] = cap[3]
                 picture[int(FRINGE[column]), column] = cap[1]
@@ -187,7 +190,7 @@ def slope(name):
     x, y = grid(TILE, TILE)
     surface = TILE - (left + (right - left) * x / TILE) * TILE
     depth = np.floor(y - surface + 0.5).astype(int)
-    fringe = FRINGE[None, :] + (1 if abs(left - right) == 1 else 0)   # steeper: deeper to look as thick
+    fringe = FRINGE[None, :] + (1 if abs(left - right) == 1 else 0)  # steeper: deeper to look as thick
     for limit, tone in ((fringe + 3, None), (fringe + 2, cap[1]), (fringe + 1, cap[3]), (3, cap[4]), (2, cap[5])):
         band = depth < limit
         picture[band] = mix(picture[band], OUTLINE, 0.45) if tone is None else tone
@@ -203,7 +206,7 @@ def under_slope(name):
     picture = texture("ground", 0)
     cap = RAMPS["grass"]
     x, y = grid(TILE, TILE)
-    depth = y + (left + (right - left) * x / TILE) * TILE   # px below the surface of the slope above
+    depth = y + (left + (right - left) * x / TILE) * TILE  # px below the surface of the slope above
     for limit, tone in ((6, None), (5, cap[1]), (4, cap[3])):
         band = depth < limit
         picture[band] = mix(picture[band], OUTLINE, 0.4) if tone is None else tone
@@ -248,7 +251,7 @@ def ladder(top):
         picture[row - 1, 5:10] = picture[row + 3, 5:10] = (*OUTLINE, 255)
         for step, colour in enumerate((wood[5], wood[3], wood[1])):
             picture[row + step, 4:11] = (*colour, 255)
-        picture[row + 1, 2] = picture[row + 1, 12] = (*wood[0], 255)   # pegs
+        picture[row + 1, 2] = picture[row + 1, 12] = (*wood[0], 255)  # pegs
     if top:
         picture[:5] = 0
         for row, colour in enumerate((OUTLINE, wood[5], wood[3], OUTLINE)):

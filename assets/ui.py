@@ -11,9 +11,9 @@ from assets.fields import box, capsule, dither
 from assets.palette import OUTLINE, RAMPS, WHITE, mix, oklch
 from assets.shading import Sprite, shifted
 
-LOGO = (244, 72)   # [px]
-TOP, BOTTOM, STROKE = 14, 58, 10   # [px] of the letters
-LETTER_X = {"H": 10, "I": 53, "T": 72, "B": 115, "O": 158, "X": 194}   # left edges, px
+LOGO = (244, 72)  # [px]
+TOP, BOTTOM, STROKE = 14, 58, 10  # [px] of the letters
+LETTER_X = {"H": 10, "I": 53, "T": 72, "B": 115, "O": 158, "X": 194}  # left edges, px
 LETTER_WIDTH = {"H": 36, "I": 12, "T": 36, "B": 35, "O": 37, "X": 39}
 BOX_COLOUR, HIT_COLOUR = oklch(0.86, 0.14, 195), oklch(0.72, 0.20, 20)
 
@@ -224,10 +224,24 @@ OmmmmmmmmmO
 OOOOOOOOOOO
 """
 LETTERS = {
-    "O": OUTLINE, "k": OUTLINE, "W": WHITE, "w": RAMPS["steel"][5], "s": RAMPS["steel"][3], "m": RAMPS["gunmetal"][2],
-    "r": RAMPS["red"][3], "R": RAMPS["red"][2], "y": RAMPS["gold"][4], "Y": RAMPS["gold"][3], "G": RAMPS["gold"][2],
-    "b": RAMPS["blue"][4], "B": RAMPS["blue"][2], "c": RAMPS["glass"][3], "g": RAMPS["green"][4],
-    "t": RAMPS["teal"][4], "u": RAMPS["teal"][3], "v": RAMPS["teal"][1],
+    "O": OUTLINE,
+    "k": OUTLINE,
+    "W": WHITE,
+    "w": RAMPS["steel"][5],
+    "s": RAMPS["steel"][3],
+    "m": RAMPS["gunmetal"][2],
+    "r": RAMPS["red"][3],
+    "R": RAMPS["red"][2],
+    "y": RAMPS["gold"][4],
+    "Y": RAMPS["gold"][3],
+    "G": RAMPS["gold"][2],
+    "b": RAMPS["blue"][4],
+    "B": RAMPS["blue"][2],
+    "c": RAMPS["glass"][3],
+    "g": RAMPS["green"][4],
+    "t": RAMPS["teal"][4],
+    "u": RAMPS["teal"][3],
+    "v": RAMPS["teal"][1],
 }
 
 
@@ -236,26 +250,38 @@ def letter_field(letter, x, y):
     left = LETTER_X[letter]
     right, middle = left + LETTER_WIDTH[letter], (TOP + BOTTOM) / 2
     if letter == "H":
-        return np.minimum(np.minimum(box(x, y, left, TOP, left + STROKE + 2, BOTTOM, 2),
-                                     box(x, y, right - STROKE - 2, TOP, right, BOTTOM, 2)),
-                          box(x, y, left + 3, middle - 5, right - 3, middle + 5))
+        return np.minimum(
+            np.minimum(
+                box(x, y, left, TOP, left + STROKE + 2, BOTTOM, 2), box(x, y, right - STROKE - 2, TOP, right, BOTTOM, 2)
+            ),
+            box(x, y, left + 3, middle - 5, right - 3, middle + 5),
+        )
     if letter == "I":
         return box(x, y, left, TOP, right, BOTTOM, 2)
     if letter == "T":
-        return np.minimum(box(x, y, left, TOP, right, TOP + STROKE + 1, 2),
-                          box(x, y, (left + right) / 2 - 6, TOP, (left + right) / 2 + 6, BOTTOM, 2))
+        return np.minimum(
+            box(x, y, left, TOP, right, TOP + STROKE + 1, 2),
+            box(x, y, (left + right) / 2 - 6, TOP, (left + right) / 2 + 6, BOTTOM, 2),
+        )
     if letter == "B":
-        shape = np.minimum(box(x, y, left, TOP, right - 2, middle + 4, 9),
-                           box(x, y, left, middle - 4, right, BOTTOM, 10))
+        shape = np.minimum(
+            box(x, y, left, TOP, right - 2, middle + 4, 9), box(x, y, left, middle - 4, right, BOTTOM, 10)
+        )
         shape = np.minimum(shape, box(x, y, left, TOP, left + 12, BOTTOM, 2))
-        holes = np.minimum(box(x, y, left + 12, TOP + 9, right - 12, middle - 4.5, 3),
-                           box(x, y, left + 12, middle + 4.5, right - 11, BOTTOM - 9, 3))
+        holes = np.minimum(
+            box(x, y, left + 12, TOP + 9, right - 12, middle - 4.5, 3),
+            box(x, y, left + 12, middle + 4.5, right - 11, BOTTOM - 9, 3),
+        )
         return np.maximum(shape, -holes)
     if letter == "O":
-        return np.maximum(box(x, y, left, TOP, right, BOTTOM, 13),
-                          -box(x, y, left + STROKE + 1, TOP + STROKE, right - STROKE - 1, BOTTOM - STROKE, 6))
-    return np.minimum(capsule(x, y, (left + 6, TOP + 6), (right - 6, BOTTOM - 6), 6.4),
-                      capsule(x, y, (right - 6, TOP + 6), (left + 6, BOTTOM - 6), 6.4))
+        return np.maximum(
+            box(x, y, left, TOP, right, BOTTOM, 13),
+            -box(x, y, left + STROKE + 1, TOP + STROKE, right - STROKE - 1, BOTTOM - STROKE, 6),
+        )
+    return np.minimum(
+        capsule(x, y, (left + 6, TOP + 6), (right - 6, BOTTOM - 6), 6.4),
+        capsule(x, y, (right - 6, TOP + 6), (left + 6, BOTTOM - 6), 6.4),
+    )
 
 
 def logo():
@@ -266,7 +292,7 @@ def logo():
     for letter in LETTER_X:
         field = letter_field(letter, x, y)
         layers = []
-        for name in ("gold", "orange", "red"):   # from top to bottom, dithered into each other
+        for name in ("gold", "orange", "red"):  # from top to bottom, dithered into each other
             tone = Sprite(width, height)
             tone.part(field, RAMPS[name], bulge=3.5, base=0.74, gain=0.40, grain=0)
             layers.append(tone.rgb)
@@ -281,7 +307,7 @@ def logo():
     sprite.rim(WHITE, 0.55)
     sprite.outline().outline()
     body = sprite.solid.copy()
-    for drop in range(1, 5):   # an extruded lower edge
+    for drop in range(1, 5):  # an extruded lower edge
         below = shifted(body, 0, drop) & ~sprite.solid
         sprite.rgb[below] = mix(RAMPS["purple"][1], OUTLINE, 0.25 + drop * 0.12)
         sprite.solid |= below

@@ -33,8 +33,12 @@ def hits_the_old_way(bullets, enemies):
 def enter(world, sprites, filter):
     """Once, for every sprite."""
     for sprite in sprites:
-        sprite.body = world.add_body(PixelMask.from_surface(sprite.image, origin=(0, 0)), position=sprite.rect.topleft,
-                                     filter=filter, user=sprite)
+        sprite.body = world.add_body(
+            PixelMask.from_surface(sprite.image, origin=(0, 0)),
+            position=sprite.rect.topleft,
+            filter=filter,
+            user=sprite,
+        )
 
 
 def hits_in_a_world(world, sprites):

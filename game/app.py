@@ -26,8 +26,8 @@ from game.startup import say
 from game.warmup import warm_up_scene
 from game.window import mode_of, open_window, set_mode
 
-IDLE_SECONDS = 0.002       # rest between frames when the display does not wait for its refresh
-QUIET = 0.3                # of the music's volume while nobody plays
+IDLE_SECONDS = 0.002  # rest between frames when the display does not wait for its refresh
+QUIET = 0.3  # of the music's volume while nobody plays
 
 
 def run_app(options, registry):
@@ -102,8 +102,9 @@ class App:
                 frame = self.picture.presenter.frame
                 save_or_fail(lambda path: save_png(frame.surface, path), self.options.screenshot)
             recording = self.options.recording
-            code = finish(play.scene, play.session.report, self.options,
-                          self.options.bot or bool(recording and recording.bot))
+            code = finish(
+                play.scene, play.session.report, self.options, self.options.bot or bool(recording and recording.bot)
+            )
         elif isinstance(self.screen, Watch) and self.screen.tape.diverged:
             say(self.screen.tape.diverged)
             code = 1
@@ -146,8 +147,16 @@ class App:
             screen.advance(now)
         frame = screen.draw(self.picture)
         if self.settings.show_fps:
-            frame.text_if_free(f"{self.frame_seconds * 1000:.1f} ms a frame", frame.area.right - 4, frame.area.top + 4,
-                               GOLD, SMALL, frame.text_scale, "right", True)
+            frame.text_if_free(
+                f"{self.frame_seconds * 1000:.1f} ms a frame",
+                frame.area.right - 4,
+                frame.area.top + 4,
+                GOLD,
+                SMALL,
+                frame.text_scale,
+                "right",
+                True,
+            )
         if isinstance(screen, Play):
             screen.session.report.note_drawing(perf_counter() - drawn)
             self._end_run(screen)
@@ -214,7 +223,7 @@ class App:
         """Go where the top screen leads; the old picture is wiped away."""
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self._is_a_run() or self.options.recording):
-                self.running = False       # such a run is about one scene; leaving it ends the program
+                self.running = False  # such a run is about one scene; leaving it ends the program
                 self.screen.outcome = None
                 return
             self.options.scene = None
@@ -237,8 +246,12 @@ class App:
     def compile_for(self, scene_class, solver=None, broadphase=None, stops_for_anybody=False):
         """Compile what a scene needs, behind a bar. Raises LoadingStopped."""
         loading = Loading(scene_class.title, stops_for_anybody)
-        warm_up_scene(scene_class, broadphase or self.options.broadphase, solver,
-                      lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel))
+        warm_up_scene(
+            scene_class,
+            broadphase or self.options.broadphase,
+            solver,
+            lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel),
+        )
 
     def apply_settings(self):
         """Put changed settings to work."""

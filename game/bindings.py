@@ -9,51 +9,95 @@ from game.inputs import ACTIONS
 
 # What a player may change. The first name of each is the one that the settings show and change.
 DEFAULT_KEYS = {
-    "left": ("left", "a"), "right": ("right", "d"), "up": ("up", "w"), "down": ("down", "s"),
-    "fire": ("space", "z"), "jump": ("space", "x"), "focus": ("left shift", "right shift"), "bomb": ("x", "left ctrl"),
+    "left": ("left", "a"),
+    "right": ("right", "d"),
+    "up": ("up", "w"),
+    "down": ("down", "s"),
+    "fire": ("space", "z"),
+    "jump": ("space", "x"),
+    "focus": ("left shift", "right shift"),
+    "bomb": ("x", "left ctrl"),
 }
 DEFAULT_BUTTONS = {
-    "left": ("dpad left",), "right": ("dpad right",), "up": ("dpad up",), "down": ("dpad down",),
-    "fire": ("a", "x"), "jump": ("a",), "focus": ("left shoulder", "right shoulder", "left trigger"),
+    "left": ("dpad left",),
+    "right": ("dpad right",),
+    "up": ("dpad up",),
+    "down": ("dpad down",),
+    "fire": ("a", "x"),
+    "jump": ("a",),
+    "focus": ("left shoulder", "right shoulder", "left trigger"),
     "bomb": ("b", "right trigger"),
 }
 REBOUND = tuple(DEFAULT_KEYS)
 # What stays, so that menus always work and the way out is never lost.
 FIXED_KEYS = {"confirm": ("return", "keypad enter"), "cancel": ("escape", "backspace"), "pause": ("p",)}
-SHELL_KEYS = ("tab", "f11", "f12")             # panel, full screen, screenshot
+SHELL_KEYS = ("tab", "f11", "f12")  # panel, full screen, screenshot
 FIXED_BUTTONS = {"confirm": ("a", "start"), "cancel": ("b", "back")}
-SHELL_BUTTONS = ("start", "back", "y", "guide")       # pause menu, freeze, panel
+SHELL_BUTTONS = ("start", "back", "y", "guide")  # pause menu, freeze, panel
 # No game uses actions of two of these sets together.
 USED_TOGETHER = ({"left", "right", "up", "down", "fire", "focus", "bomb"}, {"left", "right", "up", "down", "jump"})
 
 # Buttons by their place on an Xbox pad, as SDL names them on every pad it knows.
 CONTROLLER_NAMES = {
-    pygame.CONTROLLER_BUTTON_A: "a", pygame.CONTROLLER_BUTTON_B: "b", pygame.CONTROLLER_BUTTON_X: "x",
-    pygame.CONTROLLER_BUTTON_Y: "y", pygame.CONTROLLER_BUTTON_BACK: "back", pygame.CONTROLLER_BUTTON_START: "start",
-    pygame.CONTROLLER_BUTTON_GUIDE: "guide", pygame.CONTROLLER_BUTTON_LEFTSTICK: "left stick",
-    pygame.CONTROLLER_BUTTON_RIGHTSTICK: "right stick", pygame.CONTROLLER_BUTTON_LEFTSHOULDER: "left shoulder",
-    pygame.CONTROLLER_BUTTON_RIGHTSHOULDER: "right shoulder", pygame.CONTROLLER_BUTTON_DPAD_LEFT: "dpad left",
-    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: "dpad right", pygame.CONTROLLER_BUTTON_DPAD_UP: "dpad up",
+    pygame.CONTROLLER_BUTTON_A: "a",
+    pygame.CONTROLLER_BUTTON_B: "b",
+    pygame.CONTROLLER_BUTTON_X: "x",
+    pygame.CONTROLLER_BUTTON_Y: "y",
+    pygame.CONTROLLER_BUTTON_BACK: "back",
+    pygame.CONTROLLER_BUTTON_START: "start",
+    pygame.CONTROLLER_BUTTON_GUIDE: "guide",
+    pygame.CONTROLLER_BUTTON_LEFTSTICK: "left stick",
+    pygame.CONTROLLER_BUTTON_RIGHTSTICK: "right stick",
+    pygame.CONTROLLER_BUTTON_LEFTSHOULDER: "left shoulder",
+    pygame.CONTROLLER_BUTTON_RIGHTSHOULDER: "right shoulder",
+    pygame.CONTROLLER_BUTTON_DPAD_LEFT: "dpad left",
+    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: "dpad right",
+    pygame.CONTROLLER_BUTTON_DPAD_UP: "dpad up",
     pygame.CONTROLLER_BUTTON_DPAD_DOWN: "dpad down",
 }
-TRIGGER_NAMES = {pygame.CONTROLLER_AXIS_TRIGGERLEFT: "left trigger", pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "right trigger"}
+TRIGGER_NAMES = {
+    pygame.CONTROLLER_AXIS_TRIGGERLEFT: "left trigger",
+    pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "right trigger",
+}
 # A pad that SDL has no mapping for: most count their buttons in this order.
 JOYSTICK_NAMES = {0: "a", 1: "b", 2: "x", 3: "y", 4: "left shoulder", 5: "right shoulder", 6: "back", 7: "start"}
 BUTTON_NAMES = (*CONTROLLER_NAMES.values(), *TRIGGER_NAMES.values())
-AXES = {0: ("left", "right"), 1: ("up", "down")}       # of the stick, which always steers
-DEAD_ZONE = 0.25        # of the stick's travel; Celeste's value: less and worn sticks drift
+AXES = {0: ("left", "right"), 1: ("up", "down")}  # of the stick, which always steers
+DEAD_ZONE = 0.25  # of the stick's travel; Celeste's value: less and worn sticks drift
 
 # pygame's constants for keys whose name in settings is not theirs.
-SPELLED = {"left shift": "LSHIFT", "right shift": "RSHIFT", "left ctrl": "LCTRL", "right ctrl": "RCTRL",
-           "left alt": "LALT", "right alt": "RALT", "keypad enter": "KP_ENTER"}
-PICTURED = {
-    "left": "\u2190", "right": "\u2192", "up": "\u2191", "down": "\u2193",
-    "dpad left": "pad \u2190", "dpad right": "pad \u2192", "dpad up": "pad \u2191", "dpad down": "pad \u2193",
-    "left shift": "L shift", "right shift": "R shift", "left ctrl": "L ctrl", "right ctrl": "R ctrl",
-    "left alt": "L alt", "right alt": "R alt", "left shoulder": "LB", "right shoulder": "RB",
-    "left trigger": "LT", "right trigger": "RT", "left stick": "L stick", "right stick": "R stick",
+SPELLED = {
+    "left shift": "LSHIFT",
+    "right shift": "RSHIFT",
+    "left ctrl": "LCTRL",
+    "right ctrl": "RCTRL",
+    "left alt": "LALT",
+    "right alt": "RALT",
+    "keypad enter": "KP_ENTER",
 }
-_NAMES = {}             # key code -> name, made when first asked for
+PICTURED = {
+    "left": "\u2190",
+    "right": "\u2192",
+    "up": "\u2191",
+    "down": "\u2193",
+    "dpad left": "pad \u2190",
+    "dpad right": "pad \u2192",
+    "dpad up": "pad \u2191",
+    "dpad down": "pad \u2193",
+    "left shift": "L shift",
+    "right shift": "R shift",
+    "left ctrl": "L ctrl",
+    "right ctrl": "R ctrl",
+    "left alt": "L alt",
+    "right alt": "R alt",
+    "left shoulder": "LB",
+    "right shoulder": "RB",
+    "left trigger": "LT",
+    "right trigger": "RT",
+    "left stick": "L stick",
+    "right stick": "R stick",
+}
+_NAMES = {}  # key code -> name, made when first asked for
 
 
 def rivals(action, other):
@@ -102,7 +146,7 @@ def key_name(code):
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
-            if constant.startswith("K_") and constant != "K_UNKNOWN":      # that is every key without a name
+            if constant.startswith("K_") and constant != "K_UNKNOWN":  # that is every key without a name
                 _NAMES.setdefault(getattr(pygame, constant), spelled.get(constant[2:], constant[2:].lower()))
     return _NAMES.get(code)
 

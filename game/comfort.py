@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-PALETTES = ("standard", "safe", "contrast")   # safe: the Okabe-Ito colours; contrast: the same, darker behind them
+PALETTES = ("standard", "safe", "contrast")  # safe: the Okabe-Ito colours; contrast: the same, darker behind them
 
 
 @dataclass(frozen=True)

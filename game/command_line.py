@@ -14,7 +14,7 @@ from game.files.replay import LARGEST_SEED
 from game.files.replay_check import load_replay_for
 from game.overlays import LAYER_NAMES
 
-DEFAULT_FRAMES = 600       # of a headless run that names no number: ten seconds
+DEFAULT_FRAMES = 600  # of a headless run that names no number: ten seconds
 
 
 class Parser(argparse.ArgumentParser):
@@ -34,18 +34,18 @@ def run(arguments, registry):
     try:
         code = _dispatch(read_options(arguments, registry), registry)
         if sys.stdout is not None:
-            sys.stdout.flush()           # here it can still be said that it was not written
+            sys.stdout.flush()  # here it can still be said that it was not written
         return code
     except (UsageError, ReplayDiverged, StrictFailure) as error:
         startup.say(str(error))
         return error.exit_code
-    except Warning as warning:       # --strict makes every warning an error
+    except Warning as warning:  # --strict makes every warning an error
         startup.say(f"--strict: {type(warning).__name__}: {warning}")
         return StrictFailure.exit_code
-    except BrokenPipeError:          # the reader of our output went away (| head)
+    except BrokenPipeError:  # the reader of our output went away (| head)
         _give_up_output()
         return 0
-    except OSError as error:         # a full disk behind our output
+    except OSError as error:  # a full disk behind our output
         startup.say(str(error))
         _give_up_output()
         return UsageError.exit_code
@@ -100,7 +100,7 @@ def read_options(arguments, registry):
         raise UsageError(f"--seed must be 0 to {LARGEST_SEED} (got {options.seed})")
     for flag in ("record", "screenshot"):
         name = getattr(options, flag)
-        if name and Path(name).is_dir():       # not only after everything was played
+        if name and Path(name).is_dir():  # not only after everything was played
             raise UsageError(f"--{flag}: {name} is a folder; it takes the name of a file")
     if options.replay and (options.bot or options.record):
         raise UsageError("--replay brings its own input: leave out --bot and --record")
@@ -114,8 +114,10 @@ def read_options(arguments, registry):
     if options.solver is not None and options.scene is not None:
         valid = registry.scene_class(options.scene).valid_solvers()
         if options.solver not in valid:
-            raise UsageError(f"--solver: {options.scene} cannot use {options.solver}, which needs the effect stacking; "
-                             f"valid: {', '.join(valid)}")
+            raise UsageError(
+                f"--solver: {options.scene} cannot use {options.solver}, which needs the effect stacking; "
+                f"valid: {', '.join(valid)}"
+            )
     return options
 
 
@@ -125,7 +127,7 @@ def _known(name, what, valid):
 
 
 def read_layers(text):
-    """"bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
+    """ "bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
     if text is None:
         return None
     names = [name.strip() for name in text.split(",") if name.strip()]
@@ -157,8 +159,7 @@ def _take_from_recording(options):
 
 
 def _needs_scene(options, registry):
-    needing = [flag for flag in ("headless", "bot", "record", "screenshot", "profile")
-               if getattr(options, flag)]
+    needing = [flag for flag in ("headless", "bot", "record", "screenshot", "profile") if getattr(options, flag)]
     if needing and options.scene is None:
         raise UsageError(f"--{needing[0]} needs --scene; valid: {', '.join(registry.names)}")
     if options.json and not (options.scene or options.list):
@@ -185,7 +186,7 @@ def _check_level(options, registry):
     if not registry.scene_class(options.scene).takes_level:
         raise UsageError(f"--level: {options.scene} takes none; scenes that take one: {takers}")
     options.level = Path(options.level)
-    level_digest(options.level)        # a file that is not there is said before anything is compiled
+    level_digest(options.level)  # a file that is not there is said before anything is compiled
 
 
 def make_scene(options, registry):
@@ -220,22 +221,31 @@ def _dispatch(options, registry):
 
 def _print_version():
     import numpy
-    import physics
     import pygame
+
+    import physics
     from game.compat import pygame_name
 
     sdl = ".".join(str(part) for part in pygame.get_sdl_version())
     compiled = "compiled kernels" if physics.JIT else "plain kernels"
-    print(f"Hitbox {VERSION} ({pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
-          f"Python {sys.version.split()[0]})")
+    print(
+        f"Hitbox {VERSION} ({pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
+        f"Python {sys.version.split()[0]})"
+    )
     return 0
 
 
 def _print_list(options, registry):
     classes = registry.all_classes()
     if options.json:
-        print(json.dumps([{"name": c.name, "title": c.title, "effects": c.effects.names(),
-                           "features": list(c.features)} for c in classes]))
+        print(
+            json.dumps(
+                [
+                    {"name": c.name, "title": c.title, "effects": c.effects.names(), "features": list(c.features)}
+                    for c in classes
+                ]
+            )
+        )
         return 0
     for c in classes:
         print(f"{c.name:18} {c.title}")

@@ -8,13 +8,22 @@ while the program runs; device indexes do and are.
 import pygame
 
 from game import compat
-from game.bindings import (AXES, CONTROLLER_NAMES, DEAD_ZONE, DEFAULT_BUTTONS, DEFAULT_KEYS, JOYSTICK_NAMES,
-                           TRIGGER_NAMES, button_actions, key_codes)
+from game.bindings import (
+    AXES,
+    CONTROLLER_NAMES,
+    DEAD_ZONE,
+    DEFAULT_BUTTONS,
+    DEFAULT_KEYS,
+    JOYSTICK_NAMES,
+    TRIGGER_NAMES,
+    button_actions,
+    key_codes,
+)
 from game.inputs import InputFrame
 
 STICK = {pygame.CONTROLLER_AXIS_LEFTX: AXES[0], pygame.CONTROLLER_AXIS_LEFTY: AXES[1]}
-STICK_RANGE = 32767.0      # CONTROLLERAXISMOTION counts in 16 bits
-PULLED = 0.5               # of a trigger's travel, from where it counts as a button
+STICK_RANGE = 32767.0  # CONTROLLERAXISMOTION counts in 16 bits
+PULLED = 0.5  # of a trigger's travel, from where it counts as a button
 
 
 class DeviceSource:
@@ -23,15 +32,15 @@ class DeviceSource:
     def __init__(self, to_canvas=lambda position: position, keys=None, pads=None, buttons=None):
         self.to_canvas = to_canvas
         self.bind(keys or DEFAULT_KEYS, buttons or DEFAULT_BUTTONS)
-        self.menus = False         # True: whatever was rebound, the keys and buttons of the start work the menus
+        self.menus = False  # True: whatever was rebound, the keys and buttons of the start work the menus
         self.pads = pads
-        self.held = {}             # (device, control) -> actions
-        self.tapped = set()        # actions that went down since the last step
+        self.held = {}  # (device, control) -> actions
+        self.tapped = set()  # actions that went down since the last step
         self.pointer = (0, 0)
         self.pointer_down = self.pointer_tapped = False
         self.wheel = 0
         self.changes = []
-        self.lost_pad = False      # a pad was pulled out; the app pauses and resets this
+        self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys, buttons):
         """Take other bindings: {action: names} each."""
@@ -123,7 +132,7 @@ class DeviceSource:
         control = (pad, name)
         if not down:
             self._release(control)
-        elif control not in self.held:        # a trigger sends many events on its way
+        elif control not in self.held:  # a trigger sends many events on its way
             self._press(control, (self.menu_buttons if self.menus else self.buttons).get(name, ()))
 
     def _feed_joystick(self, event):
@@ -131,7 +140,7 @@ class DeviceSource:
         pad = event.instance_id
         if event.type == pygame.JOYHATMOTION:
             self._axis(pad, "hat x", event.value[0], AXES[0])
-            self._axis(pad, "hat y", -event.value[1], AXES[1])      # a hat's up is +1
+            self._axis(pad, "hat y", -event.value[1], AXES[1])  # a hat's up is +1
         elif event.axis in AXES:
             self._stick(pad, event.axis, event.value, AXES[event.axis])
 
@@ -185,7 +194,7 @@ class Pads:
             else:
                 self.joysticks[instance] = joystick
         except pygame.error:
-            return      # pulled out again between the event and now; its removal follows
+            return  # pulled out again between the event and now; its removal follows
 
     def removed(self, instance_id):
         """Forget a pad."""

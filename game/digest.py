@@ -23,7 +23,7 @@ def _bytes_of(value):
     if isinstance(value, str):
         raw = value.encode()
         return b"s" + struct.pack("<q", len(raw)) + raw
-    if hasattr(value, "item"):       # a NumPy scalar is hashed as the Python number it holds
+    if hasattr(value, "item"):  # a NumPy scalar is hashed as the Python number it holds
         value = value.item()
     if isinstance(value, int):
         return b"i" + struct.pack("<q", value)

@@ -12,12 +12,12 @@ import pygame
 from game.drawing.colors import GOLD, INK, WHITE
 from physics import Circle
 
-HERTZ = 5.0              # [1/s] of the spring: in 0.2 s the body is where the pointer is
-DAMPING_RATIO = 1.0      # critical: no swinging back and forth about the pointer
-MOST_PULL = 300.0        # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
-SPIN_DAMPING = 2.0       # [1/s] a hanging body comes to rest instead of swinging for ever
-FOLLOW = 20.0            # [1/s] where no force moves a body, its speed follows the pointer
-REACH = 4.0              # [canvas px] how far beside a body a press may be: a card is 2 px thin
+HERTZ = 5.0  # [1/s] of the spring: in 0.2 s the body is where the pointer is
+DAMPING_RATIO = 1.0  # critical: no swinging back and forth about the pointer
+MOST_PULL = 300.0  # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
+SPIN_DAMPING = 2.0  # [1/s] a hanging body comes to rest instead of swinging for ever
+FOLLOW = 20.0  # [1/s] where no force moves a body, its speed follows the pointer
+REACH = 4.0  # [canvas px] how far beside a body a press may be: a card is 2 px thin
 
 
 class Drag:
@@ -38,7 +38,7 @@ class Drag:
             self.body.velocity = self.before
         self.before = None
         self.body = self.world = self.camera = None
-        self.grip = (0.0, 0.0)       # [px] the grabbed point in body space
+        self.grip = (0.0, 0.0)  # [px] the grabbed point in body space
 
     def step(self, inputs, views):
         """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
@@ -68,7 +68,7 @@ class Drag:
 
     def _still_there(self, views):
         if not any(world is self.world for world, _ in views):
-            return False             # the scene was filled anew
+            return False  # the scene was filled anew
         return bool((self.world.bodies["id"] == self.body.id).any()) and can_be_held(self.body)
 
     def held_point(self):

@@ -23,9 +23,9 @@ def start_dummy_display():
     """Let pygame draw without any display or sound device."""
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     os.environ["SDL_AUDIODRIVER"] = "dummy"
-    os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"       # SDL would make an event of SIGTERM, and nobody reads events here
+    os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would make an event of SIGTERM, and nobody reads events here
     pygame.display.init()
-    pygame.display.set_mode((480, 270))      # so that convert_alpha() has a format to convert to
+    pygame.display.set_mode((480, 270))  # so that convert_alpha() has a format to convert to
 
 
 def run_headless(options, registry):

@@ -14,8 +14,8 @@ class FixedStep:
 
     def __init__(self, step=STEP_SECONDS):
         self.step = step
-        self.speed = 1.0           # slow motion, for looking closely
-        self.pace = 1.0            # game speed, as the player wants to be able to follow
+        self.speed = 1.0  # slow motion, for looking closely
+        self.pace = 1.0  # game speed, as the player wants to be able to follow
         self.paused = False
         self.left_over = 0.0
         self.before = None

@@ -8,10 +8,10 @@ import pygame
 
 from game.places import MUSIC
 
-FADE = 0.4               # [s] out, and as long in: a change takes 0.8 s
-QUICK = 0.12             # [s] out when a jingle comes
-DUCKED = 0.5             # -6 dB under a loud moment
-DUCK_DOWN, DUCK_UP = 0.05, 0.35     # [s] from full to ducked and back
+FADE = 0.4  # [s] out, and as long in: a change takes 0.8 s
+QUICK = 0.12  # [s] out when a jingle comes
+DUCKED = 0.5  # -6 dB under a loud moment
+DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
 
 
 class Music:
@@ -19,14 +19,14 @@ class Music:
 
     def __init__(self, report, folder=MUSIC):
         self.folder, self.report = folder, report
-        self.wanted = None         # the tune that should be heard, once no jingle is
+        self.wanted = None  # the tune that should be heard, once no jingle is
         self.jingle_due = None
         self.playing = None
         self.in_jingle = False
         self.paused = False
-        self.level = 0.0           # of the fade, 0..1
-        self.duck = 1.0            # DUCKED..1
-        self.ducked_for = 0.0      # [s] more
+        self.level = 0.0  # of the fade, 0..1
+        self.duck = 1.0  # DUCKED..1
+        self.ducked_for = 0.0  # [s] more
         self.unusable = set()
 
     def tune(self, name):

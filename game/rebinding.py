@@ -2,8 +2,16 @@
 
 from string import ascii_lowercase
 
-from game.bindings import (BUTTON_NAMES, DEFAULT_BUTTONS, DEFAULT_KEYS, FIXED_KEYS, SHELL_BUTTONS, SHELL_KEYS, rivals,
-                           shown)
+from game.bindings import (
+    BUTTON_NAMES,
+    DEFAULT_BUTTONS,
+    DEFAULT_KEYS,
+    FIXED_KEYS,
+    SHELL_BUTTONS,
+    SHELL_KEYS,
+    rivals,
+    shown,
+)
 
 FIXED = {"keys": {*SHELL_KEYS, *(key for keys in FIXED_KEYS.values() for key in keys)}, "buttons": set(SHELL_BUTTONS)}
 DEFAULTS = {"keys": DEFAULT_KEYS, "buttons": DEFAULT_BUTTONS}
@@ -81,7 +89,9 @@ def completed(table, device):
         full[action] = list(table[action]) if action in table else []
     for action, controls in full.items():
         if not controls:
-            wanted = [each for each in (*DEFAULTS[device][action], *SPARE[device]) if _is_free(full, device, action, each)]
+            wanted = [
+                each for each in (*DEFAULTS[device][action], *SPARE[device]) if _is_free(full, device, action, each)
+            ]
             known = [each for each in wanted if each in DEFAULTS[device][action]]
             full[action] = known or wanted[:1]
     return full

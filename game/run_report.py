@@ -11,10 +11,10 @@ class RunReport:
 
     def __init__(self):
         self.steps = 0
-        self.frames = Spread()     # update, and drawing where there was any; the last one is still open
-        self.last = None           # [s] the frame that drawing may still be added to
-        self.updates = Spread()    # update alone
-        self.stages = {}           # name -> Spread of the times per step
+        self.frames = Spread()  # update, and drawing where there was any; the last one is still open
+        self.last = None  # [s] the frame that drawing may still be added to
+        self.updates = Spread()  # update alone
+        self.stages = {}  # name -> Spread of the times per step
         self.counters = {}
         self.events = dict.fromkeys(EVENTS, 0)
         self.quarantined = 0
@@ -60,9 +60,16 @@ class RunReport:
         """The object that --json prints; `check` comes from judge()."""
         self._close_frame()
         return {
-            "scene": scene.name, "frames": self.steps, "seed": scene.seed, "effects": scene.effects.names(),
-            "broadphase": scene.broadphase, "solver": solver_name(scene), "tier": scene.tier,
-            "digest": scene_digest(scene), "check": check, "counters": self.counters,
+            "scene": scene.name,
+            "frames": self.steps,
+            "seed": scene.seed,
+            "effects": scene.effects.names(),
+            "broadphase": scene.broadphase,
+            "solver": solver_name(scene),
+            "tier": scene.tier,
+            "digest": scene_digest(scene),
+            "check": check,
+            "counters": self.counters,
             "stages_ms": {name: summary(spent, ("mean", "p99")) for name, spent in self.stages.items()},
             "frame_ms": summary(self.frames, ("mean", "p50", "p99")),
             "events": self.events,
@@ -77,9 +84,10 @@ class RunReport:
         for name, spent in rows.items():
             found = summary(spent, ("mean", "p50", "p99", "max"))
             lines.append(f"{name:24}" + "".join(f"{value:9.3f}" for value in found.values()))
-        lines.append("per step: " + ", ".join(
-            f"{name} {total / max(self.steps, 1):.1f}" for name, total in self.counters.items() if total
-        ))
+        lines.append(
+            "per step: "
+            + ", ".join(f"{name} {total / max(self.steps, 1):.1f}" for name, total in self.counters.items() if total)
+        )
         return lines
 
 

@@ -18,7 +18,7 @@ from game.inputs import CHANGES
 from game.loop import STEP_SECONDS
 from physics import BROADPHASES, SOLVERS, Effects, World
 
-ASSISTS = {"invincible": False, "hit_stop": True}      # name -> how a game starts; they change it, so they come as input
+ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input
 
 
 @dataclass(frozen=True)
@@ -79,28 +79,28 @@ class Scene:
 
     DEFINED = ("build", "update", "draw", "check", "bot", "state")
 
-    name = ""                  # as in scenes/__init__.py
+    name = ""  # as in scenes/__init__.py
     title = ""
-    about = ""                 # one sentence for the menu
+    about = ""  # one sentence for the menu
     effects = Effects()
     broadphase = "hash"
-    solver = None              # None: the World's own choice
-    solvers = ()               # all that its worlds may use, where there is more than one: compiled before the start
-    features = ()              # short phrases for the menu and --list
-    pieces = None              # of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all
+    solver = None  # None: the World's own choice
+    solvers = ()  # all that its worlds may use, where there is more than one: compiled before the start
+    features = ()  # short phrases for the menu and --list
+    pieces = None  # of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all
     sliders = ()
-    actions = ()               # (what to press, what it does) pairs for the help line
-    tiers = ()                 # names of the tiers the scene's sprites can be tested at; the first is the start
-    overlays = ()              # overlay layers on from the start
-    legend_at = None           # canvas (x, y) where the overlays' legend goes if it is free
+    actions = ()  # (what to press, what it does) pairs for the help line
+    tiers = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
+    overlays = ()  # overlay layers on from the start
+    legend_at = None  # canvas (x, y) where the overlays' legend goes if it is free
     hides_pointer = True
-    draggable = False          # True: dynamic bodies follow the mouse; the pointer is then shown
-    switches_broadphase = True # False: the scene's worlds have their own
-    music = "lab"              # the tune; a scene may set another on itself, mid-game
-    ranked_by = None           # what its high scores are ordered by: "points", most first, or "seconds", fewest first
-    assists = ()               # those of ASSISTS that it offers
-    takes_level = False        # True: `level` may name a file to play instead of the scene's own
-    level_suffix = ""          # of such files, ".tmj" or ".json": which of the player's own the menu lists
+    draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
+    switches_broadphase = True  # False: the scene's worlds have their own
+    music = "lab"  # the tune; a scene may set another on itself, mid-game
+    ranked_by = None  # what its high scores are ordered by: "points", most first, or "seconds", fewest first
+    assists = ()  # those of ASSISTS that it offers
+    takes_level = False  # True: `level` may name a file to play instead of the scene's own
+    level_suffix = ""  # of such files, ".tmj" or ".json": which of the player's own the menu lists
 
     def __init_subclass__(cls):
         missing = [name for name in cls.DEFINED if not hasattr(cls, name)]
@@ -109,7 +109,7 @@ class Scene:
 
     def __init__(self, seed=0, broadphase=None, solver=None, tier=None, level=None):
         self.seed = seed
-        self.level_file = level        # None: the scene's own
+        self.level_file = level  # None: the scene's own
         self.broadphase = broadphase or type(self).broadphase
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
@@ -117,11 +117,11 @@ class Scene:
         self.values = {slider.name: slider.start for slider in self.sliders}
         self.assist = {name: ASSISTS[name] for name in self.assists}
         self.comfort = Comfort()
-        self.ghost = None      # the trail of an earlier run, to be seen beside this one; set from outside
+        self.ghost = None  # the trail of an earlier run, to be seen beside this one; set from outside
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
-        self.built = set()     # names of the attributes that build() made
+        self.built = set()  # names of the attributes that build() made
         self.restart()
 
     def restart(self):
@@ -130,13 +130,13 @@ class Scene:
         self._drop_last_run()
         self.frame = 0
         self.random = Random(self.seed)
-        self.cues = []         # (sound, canvas x, volume) of this step; the app plays them
+        self.cues = []  # (sound, canvas x, volume) of this step; the app plays them
         self.worlds = []
         self.camera = Camera()
         self.camera.shake_share = self.comfort.shake
         self.flash = Flash()
-        self.result = None     # a Result when the game has ended; who plays it decides what comes then
-        self.trail = []        # rows of where the player was in each step, for a ghost in later runs
+        self.result = None  # a Result when the game has ended; who plays it decides what comes then
+        self.trail = []  # rows of where the player was in each step, for a ghost in later runs
         self.particles.clear()
         before = set(vars(self))
         self.build()

@@ -18,16 +18,26 @@ from game.music import Music
 from game.places import MUSIC, SOUNDS
 from game.startup import say
 
-RATE = 44_100            # [Hz] of effects and mixer
+RATE = 44_100  # [Hz] of effects and mixer
 CHANNELS = 24
-VOICES = 3               # of one sound at once: more of the same is only louder
-SPACING = 0.03           # [s] between two starts of one sound: ten hits in a step are one crack
-PAN_WIDTH = 0.6          # of full left-right; full panning is tiring on headphones
-PITCHES = (1.0, 0.96, 1.04)     # playing speed of the variants, +-4 %: a sound that repeats is not a machine's
-STEADY = {"blip", "confirm", "back", "powerup", "checkpoint", "secret", "goal", "life", "warning"}   # melodies stay in tune
+VOICES = 3  # of one sound at once: more of the same is only louder
+SPACING = 0.03  # [s] between two starts of one sound: ten hits in a step are one crack
+PAN_WIDTH = 0.6  # of full left-right; full panning is tiring on headphones
+PITCHES = (1.0, 0.96, 1.04)  # playing speed of the variants, +-4 %: a sound that repeats is not a machine's
+STEADY = {
+    "blip",
+    "confirm",
+    "back",
+    "powerup",
+    "checkpoint",
+    "secret",
+    "goal",
+    "life",
+    "warning",
+}  # melodies stay in tune
 DUCK_SECONDS = 0.5
-DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}      # the music steps back for these
-FIRST, LAST = 2, 0       # ranks when all channels are taken; others have 1
+DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}  # the music steps back for these
+FIRST, LAST = 2, 0  # ranks when all channels are taken; others have 1
 RANKS = {
     **dict.fromkeys(DUCKING | {"confirm", "back", "blip", "checkpoint", "powerup"}, FIRST),
     **dict.fromkeys(("laser", "enemy_shot", "graze", "hit", "land", "ladder", "crate"), LAST),
@@ -50,15 +60,24 @@ class Sounds:
     master, effects and music are volumes 0..1 and may be set at any time. step() is to be called once per drawn frame.
     """
 
-    def __init__(self, master=0.8, effects=1.0, music=0.6, folder=SOUNDS, silent=False, music_folder=MUSIC, report=say,
-                 clock=perf_counter):
+    def __init__(
+        self,
+        master=0.8,
+        effects=1.0,
+        music=0.6,
+        folder=SOUNDS,
+        silent=False,
+        music_folder=MUSIC,
+        report=say,
+        clock=perf_counter,
+    ):
         self.master, self.effects, self.music = master, effects, music
         self.folder, self.report, self.clock = folder, report, clock
-        self.random = Random(4)        # only heard; never a game's
-        self.samples = {}              # name -> int16 samples, None for a file that cannot be used
-        self.variants = {}             # name -> {pitch: pygame Sound}
+        self.random = Random(4)  # only heard; never a game's
+        self.samples = {}  # name -> int16 samples, None for a file that cannot be used
+        self.variants = {}  # name -> {pitch: pygame Sound}
         self.last_pitch = {}
-        self.last_start = {}           # name -> when [s]
+        self.last_start = {}  # name -> when [s]
         self.starts = 0
         self.voices = []
         self.player = Music(report, music_folder)
@@ -70,7 +89,7 @@ class Sounds:
                 pygame.mixer.quit()
             pygame.mixer.init(RATE, -16, 2, 512, allowedchanges=0)
             pygame.mixer.set_num_channels(CHANNELS)
-        except RuntimeError as error:        # pygame.error is one, and so is what a pygame without its mixer raises
+        except RuntimeError as error:  # pygame.error is one, and so is what a pygame without its mixer raises
             return f"no sound device ({error})"
         self.voices = [Voice(pygame.mixer.Channel(number)) for number in range(CHANNELS)]
         return ""

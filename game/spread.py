@@ -2,8 +2,8 @@
 
 from math import floor, log
 
-SHORTEST, LONGEST = 1e-7, 1e3      # [s] what lies outside counts in the first or the last bin
-WIDTH = log(1.01)                  # of a bin, in the logarithm of the time: a quantile is exact to half a percent
+SHORTEST, LONGEST = 1e-7, 1e3  # [s] what lies outside counts in the first or the last bin
+WIDTH = log(1.01)  # of a bin, in the logarithm of the time: a quantile is exact to half a percent
 BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
 
 

@@ -65,5 +65,5 @@ def prepare_environment():
 
 def say(line):
     """Print one line for the person at the terminal; never on standard output."""
-    if line and sys.stderr is not None:      # closed, or a start without a terminal
+    if line and sys.stderr is not None:  # closed, or a start without a terminal
         sys.stderr.write("hitbox: " + line + "\n")

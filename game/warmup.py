@@ -5,7 +5,7 @@ from time import perf_counter
 
 import physics
 
-BAR = 32       # characters
+BAR = 32  # characters
 
 
 def warm_up_scene(scene_class, broadphase=None, solver=None, progress=None):
@@ -13,7 +13,9 @@ def warm_up_scene(scene_class, broadphase=None, solver=None, progress=None):
     strategy = (broadphase or scene_class.broadphase) if scene_class.switches_broadphase else "all"
     names = solvers_of(scene_class, solver)
     for index, name in enumerate(names):
-        physics.warmup(scene_class.effects, strategy, name, part_of(progress, index, len(names)), pieces_of(scene_class))
+        physics.warmup(
+            scene_class.effects, strategy, name, part_of(progress, index, len(names)), pieces_of(scene_class)
+        )
 
 
 def solvers_of(scene_class, chosen=None):
@@ -41,6 +43,7 @@ def warm_up_all(registry, out=None):
     started = perf_counter()
     classes = registry.all_classes()
     for index, scene_class in enumerate(classes):
+
         def show(done, total, name, index=index):
             draw_bar(out, (index + done / max(total, 1)) / len(classes), name)
 
@@ -50,8 +53,10 @@ def warm_up_all(registry, out=None):
     draw_bar(out, 1.0, "ready")
     if out.isatty():
         out.write("\n")
-    out.write(f"{len(classes)} scenes, {len(physics.BROADPHASES)} broad phases: "
-              f"kernels ready after {perf_counter() - started:.1f} s\n")
+    out.write(
+        f"{len(classes)} scenes, {len(physics.BROADPHASES)} broad phases: "
+        f"kernels ready after {perf_counter() - started:.1f} s\n"
+    )
     return 0
 
 

@@ -9,7 +9,7 @@ import pygame
 from game.drawing.draw import CANVAS_SIZE
 from game.errors import UsageError
 
-LARGEST_SHARE = 0.9        # of the desktop that a window opened without a chosen size may take
+LARGEST_SHARE = 0.9  # of the desktop that a window opened without a chosen size may take
 
 
 def open_window(settings):
@@ -23,8 +23,9 @@ def open_window(settings):
             raise pygame.error("no screen found")
         surface = set_mode(settings)
     except pygame.error as error:
-        raise UsageError(f"no display to open a window on ({error}); run without one: "
-                         "--headless --scene NAME") from error
+        raise UsageError(
+            f"no display to open a window on ({error}); run without one: --headless --scene NAME"
+        ) from error
     pygame.display.set_caption("Hitbox")
     return surface
 
@@ -55,7 +56,7 @@ def _open(size, flags, vsync):
     if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")        # "no fast renderer" is no reason to stop, not even for --strict
+                warnings.simplefilter("ignore")  # "no fast renderer" is no reason to stop, not even for --strict
                 return pygame.display.set_mode(size, flags, vsync=1)
         except pygame.error:
             return pygame.display.set_mode(size, flags)
@@ -67,5 +68,5 @@ def copy_text(text):
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text
-    except (AttributeError, UnicodeEncodeError, pygame.error):      # a file name need not be text
+    except (AttributeError, UnicodeEncodeError, pygame.error):  # a file name need not be text
         return False

@@ -17,8 +17,20 @@ from physics.impact import TimeOfImpact, time_of_impact
 from physics.jit import JIT
 from physics.motion.character import Character, Moved
 from physics.queries import RayHit
-from physics.shapes import (Bounds, Capsule, Chain, Circle, Filter, Mass, Material, PixelMask, Polygon, Segment, TileGrid,
-                            mass_of)
+from physics.shapes import (
+    Bounds,
+    Capsule,
+    Chain,
+    Circle,
+    Filter,
+    Mass,
+    Material,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    mass_of,
+)
 from physics.snapshot import Snapshot
 from physics.tables import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
@@ -26,7 +38,43 @@ from physics.world import SOLVERS, World
 
 BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
-__all__ = ["BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC", "Distance", "DynamicTree", "Effects",
-           "Filter", "JIT", "KINEMATIC", "Manifold", "Mass", "Material", "Moved", "PixelMask", "Polygon", "RayHit",
-           "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid", "SweepAndPrune", "TIERS", "TileGrid", "TimeOfImpact", "World", "collide",
-           "distance", "fit", "mass_of", "time_of_impact", "warmup"]
+__all__ = [
+    "BROADPHASES",
+    "Body",
+    "Bounds",
+    "BruteForce",
+    "Capsule",
+    "Chain",
+    "Character",
+    "Circle",
+    "DYNAMIC",
+    "Distance",
+    "DynamicTree",
+    "Effects",
+    "Filter",
+    "JIT",
+    "KINEMATIC",
+    "Manifold",
+    "Mass",
+    "Material",
+    "Moved",
+    "PixelMask",
+    "Polygon",
+    "RayHit",
+    "SOLVERS",
+    "STATIC",
+    "Segment",
+    "Snapshot",
+    "SpatialHashGrid",
+    "SweepAndPrune",
+    "TIERS",
+    "TileGrid",
+    "TimeOfImpact",
+    "World",
+    "collide",
+    "distance",
+    "fit",
+    "mass_of",
+    "time_of_impact",
+    "warmup",
+]

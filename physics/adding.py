@@ -10,8 +10,24 @@ from physics.shapes import Filter, Material, mass_of
 from physics.tables import AUTO, CONTINUOUS, KINDS, STATIC
 
 
-def add_rows(world, shapes, positions, velocities, angles, kind, angular_velocity, material, filter, sensor, bullet, continuous,
-             fixed_rotation, gravity_scale, tier, user) -> np.ndarray:
+def add_rows(
+    world,
+    shapes,
+    positions,
+    velocities,
+    angles,
+    kind,
+    angular_velocity,
+    material,
+    filter,
+    sensor,
+    bullet,
+    continuous,
+    fixed_rotation,
+    gravity_scale,
+    tier,
+    user,
+) -> np.ndarray:
     """Check what a user asks for, and append BODY and SHAPE rows. Returns the ids. Raises TypeError, ValueError."""
     world._unlocked()
     kind = KINDS.index(checks.choice("kind", kind, KINDS))
@@ -30,8 +46,9 @@ def add_rows(world, shapes, positions, velocities, angles, kind, angular_velocit
     spin = checks.number("angular_velocity", angular_velocity)
     world._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
     if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
-        raise ValueError("velocity and angular_velocity must be 0 for a static body "
-                         f"(got {np.asarray(velocities).tolist()}, {spin})")
+        raise ValueError(
+            f"velocity and angular_velocity must be 0 for a static body (got {np.asarray(velocities).tolist()}, {spin})"
+        )
     used = shapes_for_tier(shapes, tier)
     check_shapes(used, kind, angles, continuous)
     mass = mass_of(used, material.density) if used else mass_of((), material.density)
@@ -52,7 +69,7 @@ def add_rows(world, shapes, positions, velocities, angles, kind, angular_velocit
     set_mass(rows, mass, used)
     refresh_centers(rows)
     add_shapes(world, rows, world._bodies.count - n, used, material, filter, sensor)
-    source = tuple(shapes)             # one for all: a swarm costs two entries each, and no object
+    source = tuple(shapes)  # one for all: a swarm costs two entries each, and no object
     for identity in ids.tolist():
         world._shapes_of[identity] = used
         if user is not None:

@@ -10,6 +10,7 @@ def _column(name, doc):
 
 class Body:
     """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second."""
+
     __slots__ = ("world", "id")
 
     def __init__(self, world, identity):
@@ -153,12 +154,15 @@ class Body:
         row = self._dynamic("apply_impulse")
         self._stir(row)
         inverse_mass = row["inverse_mass"].item()
-        row["vx"], row["vy"] = checks.vector("velocity after the impulse", (row["vx"].item() + inverse_mass * impulse[0],
-                                                                             row["vy"].item() + inverse_mass * impulse[1]))
+        row["vx"], row["vy"] = checks.vector(
+            "velocity after the impulse",
+            (row["vx"].item() + inverse_mass * impulse[0], row["vy"].item() + inverse_mass * impulse[1]),
+        )
         if point is not None and self.world.effects.rotation:
             x, y = point
-            row["angular_velocity"] += row["inverse_inertia"] * ((x - row["center_x"]) * impulse[1]
-                                                                 - (y - row["center_y"]) * impulse[0])
+            row["angular_velocity"] += row["inverse_inertia"] * (
+                (x - row["center_x"]) * impulse[1] - (y - row["center_y"]) * impulse[0]
+            )
 
     def apply_torque(self, torque):
         """Add a torque for the coming step. Raises ValueError without the rotation effect."""
@@ -181,8 +185,12 @@ class Body:
 
     def move_to(self, position, angle=None):
         """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        edits.move_to(self.world, self.id, checks.position("position", position),
-                      None if angle is None else checks.number("angle", angle))
+        edits.move_to(
+            self.world,
+            self.id,
+            checks.position("position", position),
+            None if angle is None else checks.number("angle", angle),
+        )
 
     def set_shapes(self, *shapes):
         """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""

@@ -23,8 +23,12 @@ def number(name, value, low=None, above=None, high=None):
         allowed = f"finite and >= {low}"
     if high is not None:
         allowed += f" and <= {high}"
-    if (not math.isfinite(value) or (above is not None and not value > above) or (low is not None and value < low)
-            or (high is not None and value > high)):
+    if (
+        not math.isfinite(value)
+        or (above is not None and not value > above)
+        or (low is not None and value < low)
+        or (high is not None and value > high)
+    ):
         raise ValueError(f"{name} must be {allowed} (got {value!r})")
     return value
 

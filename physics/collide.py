@@ -19,6 +19,7 @@ class Manifold:
 
     len() is the number of points; without any the normal is (0, 0).
     """
+
     normal: tuple[float, float]
     points: np.ndarray
     separations: np.ndarray
@@ -60,8 +61,10 @@ def collide(shape_a, pose_a, shape_b, pose_b, margin=0.0) -> Manifold:
     narrow = stages.exact_narrow_phase()
 
     def contacts_of(first, second):
-        return narrow.collide(library.tables, bodies, shapes, np.array([[first, second]], np.int64), 1, margin, 0.0,
-                              stages.no_work())
+        return narrow.collide(
+            library.tables, bodies, shapes, np.array([[first, second]], np.int64), 1, margin, 0.0, stages.no_work()
+        )
+
     swapped = _order(*given[1]) < _order(*given[0])
     contacts = contacts_of(1, 0) if swapped else contacts_of(0, 1)
     if not len(contacts):
@@ -70,7 +73,11 @@ def collide(shape_a, pose_a, shape_b, pose_b, margin=0.0) -> Manifold:
     sign = -1.0 if swapped else 1.0
     features = contacts["feature"].copy()
     if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
-        features = contacts_of(0, 1)["feature"].copy()           # a pixel of the mask that was named first
-    return Manifold((sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
-                    np.stack([contacts["point_x"], contacts["point_y"]], axis=1), contacts["separation"].copy(),
-                    features, float(contacts["area"].sum()))
+        features = contacts_of(0, 1)["feature"].copy()  # a pixel of the mask that was named first
+    return Manifold(
+        (sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
+        np.stack([contacts["point_x"], contacts["point_y"]], axis=1),
+        contacts["separation"].copy(),
+        features,
+        float(contacts["area"].sum()),
+    )

@@ -9,7 +9,7 @@ from physics import checks
 from physics.mass import Mass, polygon_mass, rounded_mass
 
 MAX_CORNERS = 16
-SHORTEST = 1e-9            # of a hull's size: below, the direction of an edge is lost when the hull is moved about
+SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
 
 
 def reach(points, radius, x, y):
@@ -20,6 +20,7 @@ def reach(points, radius, x, y):
 @dataclass(frozen=True)
 class Circle:
     """A disc. Raises ValueError for a radius that is not > 0."""
+
     radius: float
     center: tuple[float, float] = (0.0, 0.0)
 
@@ -42,6 +43,7 @@ class Circle:
 @dataclass(frozen=True)
 class Capsule:
     """All points within a radius of the line from a to b. Raises ValueError for a radius that is not > 0, or no length."""
+
     a: tuple[float, float]
     b: tuple[float, float]
     radius: float
@@ -50,8 +52,10 @@ class Capsule:
         a, b = checks.vector("a", self.a), checks.vector("b", self.b)
         radius = checks.number("radius", self.radius, above=0.0)
         if math.hypot(b[0] - a[0], b[1] - a[1]) <= SHORTEST * max(radius, *map(abs, a), *map(abs, b)):
-            raise ValueError(f"a and b must be two points with a length between them (got {a} and {b}); "
-                             "a capsule without length is a Circle")
+            raise ValueError(
+                f"a and b must be two points with a length between them (got {a} and {b}); "
+                "a capsule without length is a Circle"
+            )
         object.__setattr__(self, "a", a)
         object.__setattr__(self, "b", b)
         object.__setattr__(self, "radius", radius)
@@ -69,8 +73,9 @@ class Capsule:
         length = math.hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
         r = self.radius
         middle, ends = density * 2.0 * r * length, density * math.pi * r * r
-        inertia = (middle * (length * length + 4.0 * r * r) / 12.0
-                   + ends * (r * r / 2.0 + length * length / 4.0 + length * 4.0 * r / (3.0 * math.pi)))
+        inertia = middle * (length * length + 4.0 * r * r) / 12.0 + ends * (
+            r * r / 2.0 + length * length / 4.0 + length * 4.0 * r / (3.0 * math.pi)
+        )
         center = (self.a[0] + 0.5 * (self.b[0] - self.a[0]), self.a[1] + 0.5 * (self.b[1] - self.a[1]))
         return Mass(middle + ends, center, inertia)
 
@@ -85,6 +90,7 @@ class Polygon:
     Raises ValueError for too few or many corners, for zero area, for three corners in line or equal ones, for a
     concave outline, and for a radius that is not >= 0.
     """
+
     points: tuple[tuple[float, float], ...]
     radius: float = 0.0
 
@@ -103,7 +109,9 @@ class Polygon:
         # All turns to one side, and once around: a star also turns to one side only.
         around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
         if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
-            raise ValueError(f"points must be convex (got {points.tolist()}); split a concave outline into convex parts")
+            raise ValueError(
+                f"points must be convex (got {points.tolist()}); split a concave outline into convex parts"
+            )
         if turns[0] < 0:
             points = points[::-1]
         object.__setattr__(self, "points", tuple((float(x), float(y)) for x, y in points))
@@ -116,8 +124,12 @@ class Polygon:
         x, y = checks.vector("center", center)
         angle = checks.number("angle", angle)
         cosine, sine = math.cos(angle), math.sin(angle)
-        corners = ((-half_width, -half_height), (half_width, -half_height),
-                   (half_width, half_height), (-half_width, half_height))
+        corners = (
+            (-half_width, -half_height),
+            (half_width, -half_height),
+            (half_width, half_height),
+            (-half_width, half_height),
+        )
         return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
 
     @property

@@ -12,11 +12,34 @@ from physics.distance import gjk_steps
 from physics.narrowphase.axes import sat_axes
 from physics.settings import MASK_ANGLE_BUCKETS
 
-__all__ = ["bounds", "contact_points", "drawn_masks", "gjk_steps", "impact_ghosts", "islands", "mask_hits", "masks", "motion",
-           "outlines", "pairs", "sat_axes", "shape_rows", "structure"]
+__all__ = [
+    "bounds",
+    "contact_points",
+    "drawn_masks",
+    "gjk_steps",
+    "impact_ghosts",
+    "islands",
+    "mask_hits",
+    "masks",
+    "motion",
+    "outlines",
+    "pairs",
+    "sat_axes",
+    "shape_rows",
+    "structure",
+]
 
-ROW = np.dtype([("shape", np.int64), ("body", np.int64), ("kind", np.int64), ("membership", np.int64),
-                ("mask", np.int64), ("sensor", np.bool_), ("awake", np.bool_)])
+ROW = np.dtype(
+    [
+        ("shape", np.int64),
+        ("body", np.int64),
+        ("kind", np.int64),
+        ("membership", np.int64),
+        ("mask", np.int64),
+        ("sensor", np.bool_),
+        ("awake", np.bool_),
+    ]
+)
 
 
 LINES = (tables.POLYGON, tables.CAPSULE, tables.SEGMENT, tables.CHAIN)
@@ -24,10 +47,11 @@ LINES = (tables.POLYGON, tables.CAPSULE, tables.SEGMENT, tables.CHAIN)
 
 class Structure(NamedTuple):
     """What a broad phase keeps: cells or node boxes with their depth, or intervals (axis, low, high, shape id)."""
-    kind: str                   # brute, sweep, hash, tree
-    rects: np.ndarray           # (m, 4) min_x min_y max_x max_y
-    depth: np.ndarray           # (m,) level of a cell, depth of a node
-    intervals: np.ndarray       # (k, 4)
+
+    kind: str  # brute, sweep, hash, tree
+    rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
+    depth: np.ndarray  # (m,) level of a cell, depth of a node
+    intervals: np.ndarray  # (k, 4)
 
 
 def bounds(world) -> np.ndarray:
@@ -70,9 +94,13 @@ def structure(world) -> Structure:
         owner[world.shapes["proxy"][active]] = world.shapes["id"][active]
         there = owner[axis.order] >= 0
         shapes = owner[axis.order[there]]
-        boxes = axis.boxes[:len(axis.order)][there]
-        intervals = np.concatenate([np.column_stack([np.full(len(shapes), each), ends, shapes]) for each, ends in
-                                    ((axis.axis, boxes[:, :2]), (1 - axis.axis, boxes[:, 2:]))])
+        boxes = axis.boxes[: len(axis.order)][there]
+        intervals = np.concatenate(
+            [
+                np.column_stack([np.full(len(shapes), each), ends, shapes])
+                for each, ends in ((axis.axis, boxes[:, :2]), (1 - axis.axis, boxes[:, 2:]))
+            ]
+        )
     return Structure(strategy.name, rects, depth, intervals)
 
 
@@ -105,10 +133,17 @@ def outlines(world, rows=None) -> list:
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
     cosine, sine = np.cos(bodies["angle"]), np.sin(bodies["angle"])
-    circles = np.column_stack((bodies["x"] + cosine * shapes["local_x"] - sine * shapes["local_y"],
-                               bodies["y"] + sine * shapes["local_x"] + cosine * shapes["local_y"], shapes["radius"])).tolist()
+    circles = np.column_stack(
+        (
+            bodies["x"] + cosine * shapes["local_x"] - sine * shapes["local_y"],
+            bodies["y"] + sine * shapes["local_x"] + cosine * shapes["local_y"],
+            shapes["radius"],
+        )
+    ).tolist()
     found = []
-    for k, (kind, identity, geometry) in enumerate(zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))):
+    for k, (kind, identity, geometry) in enumerate(
+        zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))
+    ):
         if kind == tables.CIRCLE:
             found.append(("circle", *circles[k]))
         elif kind in LINES:
@@ -136,18 +171,21 @@ def _line(shape, kind, points):
 
 class Drawn(NamedTuple):
     """Masks as they stand in the world; those drawn alike share their pixels."""
-    solids: list                # of bool arrays [row, col]
-    which: np.ndarray           # (n,) each mask's number in solids
-    left: np.ndarray            # (n,) [px]
-    top: np.ndarray             # (n,) [px]
+
+    solids: list  # of bool arrays [row, col]
+    which: np.ndarray  # (n,) each mask's number in solids
+    left: np.ndarray  # (n,) [px]
+    top: np.ndarray  # (n,) [px]
 
 
 def masks(world) -> list:
     """(shape id, left, top, solid[row, col]) of every mask as drawn."""
     ids = world.shapes["id"][world.shapes["kind"] == tables.MASK].tolist()
     found = drawn_masks(world)
-    return [(each, left, top, found.solids[k]) for each, left, top, k in
-            zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist())]
+    return [
+        (each, left, top, found.solids[k])
+        for each, left, top, k in zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist())
+    ]
 
 
 def drawn_masks(world) -> Drawn:
@@ -159,7 +197,7 @@ def drawn_masks(world) -> Drawn:
 def _drawn(world, rows):
     """The masks at these shape rows, whose rasters are up to date."""
     shapes, library = world.shapes[rows], world.library
-    raster_of = library.raster_of[:len(library.masks)].ravel()
+    raster_of = library.raster_of[: len(library.masks)].ravel()
     drawn = np.flatnonzero(raster_of >= 0)
     place = np.zeros(library.rasters.count, np.int64)
     place[raster_of[drawn]] = drawn
@@ -176,23 +214,30 @@ def mask_hits(world) -> list:
     world.queries.refresh(world)
     rows = rows[(world.shapes["kind"][rows] == tables.MASK).all(axis=1)]
     a, b = _drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])
-    for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(a.left.tolist(), a.top.tolist(), a.which.tolist(),
-                                                              b.left.tolist(), b.top.tolist(), b.which.tolist()):
+    for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(
+        a.left.tolist(), a.top.tolist(), a.which.tolist(), b.left.tolist(), b.top.tolist(), b.which.tolist()
+    ):
         solid_a, solid_b = a.solids[solid_a], b.solids[solid_b]
         left, top = max(left_a, left_b), max(top_a, top_b)
         right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
         bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])
         if left < right and top < bottom:
-            shared = (solid_a[top - top_a:bottom - top_a, left - left_a:right - left_a]
-                      & solid_b[top - top_b:bottom - top_b, left - left_b:right - left_b])
+            shared = (
+                solid_a[top - top_a : bottom - top_a, left - left_a : right - left_a]
+                & solid_b[top - top_b : bottom - top_b, left - left_b : right - left_b]
+            )
             if shared.any():
                 found.append((left, top, shared))
     return found
 
 
-POINT = np.dtype([(name, np.float64) for name in ("point_x", "point_y", "normal_x", "normal_y", "separation", "normal_impulse",
-                                                  "tangent_impulse")]
-                 + [(name, np.int64) for name in ("feature", "body_a", "body_b", "shape_a", "shape_b", "state", "color")])
+POINT = np.dtype(
+    [
+        (name, np.float64)
+        for name in ("point_x", "point_y", "normal_x", "normal_y", "separation", "normal_impulse", "tangent_impulse")
+    ]
+    + [(name, np.int64) for name in ("feature", "body_a", "body_b", "shape_a", "shape_b", "state", "color")]
+)
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
@@ -215,7 +260,7 @@ def contact_points(world) -> np.ndarray:
             acting = (rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0) | rows["swept"]
             points["state"] = np.where(rows["persisted"], PERSISTED, np.where(acting, NEW, SPECULATIVE))
             points["state"][~acting & (rows["separation"] > world.tolerances.slop)] = SPECULATIVE
-            if not world.effects.stacking:         # no contact remembers the step before: the events do
+            if not world.effects.stacking:  # no contact remembers the step before: the events do
                 begun = world.events.begin
                 old = ~np.isin(rows["shape_a"] << 32 | rows["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
                 points["state"][old & (points["state"] == NEW)] = PERSISTED
@@ -228,10 +273,14 @@ def contact_points(world) -> np.ndarray:
 def islands(world) -> np.ndarray:
     """Island of every body, by row: the lowest body id of those it is piled up with; -1 for what is in none."""
     bodies = world.bodies
-    return np.where((bodies["kind"] == tables.DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1)
+    return np.where(
+        (bodies["kind"] == tables.DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
+    )
 
 
-GHOST = np.dtype([("body", np.int64), ("x", np.float64), ("y", np.float64), ("angle", np.float64), ("fraction", np.float64)])
+GHOST = np.dtype(
+    [("body", np.int64), ("x", np.float64), ("y", np.float64), ("angle", np.float64), ("fraction", np.float64)]
+)
 
 
 def impact_ghosts(world) -> np.ndarray:

@@ -7,8 +7,8 @@ import numpy as np
 
 from physics.collide import collide
 from physics.geometry import Library
-from physics.narrowphase.nearest import separate_parts
 from physics.narrowphase.gjk import AX, AY, NX, NY, new_gap_room
+from physics.narrowphase.nearest import separate_parts
 from physics.narrowphase.placement import refresh_aabbs
 from physics.narrowphase.trace import steps_of
 from physics.parts import placed_parts
@@ -16,8 +16,8 @@ from physics.queries import _pose, place
 from physics.shapes import SHAPES, Bounds, Chain, PixelMask, TileGrid
 from physics.tables import BODY, SHAPE
 
-ROUNDING_BAND = 1e-11      # of the size: within it the contact test says on which side of touching two shapes are
-NEXT_TO_NOTHING = math.ulp(0.0)    # [px] apart, and no number is smaller: shapes that touch without a contact
+ROUNDING_BAND = 1e-11  # of the size: within it the contact test says on which side of touching two shapes are
+NEXT_TO_NOTHING = math.ulp(0.0)  # [px] apart, and no number is smaller: shapes that touch without a contact
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,7 @@ class Distance:
     point_b = point_a + distance · normal. Of shapes that overlap the distance is -(the move of B along the normal that
     ends it), and the points are the two surfaces' along it.
     """
+
     distance: float
     point_a: tuple[float, float]
     point_b: tuple[float, float]
@@ -45,8 +46,13 @@ def distance(shape_a, pose_a, shape_b, pose_b) -> Distance:
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     if order_of(shape_b, pose_b) < order_of(shape_a, pose_a):
         found = _measure(shape_b, pose_b, shape_a, pose_a)
-        return Distance(found.distance, found.point_b, found.point_a, (0.0 - found.normal[0], 0.0 - found.normal[1]),
-                        found.iterations)
+        return Distance(
+            found.distance,
+            found.point_b,
+            found.point_a,
+            (0.0 - found.normal[0], 0.0 - found.normal[1]),
+            found.iterations,
+        )
     return _measure(shape_a, pose_a, shape_b, pose_b)
 
 
@@ -59,12 +65,16 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     if math.isinf(found):
         return Distance(math.inf, pose_a[:2], pose_b[:2], (1.0, 0.0), 0)
     nx, ny, ax, ay = (float(room.gap[k]) for k in (NX, NY, AX, AY))
-    size = float(max(np.ptp(parts_a.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(), np.ptp(parts_b.boxes.reshape(-1, 2, 2),
-                                                                                       axis=(0, 1)).max()))
+    size = float(
+        max(
+            np.ptp(parts_a.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(),
+            np.ptp(parts_b.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(),
+        )
+    )
     convex = not any(isinstance(each, (TileGrid, PixelMask, Chain)) for each in (shape_a, shape_b))
     band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
     if any(isinstance(each, Chain) for each in (shape_a, shape_b)):
-        band = size                      # what was pressed through a link may hang wholly behind it and still be pushed out
+        band = size  # what was pressed through a link may hang wholly behind it and still be pushed out
     if found <= band and not (convex and found < -band):
         contact = collide(shape_a, pose_a, shape_b, pose_b)
         if not len(contact):
@@ -90,7 +100,7 @@ def gjk_steps(shape_a, pose_a, shape_b, pose_b) -> list[dict]:
             raise TypeError(f"{name} must be a convex shape (got {shape!r})")
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
-    return steps_of(parts_a.corners[0, :parts_a.counts[0]], parts_b.corners[0, :parts_b.counts[0]])
+    return steps_of(parts_a.corners[0, : parts_a.counts[0]], parts_b.corners[0, : parts_b.counts[0]])
 
 
 def _parts(shape_a, pose_a, shape_b, pose_b, x, y):
@@ -118,7 +128,13 @@ def order_of(shape, *poses) -> tuple:
     if isinstance(shape, Bounds):
         return (kind, *order_of(shape.shape, *poses))
     if isinstance(shape, TileGrid):
-        value = (*shape.solid.shape, shape.tile_size, shape.solid.tobytes(), shape.slopes.tobytes(), shape.one_way.tobytes())
+        value = (
+            *shape.solid.shape,
+            shape.tile_size,
+            shape.solid.tobytes(),
+            shape.slopes.tobytes(),
+            shape.one_way.tobytes(),
+        )
     elif isinstance(shape, PixelMask):
         value = (*shape.size, *shape.origin, shape.solid.tobytes())
     else:

@@ -47,7 +47,7 @@ def refresh(world, identity):
     """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle. Its neighbours wake."""
     sleep.wake_ids(world, [identity])
     at = world._row_number(identity)
-    refresh_centers(world.bodies[at:at + 1])
+    refresh_centers(world.bodies[at : at + 1])
     world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
 
 
@@ -70,7 +70,7 @@ def refresh_mass(world, identity):
     own = world.shapes[world.shapes["body"] == identity]
     density = float(own["density"][0]) if len(own) else 1.0
     used = world._shapes_of[identity]
-    set_mass(world.bodies[at:at + 1], mass_of(used, density), used)
+    set_mass(world.bodies[at : at + 1], mass_of(used, density), used)
     refresh(world, identity)
 
 
@@ -87,7 +87,7 @@ def set_shapes(world, identity, shapes):
     world._drop_shapes(~own)
     at = world._row_number(identity)
     world._shapes_of[identity] = tuple(shapes)
-    add_shapes(world, world.bodies[at:at + 1], at, tuple(shapes), material, filter, sensor)
+    add_shapes(world, world.bodies[at : at + 1], at, tuple(shapes), material, filter, sensor)
     refresh_mass(world, identity)
     if row["quarantined"]:
         own = world.shapes["body"] == identity

@@ -11,21 +11,22 @@ class Effects:
 
     Raises TypeError for a value that is not a bool, ValueError for an effect whose foundation is not declared.
     """
+
     narrowphase: bool = True
-    response: bool = False       # overlaps are pushed apart
+    response: bool = False  # overlaps are pushed apart
     gravity: bool = False
     drag: bool = False
     wind: bool = False
-    rotation: bool = False       # angular velocity turns bodies, impulses spin them
+    rotation: bool = False  # angular velocity turns bodies, impulses spin them
     friction: bool = False
     restitution: bool = False
-    stacking: bool = False       # piles stand: contacts remember their impulses
-    continuous: bool = False     # fast bodies stop at what is in their way
-    sleeping: bool = False       # what has come to rest costs nothing until it is disturbed
+    stacking: bool = False  # piles stand: contacts remember their impulses
+    continuous: bool = False  # fast bodies stop at what is in their way
+    sleeping: bool = False  # what has come to rest costs nothing until it is disturbed
     sensors: bool = False
-    persist: bool = False        # the `persist` event: pairs that go on touching
-    one_way: bool = False        # tiles open from below
-    conveyor: bool = False       # surfaces that run: Material.surface_speed
+    persist: bool = False  # the `persist` event: pairs that go on touching
+    one_way: bool = False  # tiles open from below
+    conveyor: bool = False  # surfaces that run: Material.surface_speed
 
     def __post_init__(self):
         for field in fields(self):
@@ -46,15 +47,25 @@ class Effects:
     @classmethod
     def rigid_bodies(cls) -> "Effects":
         """All that bodies which fall, bounce, rub, pile up and trigger need."""
-        return cls(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True,
-                   continuous=True, sleeping=True, sensors=True)
+        return cls(
+            response=True,
+            gravity=True,
+            rotation=True,
+            friction=True,
+            restitution=True,
+            stacking=True,
+            continuous=True,
+            sleeping=True,
+            sensors=True,
+        )
 
     def with_(self, **changes) -> "Effects":
         """A copy with some effects changed."""
         unknown = set(changes) - {field.name for field in fields(self)}
         if unknown:
-            raise TypeError(f"no effect {', '.join(sorted(unknown))}; there are "
-                            f"{', '.join(field.name for field in fields(self))}")
+            raise TypeError(
+                f"no effect {', '.join(sorted(unknown))}; there are {', '.join(field.name for field in fields(self))}"
+            )
         return replace(self, **changes)
 
     def names(self) -> list[str]:

@@ -38,9 +38,20 @@ def copy_event(events, source, target, events_out):
 @kernel
 def compare_pairs(
     # read
-    before, contacts, parked, sensors, slop, hit_speed,
+    before,
+    contacts,
+    parked,
+    sensors,
+    slop,
+    hit_speed,
     # write
-    now_out, begin_out, persist_out, end_out, hits_out, keep_out, counts_out,
+    now_out,
+    begin_out,
+    persist_out,
+    end_out,
+    hits_out,
+    keep_out,
+    counts_out,
 ):
     """Compare the pairs that touched before with the contacts of this step, both in the order of shape ids.
 
@@ -75,8 +86,10 @@ def compare_pairs(
             new = not old or (p.shape_a == c.shape_a and p.shape_b == c.shape_b)
         if not new:
             p = before[i]
-            while asleep < len(parked) and (parked[asleep].shape_a < p.shape_a or (
-                    parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b < p.shape_b)):
+            while asleep < len(parked) and (
+                parked[asleep].shape_a < p.shape_a
+                or (parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b < p.shape_b)
+            ):
                 asleep += 1
             if asleep < len(parked) and parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b == p.shape_b:
                 copy_event(before, i, touching, now_out)
@@ -151,23 +164,32 @@ class Pairs:
         if room > len(self.keep):
             self.tables = [np.zeros(2 * room, each.dtype) for each in self.tables]
             before = np.zeros(2 * room, EVENT)
-            before[:self.count] = self.before[:self.count]
+            before[: self.count] = self.before[: self.count]
             self.before, self.keep = before, np.zeros(2 * room, np.bool_)
-        compare_pairs(self.before[:self.count], contacts, parked, int(sensors), slop, hit_speed, *self.tables, self.keep,
-                      self.counts)
+        compare_pairs(
+            self.before[: self.count],
+            contacts,
+            parked,
+            int(sensors),
+            slop,
+            hit_speed,
+            *self.tables,
+            self.keep,
+            self.counts,
+        )
         now, *changes = (table[:count] for table, count in zip(self.tables, self.counts.tolist()))
         self.count = len(now)
         # What touches now is what touched before, next time: the two tables change places.
         self.tables[0], self.before = self.before, self.tables[0]
-        return *changes, self.keep[:len(contacts)]
+        return *changes, self.keep[: len(contacts)]
 
     def restore(self, touching):
         """Set the pairs that touch."""
         self.__init__()
         self.count = len(touching)
         self.before = np.zeros(max(16, self.count), EVENT)
-        self.before[:self.count] = touching
-        self.keep = np.zeros(0, np.bool_)        # grown, with all tables, by the next comparison
+        self.before[: self.count] = touching
+        self.keep = np.zeros(0, np.bool_)  # grown, with all tables, by the next comparison
 
 
 class Events:

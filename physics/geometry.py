@@ -16,24 +16,32 @@ from physics.tables import BLOCK_LINKS, CHAIN_SPAN, GRID, LINK, LINK_BLOCK, RAST
 
 SPAN = np.dtype([("offset", np.int64), ("count", np.int64)])
 CORNER = np.dtype([("x", np.float64), ("y", np.float64)])
-CELL = np.dtype([("kind", np.int64), ("left", np.float64), ("right", np.float64),
-                 ("first", np.int64), ("last", np.int64)])      # columns of the run of like cells that it belongs to
-KIND_OF = {Polygon: tables.POLYGON, Capsule: tables.CAPSULE, Segment: tables.SEGMENT, Chain: tables.CHAIN,
-           TileGrid: tables.TILES, PixelMask: tables.MASK}
+CELL = np.dtype(
+    [("kind", np.int64), ("left", np.float64), ("right", np.float64), ("first", np.int64), ("last", np.int64)]
+)  # columns of the run of like cells that it belongs to
+KIND_OF = {
+    Polygon: tables.POLYGON,
+    Capsule: tables.CAPSULE,
+    Segment: tables.SEGMENT,
+    Chain: tables.CHAIN,
+    TileGrid: tables.TILES,
+    PixelMask: tables.MASK,
+}
 
 
 class Geometry(NamedTuple):
     """What kernels read of the shapes' geometry."""
-    polygons: np.ndarray        # SPAN of corners: polygons, and capsules and segments as hulls of two
-    corners: np.ndarray         # CORNER [px] body space, clockwise on the screen
-    chains: np.ndarray          # CHAIN_SPAN
-    links: np.ndarray           # LINK
-    link_blocks: np.ndarray     # LINK_BLOCK
-    grids: np.ndarray           # GRID
-    cells: np.ndarray           # CELL: kind, surface heights of a slope as fractions, the run it belongs to
-    rasters: np.ndarray         # RASTER
-    words: np.ndarray           # uint64 pixels of all rasters
-    raster_of: np.ndarray       # (masks, buckets) raster row, -1 where not drawn at that angle yet
+
+    polygons: np.ndarray  # SPAN of corners: polygons, and capsules and segments as hulls of two
+    corners: np.ndarray  # CORNER [px] body space, clockwise on the screen
+    chains: np.ndarray  # CHAIN_SPAN
+    links: np.ndarray  # LINK
+    link_blocks: np.ndarray  # LINK_BLOCK
+    grids: np.ndarray  # GRID
+    cells: np.ndarray  # CELL: kind, surface heights of a slope as fractions, the run it belongs to
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64 pixels of all rasters
+    raster_of: np.ndarray  # (masks, buckets) raster row, -1 where not drawn at that angle yet
 
 
 class Library:
@@ -45,14 +53,24 @@ class Library:
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
-        self.shapes = {}            # key -> (row, shape); holds the shape, so that an id cannot be given twice
+        self.shapes = {}  # key -> (row, shape); holds the shape, so that an id cannot be given twice
         self.masks, self.tile_grids = [], []
-        self.outlines, self.chain_shapes = [], []      # polygons, capsules and segments by their row; chains by theirs
+        self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by their row; chains by theirs
         self.tables = self._tables()
 
     def _tables(self):
-        return Geometry(self.polygons.data, self.corners.data, self.chains.data, self.links.data, self.link_blocks.data,
-                        self.grids.data, self.cells.data, self.rasters.data, self.words.data, self.raster_of)
+        return Geometry(
+            self.polygons.data,
+            self.corners.data,
+            self.chains.data,
+            self.links.data,
+            self.link_blocks.data,
+            self.grids.data,
+            self.cells.data,
+            self.rasters.data,
+            self.words.data,
+            self.raster_of,
+        )
 
     def add(self, shape) -> tuple[int, int, int]:
         """(kind, geometry row, kind inside a Bounds) of a shape."""
@@ -63,7 +81,9 @@ class Library:
             return tables.CIRCLE, -1, -1
         key = id(shape) if isinstance(shape, (TileGrid, PixelMask)) else shape
         if key not in self.shapes:
-            add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(type(shape), self._add_hull)
+            add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(
+                type(shape), self._add_hull
+            )
             self.shapes[key] = (add(shape), shape)
             self.tables = self._tables()
         return KIND_OF[type(shape)], self.shapes[key][0], -1
@@ -93,7 +113,12 @@ class Library:
             after[-1] = b[-1] if ghosts[1] is None else ghosts[1]
         for name, points in (("a", a[:count]), ("b", b), ("before_", before), ("after_", after)):
             links[name + "x"], links[name + "y"] = points.T
-        for name, as_shape in (("friction", -1.0), ("restitution", -1.0), ("rolling_resistance", -1.0), ("surface_speed", np.nan)):
+        for name, as_shape in (
+            ("friction", -1.0),
+            ("restitution", -1.0),
+            ("rolling_resistance", -1.0),
+            ("surface_speed", np.nan),
+        ):
             links[name] = as_shape if shape.materials is None else [getattr(each, name) for each in shape.materials]
         for block, box in enumerate(self.link_blocks.append(blocks)):
             part = slice(block * BLOCK_LINKS, (block + 1) * BLOCK_LINKS)
@@ -151,15 +176,28 @@ class Library:
         if inner == tables.CIRCLE:
             shape = Circle(float(row["radius"]), (float(row["local_x"]), float(row["local_y"])))
         else:
-            shape = {tables.TILES: self.tile_grids, tables.MASK: self.masks,
-                     tables.CHAIN: self.chain_shapes}.get(inner, self.outlines)[int(row["geometry"])]
+            shape = {tables.TILES: self.tile_grids, tables.MASK: self.masks, tables.CHAIN: self.chain_shapes}.get(
+                inner, self.outlines
+            )[int(row["geometry"])]
         return Bounds(shape) if kind == tables.BOUNDS else shape
 
     @contextmanager
     def visited(self):
         """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
-        kept = [(table, table.count) for table in (self.polygons, self.corners, self.chains, self.links, self.link_blocks,
-                                                   self.grids, self.cells, self.rasters, self.words)]
+        kept = [
+            (table, table.count)
+            for table in (
+                self.polygons,
+                self.corners,
+                self.chains,
+                self.links,
+                self.link_blocks,
+                self.grids,
+                self.cells,
+                self.rasters,
+                self.words,
+            )
+        ]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
         try:

@@ -9,20 +9,21 @@ from physics.distance import checked, order_of
 from physics.geometry import Library
 from physics.motion.advance import TOLERANCE
 from physics.motion.impact import advance_on_ground, advance_parts
-from physics.narrowphase.nearest import separate_parts
 from physics.motion.time_of_impact import MISS, sweep_circles
 from physics.motion.turning import new_turning_room
 from physics.narrowphase.gjk import AX, AY, BX, BY, NX, NY, new_gap_room
+from physics.narrowphase.nearest import separate_parts
 from physics.parts import Parts, chain_outlines, mask_outlines, parts_of, rectangle, tile_outlines
 from physics.shapes import Bounds, Chain, Circle, PixelMask, TileGrid
 
-BOX_STOPS = 4000           # of a turning box, whose speed is only bounded: each is before the impact
-LOOKS = 1024               # of shapes that touch and do not approach
+BOX_STOPS = 4000  # of a turning box, whose speed is only bounded: each is before the impact
+LOOKS = 1024  # of shapes that touch and do not approach
 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
     """Whether two motions meet; the first fraction 0..1 at which they touch; where [px]; the unit normal from A to B."""
+
     hit: bool
     fraction: float
     point: tuple[float, float] | None
@@ -42,8 +43,10 @@ def time_of_impact(shape_a, start_a, end_a, shape_b, start_b, end_b) -> TimeOfIm
     motion. A Bounds whose shape turns changes its size on the way: to 1e-12 of it. Tiles and chains do not meet each
     other. Raises TypeError, ValueError.
     """
-    moves = [[checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
-             for side, shape, start, end in (("a", shape_a, start_a, end_a), ("b", shape_b, start_b, end_b))]
+    moves = [
+        [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
+        for side, shape, start, end in (("a", shape_a, start_a, end_a), ("b", shape_b, start_b, end_b))
+    ]
     ground = [isinstance(each, (TileGrid, Chain)) for each in (shape_a, shape_b)]
     if all(ground):
         return NO_IMPACT
@@ -54,7 +57,9 @@ def time_of_impact(shape_a, start_a, end_a, shape_b, start_b, end_b) -> TimeOfIm
     if fraction > 1.0:
         return NO_IMPACT
     side = -1.0 if swap else 1.0
-    return TimeOfImpact(True, float(fraction), _point(a, move_a, b, move_b, fraction), (side * nx + 0.0, side * ny + 0.0))
+    return TimeOfImpact(
+        True, float(fraction), _point(a, move_a, b, move_b, fraction), (side * nx + 0.0, side * ny + 0.0)
+    )
 
 
 def _first(a, move_a, b, move_b):
@@ -70,8 +75,9 @@ def _first(a, move_a, b, move_b):
     if isinstance(b, (TileGrid, Chain)):
         library = Library()
         row = library.add(b)[1]
-        advance_on_ground(library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), room, found,
-                          totals)
+        advance_on_ground(
+            library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), room, found, totals
+        )
     else:
         parts_b, motion_b = _local(b, move_b)
         advance_parts(parts_a, parts_b, motion_a, motion_b, room, found, totals)
@@ -151,8 +157,12 @@ def _parts_at(shape, parts, move, fraction, x, y) -> Parts:
 def _point(a, move_a, b, move_b, fraction):
     """Midway between the nearest points at a fraction [px]."""
     x, y = move_a[0][:2]
-    gap = _gap_at(*(_parts_at(each, _body_parts(getattr(each, "shape", each)), move, fraction, x, y)
-                    for each, move in ((a, move_a), (b, move_b))))
+    gap = _gap_at(
+        *(
+            _parts_at(each, _body_parts(getattr(each, "shape", each)), move, fraction, x, y)
+            for each, move in ((a, move_a), (b, move_b))
+        )
+    )
     return float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY]))
 
 
@@ -176,9 +186,14 @@ def _advance_boxes(a, move_a, b, move_b):
     tolerance = 1e-12 * (sum(reach) + path)
 
     def look(fraction):
-        gap = _gap_at(*(_parts_at(each, part, move, fraction, x, y) for each, part, move in
-                        ((a, parts[0], move_a), (b, parts[1], move_b))))
+        gap = _gap_at(
+            *(
+                _parts_at(each, part, move, fraction, x, y)
+                for each, part, move in ((a, parts[0], move_a), (b, parts[1], move_b))
+            )
+        )
         return float(gap[0]), float(gap[NX]), float(gap[NY])
+
     fraction, was_apart = 0.0, False
     for _ in range(BOX_STOPS):
         separation, nx, ny = look(fraction)

@@ -15,7 +15,7 @@ import shutil
 import sys
 import tempfile
 import warnings
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -31,15 +31,17 @@ try:
     import numba
     from numba.core import caching
     from numba.extending import intrinsic
+
     JIT = True
 except ImportError:
     numba = None
     JIT = False
 
-registry = []                  # every compiled kernel, in the order of definition: warm-up and tests read it
+registry = []  # every compiled kernel, in the order of definition: warm-up and tests read it
 
 
 # --- where compiled kernels are kept -----------------------------------------------------------------------------
+
 
 def cache_home() -> Path:
     """The user's cache folder by the platform's rule, without creating it."""
@@ -53,7 +55,7 @@ def cache_home() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "hitbox" / "kernels"
 
 
-@lru_cache(maxsize=None)
+@cache
 def _imports_of(path: Path) -> tuple[Path, ...]:
     """Files of this package that the file at `path` imports, from its import statements."""
     found = []
@@ -82,9 +84,12 @@ def source_stamp(path: Path) -> str:
     return digest.hexdigest()[:16]
 
 
-@lru_cache(maxsize=None)
+@cache
 def _writable_home() -> Path | None:
-    for home in (cache_home(), Path(tempfile.gettempdir()) / f"hitbox-kernels-{os.getuid() if hasattr(os, 'getuid') else 0}"):
+    for home in (
+        cache_home(),
+        Path(tempfile.gettempdir()) / f"hitbox-kernels-{os.getuid() if hasattr(os, 'getuid') else 0}",
+    ):
         try:
             home.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=home):
@@ -95,18 +100,22 @@ def _writable_home() -> Path | None:
     return None
 
 
-@lru_cache(maxsize=None)
+@cache
 def _folder_for(path: Path) -> str:
     """The cache folder of one kernel module; folders of older sources of the same module are purged."""
     home = _writable_home()
     if home is None:
         return ""
     path = path.resolve()
-    name = ".".join(path.relative_to(HERE).with_suffix("").parts) if path.is_relative_to(HERE) else f"outside.{path.stem}"
+    name = (
+        ".".join(path.relative_to(HERE).with_suffix("").parts) if path.is_relative_to(HERE) else f"outside.{path.stem}"
+    )
     stamp = source_stamp(path)
-    old = sorted((each for each in home.glob(f"{name}-*") if each.name != f"{name}-{stamp}"),
-                 key=lambda each: each.stat().st_mtime if each.exists() else 0.0)
-    for each in old[:-3]:        # a few stay: a bounds-checked run and another checkout are not enemies
+    old = sorted(
+        (each for each in home.glob(f"{name}-*") if each.name != f"{name}-{stamp}"),
+        key=lambda each: each.stat().st_mtime if each.exists() else 0.0,
+    )
+    for each in old[:-3]:  # a few stay: a bounds-checked run and another checkout are not enemies
         shutil.rmtree(each, ignore_errors=True)
     folder = home / f"{name}-{stamp}"
     try:
@@ -117,11 +126,12 @@ def _folder_for(path: Path) -> str:
 
 
 if JIT:
+
     class _ByContent(caching._CacheLocator):
         """A folder whose name holds all that the kernel depends on: neither dates of files nor their path count."""
 
         def __init__(self, function, path):
-            self._py_file = path               # numba names it in its warnings
+            self._py_file = path  # numba names it in its warnings
             self.line = function.__code__.co_firstlineno
 
         @classmethod
@@ -148,9 +158,11 @@ if JIT:
         def load_overload(self, sig, target_context):
             try:
                 return super().load_overload(sig, target_context)
-            except Exception as error:       # pickle raises anything on damaged bytes; the entry is compiled again
-                warnings.warn(f"compiled kernel {self._name} in {self._cache_path} is damaged ({error!r}): recompiled",
-                              stacklevel=2)
+            except Exception as error:  # pickle raises anything on damaged bytes; the entry is compiled again
+                warnings.warn(
+                    f"compiled kernel {self._name} in {self._cache_path} is damaged ({error!r}): recompiled",
+                    stacklevel=2,
+                )
                 shutil.rmtree(self._cache_path, ignore_errors=True)
                 os.makedirs(self._cache_path, exist_ok=True)
                 return None
@@ -164,9 +176,14 @@ if JIT:
     @intrinsic
     def popcount(typing_context, word):
         """Number of set bits of a uint64."""
+
         def generate(context, builder, signature, args):
-            return builder.zext(builder.ctpop(args[0]), context.get_value_type(signature.return_type)) \
-                if signature.args[0].bitwidth < 64 else builder.ctpop(args[0])
+            return (
+                builder.zext(builder.ctpop(args[0]), context.get_value_type(signature.return_type))
+                if signature.args[0].bitwidth < 64
+                else builder.ctpop(args[0])
+            )
+
         return numba.types.int64(numba.types.uint64), generate
 
     @numba.njit(inline="always")
@@ -174,6 +191,7 @@ if JIT:
         """The value as an unsigned 64-bit word."""
         return np.uint64(value)
 else:
+
     def popcount(word):
         return word.bit_count()
 
@@ -200,8 +218,11 @@ def _take_literals_as_values(dispatcher):
     general = dispatcher.get_call_template
 
     def get_call_template(args, kws):
-        return general(tuple(numba.types.unliteral(each) for each in args),
-                       {name: numba.types.unliteral(each) for name, each in kws.items()})
+        return general(
+            tuple(numba.types.unliteral(each) for each in args),
+            {name: numba.types.unliteral(each) for name, each in kws.items()},
+        )
+
     dispatcher.get_call_template = get_call_template
 
 
@@ -217,14 +238,17 @@ def kernel(function):
 
     def run(*arguments):
         return function(*[_view(each) for each in arguments])
+
     run.__name__, run.__doc__, run.__wrapped__ = function.__name__, function.__doc__, function
     return run
 
 
 # --- tables without numba ----------------------------------------------------------------------------------------
 
+
 class TableView:
     """A structured array as a sequence of row objects; `view[i].x = 1.0` writes the array."""
+
     __slots__ = ("make", "columns", "length")
 
     def __init__(self, array):
@@ -241,20 +265,23 @@ class TableView:
         return self.length
 
 
-@lru_cache(maxsize=None)
+@cache
 def _row_class(dtype):
     members = {"__slots__": ("_columns", "_index")}
 
     def __init__(self, columns, index):
         self._columns = columns
         self._index = index
+
     members["__init__"] = __init__
     for number, name in enumerate(dtype.names):
+
         def read(self, number=number):
             return self._columns[number][self._index]
 
         def write(self, value, number=number):
             self._columns[number][self._index] = value
+
         members[name] = property(read, write)
     return type("Row", (), members)
 

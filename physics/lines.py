@@ -8,7 +8,7 @@ from physics.convex import reach
 from physics.mass import NOTHING
 from physics.material import Material
 
-SHORTEST = 1e-12           # of the largest coordinate: below, a link has no direction
+SHORTEST = 1e-12  # of the largest coordinate: below, a link has no direction
 
 
 def _check_length(name, a, b):
@@ -19,6 +19,7 @@ def _check_length(name, a, b):
 @dataclass(frozen=True)
 class Segment:
     """The line from a to b, solid from both sides; no mass. Raises ValueError for one without length."""
+
     a: tuple[float, float]
     b: tuple[float, float]
 
@@ -50,6 +51,7 @@ class Chain:
     ghosts: (before, after), neighbours of the first and last point that only smooth, either may be None; materials: one
     Material per link (None: the body's). Raises ValueError for too few points, a link without length, ghosts of a loop.
     """
+
     points: tuple[tuple[float, float], ...]
     loop: bool = False
     ghosts: tuple | None = None
@@ -60,7 +62,9 @@ class Chain:
         loop = checks.flag("loop", self.loop)
         least = 3 if loop else 2
         if len(points) < least:
-            raise ValueError(f"points must be at least {least} for {'a loop' if loop else 'a chain'} (got {len(points)})")
+            raise ValueError(
+                f"points must be at least {least} for {'a loop' if loop else 'a chain'} (got {len(points)})"
+            )
         for k in range(len(points) if loop else len(points) - 1):
             following = (k + 1) % len(points)
             hint = " (a loop closes itself)" if following == 0 else ""
@@ -74,12 +78,16 @@ class Chain:
         if self.ghosts is None:
             return None
         if self.loop:
-            raise ValueError(f"ghosts must be None for a loop, whose ends are each other's neighbours (got {self.ghosts!r})")
+            raise ValueError(
+                f"ghosts must be None for a loop, whose ends are each other's neighbours (got {self.ghosts!r})"
+            )
         try:
             before, after = self.ghosts
         except (TypeError, ValueError):
             raise TypeError(f"ghosts must be a pair of points (before, after) (got {self.ghosts!r})") from None
-        ghosts = tuple(None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate((before, after)))
+        ghosts = tuple(
+            None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate((before, after))
+        )
         for k, end in enumerate((self.points[0], self.points[-1])):
             if ghosts[k] is not None:
                 _check_length(f"ghosts[{k}] and the end it smooths", ghosts[k], end)

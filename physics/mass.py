@@ -9,6 +9,7 @@ import numpy as np
 @dataclass(frozen=True)
 class Mass:
     """Mass, centre of mass in body space [px], and inertia about that centre."""
+
     mass: float
     center: tuple[float, float]
     inertia: float
@@ -27,8 +28,10 @@ def together(parts) -> Mass:
     mass = math.fsum(part.mass for part in parts)
     x = math.fsum(part.mass * (part.center[0] - base_x) for part in parts) / mass
     y = math.fsum(part.mass * (part.center[1] - base_y) for part in parts) / mass
-    inertia = math.fsum(part.inertia + part.mass * ((part.center[0] - base_x - x) ** 2 + (part.center[1] - base_y - y) ** 2)
-                        for part in parts)
+    inertia = math.fsum(
+        part.inertia + part.mass * ((part.center[0] - base_x - x) ** 2 + (part.center[1] - base_y - y) ** 2)
+        for part in parts
+    )
     return Mass(mass, (base_x + x, base_y + y), inertia)
 
 
@@ -50,13 +53,20 @@ def rounded_mass(points, radius, density) -> Mass:
     """Of a polygon grown by a radius: the polygon, a rectangle along every edge, a sector of a disc at every corner."""
     parts = [polygon_mass(points, density)]
     count = len(points)
-    edges = [(points[(k + 1) % count][0] - points[k][0], points[(k + 1) % count][1] - points[k][1]) for k in range(count)]
+    edges = [
+        (points[(k + 1) % count][0] - points[k][0], points[(k + 1) % count][1] - points[k][1]) for k in range(count)
+    ]
     for k, (dx, dy) in enumerate(edges):
         length = math.hypot(dx, dy)
         out_x, out_y = dy / length, -dx / length
         mass = density * length * radius
-        parts.append(Mass(mass, (points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
-                          mass * (length * length + radius * radius) / 12.0))
+        parts.append(
+            Mass(
+                mass,
+                (points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
+                mass * (length * length + radius * radius) / 12.0,
+            )
+        )
         before_x, before_y = edges[k - 1]
         turn = math.atan2(before_x * dy - before_y * dx, before_x * dx + before_y * dy)
         # The sector opens about the bisector of the two outward normals.
@@ -65,6 +75,11 @@ def rounded_mass(points, radius, density) -> Mass:
         size = math.hypot(bisector_x, bisector_y)
         away = 4.0 * radius * math.sin(0.5 * turn) / (3.0 * turn)
         mass = density * 0.5 * turn * radius * radius
-        parts.append(Mass(mass, (points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
-                          mass * (0.5 * radius * radius - away * away)))
+        parts.append(
+            Mass(
+                mass,
+                (points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
+                mass * (0.5 * radius * radius - away * away),
+            )
+        )
     return together(parts)

@@ -12,6 +12,7 @@ class Material:
 
     rolling_resistance is a share of the radius: the torque against rolling is at most that times radius and load.
     """
+
     density: float = 1.0
     friction: float = 0.6
     restitution: float = 0.0

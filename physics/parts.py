@@ -18,10 +18,11 @@ from physics.shapes import Bounds, Chain, PixelMask, TileGrid
 
 class Parts(NamedTuple):
     """Convex parts of one shape, all with the same rounding."""
-    corners: np.ndarray        # (n, 16, 2) [px]
-    counts: np.ndarray         # (n,) corners of each
-    boxes: np.ndarray          # (n, 4) min_x min_y max_x max_y of each with its rounding
-    radius: float              # [px]
+
+    corners: np.ndarray  # (n, 16, 2) [px]
+    counts: np.ndarray  # (n,) corners of each
+    boxes: np.ndarray  # (n, 4) min_x min_y max_x max_y of each with its rounding
+    radius: float  # [px]
 
 
 @kernel
@@ -36,8 +37,11 @@ def parts_of(outlines, radius=0.0) -> Parts:
     boxes = np.zeros((len(outlines), 4))
     for k, outline in enumerate(outlines):
         counts[k] = len(outline)
-        corners[k, :len(outline)] = outline
-        boxes[k] = *(corners[k, :len(outline)].min(axis=0) - radius), *(corners[k, :len(outline)].max(axis=0) + radius)
+        corners[k, : len(outline)] = outline
+        boxes[k] = (
+            *(corners[k, : len(outline)].min(axis=0) - radius),
+            *(corners[k, : len(outline)].max(axis=0) + radius),
+        )
     return Parts(corners, counts, boxes, float(radius))
 
 
@@ -79,22 +83,29 @@ def tile_outlines(grid, x, y, feet) -> list:
     """
     size = grid.tile_size
     solid, slopes, one_way = tile_blocks(grid)
-    found = [rectangle(x + left * size, y + top * size, x + right * size, y + bottom * size)
-             for left, top, right, bottom in solid]
+    found = [
+        rectangle(x + left * size, y + top * size, x + right * size, y + bottom * size)
+        for left, top, right, bottom in solid
+    ]
     for row, column in slopes:
         left, right = (y + (row + 1) * size - height * size for height in grid.slopes[row, column].tolist())
         x_left, x_right, bottom = x + column * size, x + (column + 1) * size, y + (row + 1) * size
         corners = [(x_left, left), (x_right, right), (x_right, bottom), (x_left, bottom)]
         found.append([each for k, each in enumerate(corners) if k > 1 or each[1] < bottom])
     for left, top, right, bottom in one_way:
-        found += [[(x + left * size, y + row * size), (x + right * size, y + row * size)] for row in range(top, bottom)
-                  if feet <= row * size]
+        found += [
+            [(x + left * size, y + row * size), (x + right * size, y + row * size)]
+            for row in range(top, bottom)
+            if feet <= row * size
+        ]
     return found
 
 
 def mask_outlines(mask, bucket, x, y) -> list:
     """Outlines of a mask's pixels at an angle bucket, whose raster's top left corner is at (x, y) [px]."""
-    return [rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask_blocks(mask, bucket)]
+    return [
+        rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask_blocks(mask, bucket)
+    ]
 
 
 def chain_outlines(chain) -> list:

@@ -20,13 +20,14 @@ from physics.shapes import SHAPES, Filter, TileGrid
 from physics.stages import narrow_phase_for_queries
 from physics.tables import BODY, MASK, SHAPE
 
-RAY_PIECES = 16            # a long slanted ray asks for up to this many boxes along it, not for one around it …
-PIECE = 8.0                # [m] … each about that wide
+RAY_PIECES = 16  # a long slanted ray asks for up to this many boxes along it, not for one around it …
+PIECE = 8.0  # [m] … each about that wide
 
 
 @dataclass(frozen=True)
 class RayHit:
     """Where a ray meets a shape: the body, the shape's id, point [px], unit normal, fraction of the translation."""
+
     body: object
     shape: int
     point: tuple[float, float]
@@ -54,15 +55,18 @@ def ray_cast_all(world, origin, translation, filter, sensors, first=False) -> li
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
         room = np.zeros((len(rows), 4))
-        found = cast_ray_at_rows(world.library.tables, world.bodies, world.shapes, rows, x, y, dx, dy, corners, room,
-                                 index.work)
+        found = cast_ray_at_rows(
+            world.library.tables, world.bodies, world.shapes, rows, x, y, dx, dy, corners, room, index.work
+        )
         hits = np.concatenate([hits, room[:found]])
         # What is met within the pieces so far has been asked: nothing nearer is left.
         if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
             break
     hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
-    return [_hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
-            for row, fraction, nx, ny in hits[:1 if first else None].tolist()]
+    return [
+        _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
+        for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
+    ]
 
 
 def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
@@ -80,8 +84,16 @@ def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
         box = [float(shapes[name][0]) for name in ("min_x", "min_y", "max_x", "max_y")]
-        rows = _allowed(world, index.rows_in(world, (min(box[0], box[0] + dx), min(box[1], box[1] + dy)),
-                                             (max(box[2], box[2] + dx), max(box[3], box[3] + dy))), filter, False)
+        rows = _allowed(
+            world,
+            index.rows_in(
+                world,
+                (min(box[0], box[0] + dx), min(box[1], box[1] + dy)),
+                (max(box[2], box[2] + dx), max(box[3], box[3] + dy)),
+            ),
+            filter,
+            False,
+        )
         if dx == 0.0 and dy == 0.0:
             return _first_contact(world, bodies, shapes, rows)
         probe = placed_parts(world.library, bodies, shapes, 0, pose[0], pose[1], -math.inf)
@@ -104,8 +116,22 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
     kinds = world.shapes["kind"][rows]
     by_parts = kinds == MASK if is_one_hull else np.ones(len(rows), bool)
     if is_one_hull:
-        found = cast_hull_at_rows(world.library.tables, world.bodies, world.shapes, rows, probe.corners[0],
-                                  int(probe.counts[0]), probe.radius, x, y, dx, dy, room, hits, work)
+        found = cast_hull_at_rows(
+            world.library.tables,
+            world.bodies,
+            world.shapes,
+            rows,
+            probe.corners[0],
+            int(probe.counts[0]),
+            probe.radius,
+            x,
+            y,
+            dx,
+            dy,
+            room,
+            hits,
+            work,
+        )
     moving, still = np.array([0.0, 0.0, 0.0, dx, dy, 0.0]), np.zeros(6)
     for row in rows[by_parts].tolist():
         impact = np.zeros(3)
@@ -145,7 +171,9 @@ def _nearest(world, rows, x, y):
     """(row, distance, point) of the nearest point of the shapes in these rows, or None."""
     nearest, room, work = np.zeros(3), new_gap_room(), world.queries.work
     point, corners = np.zeros((16, 2)), np.zeros((16, 2))
-    best = nearest_hull(world.library.tables, world.bodies, world.shapes, rows, x, y, point, corners, room, nearest, work)
+    best = nearest_hull(
+        world.library.tables, world.bodies, world.shapes, rows, x, y, point, corners, room, nearest, work
+    )
     found = [(float(nearest[0]), best, (float(nearest[1]), float(nearest[2])))] if best >= 0 else []
     alone = parts_of([[(0.0, 0.0)]])
     for row in rows.tolist():
@@ -153,7 +181,9 @@ def _nearest(world, rows, x, y):
             parts: Parts = placed_parts(world.library, world.bodies, world.shapes, row, x, y, y)
             gap = separate_parts(alone, parts, point, corners, room, np.zeros(2))
             if math.isfinite(gap):
-                found.append((max(gap, 0.0), row, (x + float(room.gap[BX]), y + float(room.gap[BY])) if gap > 0.0 else (x, y)))
+                found.append(
+                    (max(gap, 0.0), row, (x + float(room.gap[BX]), y + float(room.gap[BY])) if gap > 0.0 else (x, y))
+                )
     if not found:
         return None
     gap, row, at = min(found)
@@ -168,7 +198,9 @@ def query_aabb(world, lower, upper) -> list:
     world.queries.begin(world)
     rows = world.queries.rows_in(world, lower, upper)
     s = world.shapes[rows]
-    rows = rows[(s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1]) & (s["max_y"] >= lower[1])]
+    rows = rows[
+        (s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1]) & (s["max_y"] >= lower[1])
+    ]
     return [world.body(each) for each in np.unique(world.shapes["body"][rows]).tolist()]
 
 
@@ -198,8 +230,9 @@ def _contacts(world, bodies, shapes, rows):
     all_shapes = np.concatenate([world.shapes[rows], shapes])
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
-    return narrow_phase_for_queries().collide(world.library.tables, all_bodies, all_shapes, pairs, len(pairs), 0.0, 0.0,
-                                              world.queries.work)
+    return narrow_phase_for_queries().collide(
+        world.library.tables, all_bodies, all_shapes, pairs, len(pairs), 0.0, 0.0, world.queries.work
+    )
 
 
 def _first_contact(world, bodies, shapes, rows):
@@ -207,15 +240,21 @@ def _first_contact(world, bodies, shapes, rows):
     if not len(contacts):
         return None
     c = contacts[0]
-    return _hit(world, rows[int(c["candidate"])], 0.0, float(c["normal_x"]), float(c["normal_y"]),
-                (float(c["point_x"]), float(c["point_y"])))
+    return _hit(
+        world,
+        rows[int(c["candidate"])],
+        0.0,
+        float(c["normal_x"]),
+        float(c["normal_y"]),
+        (float(c["point_x"]), float(c["point_y"])),
+    )
 
 
 def place(library, shape, bodies, shapes, row, pose):
     """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
     kind, geometry, wrapped = library.add(shape)
     inner = getattr(shape, "shape", shape)
-    s, b = shapes[row:row + 1], bodies[row:row + 1]
+    s, b = shapes[row : row + 1], bodies[row : row + 1]
     s["id"], s["body"], s["body_row"], s["kind"], s["geometry"], s["wrapped"] = row, row, row, kind, geometry, wrapped
     s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
     b["id"], b["x"], b["y"], b["angle"] = row, *pose

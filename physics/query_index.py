@@ -12,7 +12,7 @@ from physics.narrowphase.placement import refresh_aabbs
 from physics.profile import COUNTERS, PAIRS_TESTED
 from physics.rasters import add_missing_rasters
 
-ROUNDING = 2.0 ** -48      # a box is asked for with this much of its coordinates around it: casts round as well
+ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
 
 
 @kernel
@@ -32,9 +32,13 @@ def same_poses(bodies, poses_inout):
 @kernel
 def find_loose(
     # read
-    bodies, shapes, proxies, known,
+    bodies,
+    shapes,
+    proxies,
+    known,
     # write
-    row_of_slot_out, loose_out,
+    row_of_slot_out,
+    loose_out,
 ):
     """List the shape rows that the structure may not find, and write which row each slot stands for (-1: look elsewhere).
 
@@ -51,8 +55,14 @@ def find_loose(
         held = False
         if known == 1 and s.proxy >= 0:
             p = proxies[s.proxy]
-            held = (p.row >= 0 and not p.changed and p.lower_x <= s.min_x and p.upper_x >= s.max_x and p.lower_y <= s.min_y
-                    and p.upper_y >= s.max_y)
+            held = (
+                p.row >= 0
+                and not p.changed
+                and p.lower_x <= s.min_x
+                and p.upper_x >= s.max_x
+                and p.lower_y <= s.min_y
+                and p.upper_y >= s.max_y
+            )
         if held:
             row_of_slot_out[s.proxy] = row
         else:
@@ -64,9 +74,19 @@ def find_loose(
 @kernel
 def rows_meeting(
     # read
-    shapes, row_of_slot, slots, slot_count, loose, loose_count, lower_x, lower_y, upper_x, upper_y,
+    shapes,
+    row_of_slot,
+    slots,
+    slot_count,
+    loose,
+    loose_count,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
     # write
-    rows_out, work_inout,
+    rows_out,
+    work_inout,
 ):
     """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px]. Returns their number."""
     found = 0
@@ -90,7 +110,7 @@ class QueryIndex:
 
     def __init__(self):
         self.work = np.zeros(len(COUNTERS), np.int64)
-        self.seen = ()             # what the loose rows were found for: other tables or a step make it stale
+        self.seen = ()  # what the loose rows were found for: other tables or a step make it stale
         self.poses = np.zeros((0, 3))
         self.row_of_slot = np.zeros(0, np.int64)
         self.loose = self.rows = np.zeros(0, np.int64)
@@ -114,7 +134,9 @@ class QueryIndex:
             self.poses = np.full((len(bodies), 3), np.nan)
         # A step makes new events; shapes that come, go or come back from quarantine take and leave places.
         seen = (world.events, world.pairs, world.broadphase, len(shapes), world._next_shape, len(world.pairs.free))
-        same = len(seen) == len(self.seen) and all(a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen))
+        same = len(seen) == len(self.seen) and all(
+            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen)
+        )
         if same_poses(bodies, self.poses) and same:
             return
         self.seen = seen
@@ -125,7 +147,9 @@ class QueryIndex:
             self.row_of_slot, self.slots = np.zeros(len(proxies), np.int64), np.zeros(len(proxies), np.int64)
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
-        self.loose_count = find_loose(bodies, shapes, proxies, int(not world.pairs.everything), self.row_of_slot, self.loose)
+        self.loose_count = find_loose(
+            bodies, shapes, proxies, int(not world.pairs.everything), self.row_of_slot, self.loose
+        )
 
     def rows_in(self, world, lower, upper) -> np.ndarray:
         """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it; none quarantined."""
@@ -134,6 +158,7 @@ class QueryIndex:
         found = 0
         if not world.pairs.everything and self.loose_count < len(world.shapes):
             found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
-        count = rows_meeting(world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows,
-                             self.work)
+        count = rows_meeting(
+            world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
+        )
         return np.sort(self.rows[:count])

@@ -6,41 +6,48 @@ in metres (`pixels_per_meter=1`) behaves as its copy in pixels.
 
 from dataclasses import dataclass
 
-PIXELS_PER_METER = 32.0      # a hero of 1.5 m is 48 px: the scale of most pixel art
-STANDARD_GRAVITY = 9.8       # [m/s2]
+PIXELS_PER_METER = 32.0  # a hero of 1.5 m is 48 px: the scale of most pixel art
+STANDARD_GRAVITY = 9.8  # [m/s2]
 
-LINEAR_SLOP = 0.005          # [m] overlap or gap in which a contact is kept. Larger: visible sinking. Smaller: flicker
-AABB_MARGIN = 0.05           # [m] how far a fat AABB of the tree outgrows its box (Box2D v3), at most …
+LINEAR_SLOP = 0.005  # [m] overlap or gap in which a contact is kept. Larger: visible sinking. Smaller: flicker
+AABB_MARGIN = 0.05  # [m] how far a fat AABB of the tree outgrows its box (Box2D v3), at most …
 AABB_MARGIN_FRACTION = 0.125  # … this share of the box, so that tiny bodies stay tight
-RESTITUTION_SPEED = 1.0      # [m/s] slower impacts do not bounce, or a resting body would tremble for ever
-HIT_SPEED = 1.0              # [m/s] slower contacts are not reported as hits: no sound for a crate that rests
+RESTITUTION_SPEED = 1.0  # [m/s] slower impacts do not bounce, or a resting body would tremble for ever
+HIT_SPEED = 1.0  # [m/s] slower contacts are not reported as hits: no sound for a crate that rests
 
 # The stacking solvers. Values of the soft step: Box2D v3.2, constants.h, types.c, contact_solver.c.
-SPECULATIVE_DISTANCE = 4.0 * LINEAR_SLOP    # [m] gap at which a contact is prepared. Larger: more rows. Smaller: late contacts
-RECYCLE_DISTANCE = 0.25 * LINEAR_SLOP       # [m] a manifold is used again while its points moved less. Larger: ghosts on corners
-CONTACT_HERTZ = 30.0         # [1/s] stiffness of a contact, at most an eighth of the substeps per second
-CONTACT_DAMPING = 10.0       # damping ratio: far above 1, so that overlap is let out without a bounce
-STILL_STIFFNESS = 2.0        # contacts with what cannot be pushed are this much stiffer: the ground wins
-PUSH_SPEED = 3.0             # [m/s] fastest push out of an overlap. Larger: a deep overlap explodes
-CROWD = 8                    # contacts of a body that are pushed out at full speed; with more each gets its share of eight, or
-                             # a hundred bodies in one place would be shot apart
-BAUMGARTE = 0.1              # share of an overlap that sequential impulses take out per step (Chipmunk). 0.2 rocks a column of 15 down
+SPECULATIVE_DISTANCE = (
+    4.0 * LINEAR_SLOP
+)  # [m] gap at which a contact is prepared. Larger: more rows. Smaller: late contacts
+RECYCLE_DISTANCE = (
+    0.25 * LINEAR_SLOP
+)  # [m] a manifold is used again while its points moved less. Larger: ghosts on corners
+CONTACT_HERTZ = 30.0  # [1/s] stiffness of a contact, at most an eighth of the substeps per second
+CONTACT_DAMPING = 10.0  # damping ratio: far above 1, so that overlap is let out without a bounce
+STILL_STIFFNESS = 2.0  # contacts with what cannot be pushed are this much stiffer: the ground wins
+PUSH_SPEED = 3.0  # [m/s] fastest push out of an overlap. Larger: a deep overlap explodes
+CROWD = 8  # contacts of a body that are pushed out at full speed; with more each gets its share of eight, or
+# a hundred bodies in one place would be shot apart
+BAUMGARTE = (
+    0.1  # share of an overlap that sequential impulses take out per step (Chipmunk). 0.2 rocks a column of 15 down
+)
 ITERATIONS_PER_SUBSTEP = 2.5  # passes of sequential impulses that cost what one substep of the soft step costs: 4 -> 10
-COLORS = 62                  # bits of an int64 that are safe to shift; what fits in none is solved first, in order
-SLEEP_SPEED = 0.05           # [m/s] of the fastest point; slower bodies fall asleep after …
-SLEEP_TIME = 0.5             # [s] (Box2D v3.2)
-IMPACT_ROUNDS = 64           # times that impacts are looked for again after one stopped another's partner
+COLORS = 62  # bits of an int64 that are safe to shift; what fits in none is solved first, in order
+SLEEP_SPEED = 0.05  # [m/s] of the fastest point; slower bodies fall asleep after …
+SLEEP_TIME = 0.5  # [s] (Box2D v3.2)
+IMPACT_ROUNDS = 64  # times that impacts are looked for again after one stopped another's partner
 
-MASK_ANGLE_BUCKETS = 128     # masks are turned to multiples of 360/128 = 2.8 degrees: the edge of a 64 px sprite moves by
-                             # at most 0.8 px within a bucket, below the pixel grid it is drawn on
-PROJECTION_PASSES = 4        # how often the push-out sees every contact; a crate between two walls needs two
-SPEED_LIMIT = 1e9            # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
-POSITION_LIMIT = 2.0 ** 52   # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined
+MASK_ANGLE_BUCKETS = 128  # masks are turned to multiples of 360/128 = 2.8 degrees: the edge of a 64 px sprite moves by
+# at most 0.8 px within a bucket, below the pixel grid it is drawn on
+PROJECTION_PASSES = 4  # how often the push-out sees every contact; a crate between two walls needs two
+SPEED_LIMIT = 1e9  # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
+POSITION_LIMIT = 2.0**52  # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined
 
 
 @dataclass(frozen=True)
 class Tolerances:
     """The tolerances of one world in its own pixels."""
+
     pixels_per_meter: float
     slop: float
     speculative: float
@@ -55,5 +62,14 @@ class Tolerances:
 def tolerances(pixels_per_meter: float) -> Tolerances:
     """All tolerances scaled to a world's pixels per metre."""
     scale = pixels_per_meter
-    return Tolerances(scale, LINEAR_SLOP * scale, SPECULATIVE_DISTANCE * scale, RECYCLE_DISTANCE * scale,
-                      PUSH_SPEED * scale, SLEEP_SPEED * scale, RESTITUTION_SPEED * scale, HIT_SPEED * scale, SPEED_LIMIT * scale)
+    return Tolerances(
+        scale,
+        LINEAR_SLOP * scale,
+        SPECULATIVE_DISTANCE * scale,
+        RECYCLE_DISTANCE * scale,
+        PUSH_SPEED * scale,
+        SLEEP_SPEED * scale,
+        RESTITUTION_SPEED * scale,
+        HIT_SPEED * scale,
+        SPEED_LIMIT * scale,
+    )

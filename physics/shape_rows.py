@@ -14,11 +14,15 @@ def check_shapes(shapes, kind, angles, swept):
         if not isinstance(shape, SHAPES):
             raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
         if isinstance(shape, PixelMask) and swept in (RAY, SWEPT):
-            raise ValueError(f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "
-                             "masks are not swept, nor is anything against them")
+            raise ValueError(
+                f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "
+                "masks are not swept, nor is anything against them"
+            )
         if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
-            raise ValueError(f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
-                             f"{np.asarray(angles).tolist()})")
+            raise ValueError(
+                f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
+                f"{np.asarray(angles).tolist()})"
+            )
         if isinstance(shape, Chain) and kind == DYNAMIC:
             raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
 

@@ -13,14 +13,29 @@ import numpy as np
 from physics import checks
 from physics.convex import MAX_CORNERS, Capsule, Circle, Polygon
 from physics.lines import Chain, Segment
-from physics.mass import NOTHING, Mass, together
 from physics.masks.rotate import Turned, bucket_of, turn
+from physics.mass import NOTHING, Mass, together
 from physics.material import Material
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.tile_grid import TileGrid, bools
 
-__all__ = ["Bounds", "Capsule", "Chain", "Circle", "Filter", "MAX_CORNERS", "Mass", "Material", "PixelMask", "Polygon",
-           "SHAPES", "Segment", "TileGrid", "mass_of", "packed"]
+__all__ = [
+    "Bounds",
+    "Capsule",
+    "Chain",
+    "Circle",
+    "Filter",
+    "MAX_CORNERS",
+    "Mass",
+    "Material",
+    "PixelMask",
+    "Polygon",
+    "SHAPES",
+    "Segment",
+    "TileGrid",
+    "mass_of",
+    "packed",
+]
 
 
 class PixelMask:
@@ -40,10 +55,10 @@ class PixelMask:
         self.solid = solid
         solid.flags.writeable = False
         self._turned = {}
-        self.fitted = {}               # tier -> the shapes that stand for it, kept by fitting.fit
+        self.fitted = {}  # tier -> the shapes that stand for it, kept by fitting.fit
 
     def __deepcopy__(self, memo):
-        return self                # a value: copies of a world share it
+        return self  # a value: copies of a world share it
 
     @classmethod
     def from_array(cls, solid, origin=None, snap=True) -> "PixelMask":
@@ -53,7 +68,8 @@ class PixelMask:
     @classmethod
     def from_surface(cls, surface, threshold=127, origin=None, snap=True) -> "PixelMask":
         """From a pygame surface: solid where alpha > threshold; a colour key is clear. Raises TypeError."""
-        import pygame           # the one door through which sprites enter
+        import pygame  # the one door through which sprites enter
+
         if not isinstance(surface, pygame.Surface):
             raise TypeError(f"surface must be a pygame.Surface (got {surface!r})")
         threshold = checks.whole("threshold", threshold, 0, 255)
@@ -137,6 +153,7 @@ def packed(solid: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class Bounds:
     """The wrapped shape's world AABB at its pose, as a shape: the AABB tier."""
+
     shape: Circle | Capsule | Polygon | PixelMask
 
     def __post_init__(self):
@@ -161,6 +178,7 @@ SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 @dataclass(frozen=True)
 class Filter:
     """Two shapes meet if a.membership & b.mask and b.membership & a.mask; 32 bits each. Raises ValueError."""
+
     membership: int = 1
     mask: int = 0xFFFFFFFF
 

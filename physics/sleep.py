@@ -85,8 +85,10 @@ def in_order(contacts) -> np.ndarray:
 
 def forget(world):
     """Drop the kept contacts of bodies and shapes that are gone; refresh the rows of the others."""
-    bodies, shapes = np.append(world.bodies["id"], -1), np.append(world.shapes["id"], -1)      # no id is -1
-    world.found_contacts, world.parked = (_refreshed(each, bodies, shapes) for each in (world.found_contacts, world.parked))
+    bodies, shapes = np.append(world.bodies["id"], -1), np.append(world.shapes["id"], -1)  # no id is -1
+    world.found_contacts, world.parked = (
+        _refreshed(each, bodies, shapes) for each in (world.found_contacts, world.parked)
+    )
 
 
 def _refreshed(contacts, bodies, shapes):

@@ -15,14 +15,51 @@ from physics.shapes import Capsule, Chain, Material, PixelMask, Polygon, Segment
 from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
 
 VERSION = 2
-DAMAGE = (ValueError, TypeError, KeyError, IndexError, EOFError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error,
-          RuntimeError, SyntaxError, tokenize.TokenError)
-TABLES = {"bodies": BODY, "shapes": SHAPE, "characters": CHARACTER, "touching": EVENT, "sensing": EVENT,
-          "contacts": CONTACT, "found": CONTACT, "parked": CONTACT}
+DAMAGE = (
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    EOFError,
+    OverflowError,
+    AttributeError,
+    zipfile.BadZipFile,
+    zlib.error,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+)
+TABLES = {
+    "bodies": BODY,
+    "shapes": SHAPE,
+    "characters": CHARACTER,
+    "touching": EVENT,
+    "sensing": EVENT,
+    "contacts": CONTACT,
+    "found": CONTACT,
+    "parked": CONTACT,
+}
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
-WALK = ("body", "left", "top", "remainder_x", "remainder_y", "riding", "grounded", "squeezed", "pressed", "carry_x", "carry_y",
-        "belt", "belt_x", "push_vx", "push_vy", "deep", "wedged")
+WALK = (
+    "body",
+    "left",
+    "top",
+    "remainder_x",
+    "remainder_y",
+    "riding",
+    "grounded",
+    "squeezed",
+    "pressed",
+    "carry_x",
+    "carry_y",
+    "belt",
+    "belt_x",
+    "push_vx",
+    "push_vy",
+    "deep",
+    "wedged",
+)
 
 
 def digest(world) -> str:
@@ -69,10 +106,16 @@ class Snapshot:
 def take(world) -> Snapshot:
     """Copy the state of a world."""
     library = world.library
-    arrays = {"bodies": world.bodies.copy(), "shapes": world.shapes.copy(), "characters": world.characters.rows.copy(),
-              "touching": world._touching.before[:world._touching.count].copy(),
-              "sensing": world._sensing.before[:world._sensing.count].copy(), "contacts": world.contacts.copy(),
-              "found": world.found_contacts.copy(), "parked": world.parked.copy()}
+    arrays = {
+        "bodies": world.bodies.copy(),
+        "shapes": world.shapes.copy(),
+        "characters": world.characters.rows.copy(),
+        "touching": world._touching.before[: world._touching.count].copy(),
+        "sensing": world._sensing.before[: world._sensing.count].copy(),
+        "contacts": world.contacts.copy(),
+        "found": world.found_contacts.copy(),
+        "parked": world.parked.copy(),
+    }
     for number, shape in enumerate(library.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
     for number, shape in enumerate(library.chain_shapes):
@@ -83,14 +126,25 @@ def take(world) -> Snapshot:
     for number, shape in enumerate(library.masks):
         arrays[f"mask_{number}"] = shape.solid
     tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
-    facts = {"version": VERSION, "effects": world.effects.names(), "next_body": world._next_body,
-             "next_shape": world._next_shape, "gravity": world.gravity, "wind": world.wind, "drag": world.drag, "tiers": tiers,
-             "random": world.random.bit_generator.state, "stacks": world.stacks,
-             "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in library.outlines],
-             "chains": [[shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
-                        for shape in library.chain_shapes],
-             "tile_sizes": [shape.tile_size for shape in library.tile_grids],
-             "origins": [shape.origin for shape in library.masks]}
+    facts = {
+        "version": VERSION,
+        "effects": world.effects.names(),
+        "next_body": world._next_body,
+        "next_shape": world._next_shape,
+        "gravity": world.gravity,
+        "wind": world.wind,
+        "drag": world.drag,
+        "tiers": tiers,
+        "random": world.random.bit_generator.state,
+        "stacks": world.stacks,
+        "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in library.outlines],
+        "chains": [
+            [shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
+            for shape in library.chain_shapes
+        ],
+        "tile_sizes": [shape.tile_size for shape in library.tile_grids],
+        "origins": [shape.origin for shape in library.masks],
+    }
     return Snapshot(arrays, facts)
 
 
@@ -149,10 +203,17 @@ def _library(arrays, facts):
     library = Library()
     for number, (name, radius) in enumerate(facts["hulls"]):
         points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
-        library.add({"Polygon": lambda: Polygon(points, radius), "Capsule": lambda: Capsule(*points, radius),
-                     "Segment": lambda: Segment(*points)}[name]())
+        library.add(
+            {
+                "Polygon": lambda: Polygon(points, radius),
+                "Capsule": lambda: Capsule(*points, radius),
+                "Segment": lambda: Segment(*points),
+            }[name]()
+        )
     for number, (loop, ghosts, materials) in enumerate(facts["chains"]):
-        library.add(Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials)))
+        library.add(
+            Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))
+        )
     for number, size in enumerate(facts["tile_sizes"]):
         library.add(TileGrid(arrays[f"solid_{number}"], size, arrays[f"one_way_{number}"], arrays[f"slopes_{number}"]))
     for number, origin in enumerate(facts["origins"]):

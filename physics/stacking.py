@@ -5,7 +5,8 @@ from their anchors, not detected twice.
 """
 
 import math
-from typing import Callable, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,8 +24,15 @@ from physics.solver import sequential_impulse, soft_step
 from physics.solver.approach import measure_approach
 from physics.solver.bounce import restore_bounces
 from physics.solver.coloring import color_groups, group_contacts, order_groups
-from physics.solver.prepare import (make_gather, make_prepare, make_substep_positions, make_substep_velocities,
-                                    make_warm_start, scatter_motions, store_impulses)
+from physics.solver.prepare import (
+    make_gather,
+    make_prepare,
+    make_substep_positions,
+    make_substep_velocities,
+    make_warm_start,
+    scatter_motions,
+    store_impulses,
+)
 from physics.tables import CONSTRAINT, DYNAMIC, MOTION
 
 SOLVE = {"sequential_impulse": sequential_impulse.solve, "soft_step": soft_step.solve}
@@ -38,14 +46,18 @@ WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
 
 class Passes(NamedTuple):
     """The passes that every stacking solver calls, compiled for the effects of a world."""
+
     velocities: Callable
     positions: Callable
     warm_start: Callable
 
 
 def passes_for(effects) -> Passes:
-    return Passes(SUBSTEP_VELOCITIES[effects.drag, effects.rotation], SUBSTEP_POSITIONS[effects.rotation],
-                  WARM_START[effects.rotation])
+    return Passes(
+        SUBSTEP_VELOCITIES[effects.drag, effects.rotation],
+        SUBSTEP_POSITIONS[effects.rotation],
+        WARM_START[effects.rotation],
+    )
 
 
 class Room:
@@ -76,8 +88,16 @@ def update_rectangles(world, dt):
         pairs.changed = np.zeros(2 * len(world.shapes), np.int64)
     gravity = world.gravity if world.effects.gravity else (0.0, 0.0)
     world.changed_count = update_fat_rectangles(
-        world.bodies, world.shapes, *gravity, dt, tolerances.speculative, AABB_MARGIN * tolerances.pixels_per_meter,
-        AABB_MARGIN_FRACTION, pairs.proxies, pairs.changed)
+        world.bodies,
+        world.shapes,
+        *gravity,
+        dt,
+        tolerances.speculative,
+        AABB_MARGIN * tolerances.pixels_per_meter,
+        AABB_MARGIN_FRACTION,
+        pairs.proxies,
+        pairs.changed,
+    )
 
 
 def bear_characters(world):
@@ -93,8 +113,13 @@ def bear_characters(world):
         ids = np.concatenate([characters["riding"][stirred], characters["pressed"][new]])
         sleep.wake_ids(world, ids[np.isin(ids, bodies["id"][bodies["kind"] == DYNAMIC])])
     characters["pressed"] = characters["riding"]
-    press(world.shapes, *(world.gravity if world.effects.gravity else (0.0, 0.0)), world.tolerances.sleep_speed, characters,
-          bodies)
+    press(
+        world.shapes,
+        *(world.gravity if world.effects.gravity else (0.0, 0.0)),
+        world.tolerances.sleep_speed,
+        characters,
+        bodies,
+    )
 
 
 def narrow_phase(effects):
@@ -108,14 +133,26 @@ def narrow_phase(effects):
             world.found_contacts = previous[:0]
             sleep.wake_disturbed(world, dt)
             return
-        contacts = narrow.collide(world.library.tables, world.bodies, world.shapes, rows, len(rows), tolerances.speculative,
-                                  0.1 * tolerances.slop, world.profile.work, SOLIDS, previous, tolerances.recycle)
+        contacts = narrow.collide(
+            world.library.tables,
+            world.bodies,
+            world.shapes,
+            rows,
+            len(rows),
+            tolerances.speculative,
+            0.1 * tolerances.slop,
+            world.profile.work,
+            SOLIDS,
+            previous,
+            tolerances.recycle,
+        )
         carry_over(world.bodies, world.shapes, previous, contacts)
         mix_materials(world.library.tables, world.shapes, contacts)
         measure_approach(world.bodies, contacts)
         world.found_contacts = contacts
         if effects.sleeping:
             sleep.wake_disturbed(world, dt)
+
     return run
 
 
@@ -130,14 +167,22 @@ def solve_contacts(effects, solver):
         if effects.sleeping and not is_anything_active(bodies):
             return
         room.grow(len(bodies), len(contacts))
-        motions, constraints = room.motions[:len(bodies)], room.constraints
+        motions, constraints = room.motions[: len(bodies)], room.constraints
         gather(bodies, *world.gravity, world.drag, *world.wind, motions, work)
         if len(world.characters.rows):
             motions["walks"][world.characters.rows["body_row"]] = ~world.characters.rows["wedged"]
         if dt > 0.0:
             count = group_contacts(motions, contacts, room.groups)
-            color_groups(motions, contacts, room.groups, count, room.taken[:len(bodies)],
-                         room.degrees[:len(bodies)], room.colors, room.starts)
+            color_groups(
+                motions,
+                contacts,
+                room.groups,
+                count,
+                room.taken[: len(bodies)],
+                room.degrees[: len(bodies)],
+                room.colors,
+                room.starts,
+            )
             order_groups(room.groups, count, room.colors, room.starts, room.cursors, room.ordered)
             h = dt if solver == "sequential_impulse" else dt / world.substeps
             prepare(bodies, motions, room.degrees, room.ordered, count, h, contacts, constraints, work)
@@ -152,6 +197,7 @@ def solve_contacts(effects, solver):
         follow_bodies(bodies, contacts)
         # Who was pushed round stands at an angle that was not foreseen.
         add_missing_rasters(world, 0.0)
+
     return run
 
 
@@ -162,8 +208,9 @@ def sense(effects):
     def run(world, dt):
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)
         rows = world.pairs.rows
-        contacts = narrow.collide(world.library.tables, world.bodies, world.shapes, rows, len(rows), 0.0, 0.0,
-                                  world.profile.work, SENSORS)
+        contacts = narrow.collide(
+            world.library.tables, world.bodies, world.shapes, rows, len(rows), 0.0, 0.0, world.profile.work, SENSORS
+        )
         swept = world.swept_sensors
         if len(swept):
             known = contacts["shape_a"] << 32 | contacts["shape_b"]
@@ -172,4 +219,5 @@ def sense(effects):
             world.swept_sensors = swept[:0]
         measure_approach(world.bodies, contacts)
         world.sensed = contacts
+
     return run

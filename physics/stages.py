@@ -4,8 +4,8 @@ A stage unpacks tables and calls kernels; it holds no loop over bodies. A stage 
 is not called, and its kernels are never compiled.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import numpy as np
 
@@ -19,8 +19,8 @@ from physics.narrowphase.contacts import new_scratch, write_impacts
 from physics.narrowphase.dispatch import NarrowPhase
 from physics.narrowphase.persist import mix_materials
 from physics.narrowphase.placement import refresh_aabbs
-from physics.rasters import add_missing_rasters
 from physics.profile import CONTACTS, COUNTERS
+from physics.rasters import add_missing_rasters
 from physics.settings import POSITION_LIMIT, PROJECTION_PASSES
 from physics.solver.approach import advance_contacts, measure_approach, prepare_contacts
 from physics.solver.blocking import stay_behind, stop_approach
@@ -31,17 +31,27 @@ __all__ = ["PairList", "Stage", "plan"]
 
 # One compiled pass per combination of effects that it depends on; made here, compiled when first run.
 BOTH = (False, True)
-VELOCITIES = {(g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
-              for g in BOTH for d in BOTH for w in BOTH for r in BOTH}
+VELOCITIES = {
+    (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
+    for g in BOTH
+    for d in BOTH
+    for w in BOTH
+    for r in BOTH
+}
 POSITIONS = {r: make_position_pass(rotation=r) for r in (False, True)}
 RECTANGLES = {r: make_rectangle_pass(rotation=r) for r in (False, True)}
-PROJECTIONS = {(r, f, b): make_projection_pass(rotation=r, friction=f, restitution=b)
-               for r in (False, True) for f in (False, True) for b in (False, True)}
+PROJECTIONS = {
+    (r, f, b): make_projection_pass(rotation=r, friction=f, restitution=b)
+    for r in (False, True)
+    for f in (False, True)
+    for b in (False, True)
+}
 
 
 @dataclass(frozen=True)
 class Stage:
     """A named step of the step: run(world, dt)."""
+
     name: str
     run: Callable
 
@@ -70,8 +80,12 @@ def plan(effects, solver) -> list[Stage]:
 
 def _plan_piles(effects, solver):
     """The stages of a world with a solver for piles: contacts first, then the solver, which also moves the bodies."""
-    found = [Stage("motion_rectangles", _fat_rectangles), Stage("broad_phase", _broad_phase),
-             Stage("narrow_phase", stacking.narrow_phase(effects)), Stage(solver, stacking.solve_contacts(effects, solver))]
+    found = [
+        Stage("motion_rectangles", _fat_rectangles),
+        Stage("broad_phase", _broad_phase),
+        Stage("narrow_phase", stacking.narrow_phase(effects)),
+        Stage(solver, stacking.solve_contacts(effects, solver)),
+    ]
     if effects.continuous:
         found.append(Stage("time_of_impact", sweeps.Sweeper(effects.one_way).run))
     found += [Stage("carry", lambda world, dt: carry.carry_characters(world, dt))]
@@ -87,9 +101,10 @@ def _velocities(effects):
     integrate = VELOCITIES[effects.gravity, effects.drag, effects.wind, effects.rotation]
 
     def run(world, dt):
-        if effects.stacking:                  # under another solver for the moment
+        if effects.stacking:  # under another solver for the moment
             stacking.bear_characters(world)
         integrate(*world.gravity, world.drag, *world.wind, dt, world.bodies)
+
     return Stage("integrate_velocities", run)
 
 
@@ -102,8 +117,10 @@ def _rectangles(effects):
         pairs = world.pairs
         if len(pairs.changed) < len(world.shapes):
             pairs.changed = np.zeros(2 * len(world.shapes), np.int64)
-        world.changed_count = update(world.library.tables, world.bodies, dt, world.tolerances.slop, world.shapes,
-                                     pairs.proxies, pairs.changed)
+        world.changed_count = update(
+            world.library.tables, world.bodies, dt, world.tolerances.slop, world.shapes, pairs.proxies, pairs.changed
+        )
+
     return Stage("motion_rectangles", run)
 
 
@@ -120,8 +137,13 @@ def _quarantine(world, dt):
     found = find_broken(world.tolerances.speed_limit, POSITION_LIMIT, dt, bodies, broken)
     if found:
         ids = bodies["id"][broken[:found]]
-        world.events.quarantined = np.array([(each, "position, angle or velocity is not finite or beyond what a double resolves")
-                                             for each in ids.tolist()], QUARANTINE)
+        world.events.quarantined = np.array(
+            [
+                (each, "position, angle or velocity is not finite or beyond what a double resolves")
+                for each in ids.tolist()
+            ],
+            QUARANTINE,
+        )
         own = np.isin(world.shapes["body"], ids)
         world.pairs.free_proxies(world.shapes["proxy"][own])
         world.shapes["proxy"][own] = -1
@@ -139,8 +161,19 @@ def _impacts(effects):
         bodies, shapes, rows = world.bodies, world.shapes, world.pairs.rows
         if len(world.impacts) < len(rows):
             world.impacts = np.zeros((2 * len(rows), 5))
-        found = find(world.library.tables, bodies, shapes, rows, len(rows), dt, world.tolerances.slop, int(effects.rotation),
-                     world.impact_scratch, world.impacts, world.profile.work)
+        found = find(
+            world.library.tables,
+            bodies,
+            shapes,
+            rows,
+            len(rows),
+            dt,
+            world.tolerances.slop,
+            int(effects.rotation),
+            world.impact_scratch,
+            world.impacts,
+            world.profile.work,
+        )
         turning = sweeper.foresee(world, dt)
         if len(turning):
             world.impacts = np.concatenate([world.impacts[:found], turning])
@@ -149,6 +182,7 @@ def _impacts(effects):
         bodies["fraction"] = 1.0
         if world.effects.response:
             stop_at_impacts(shapes, rows, world.impacts, world.impact_count, bodies)
+
     return Stage("time_of_impact", run)
 
 
@@ -161,6 +195,7 @@ def _positions(effects):
         # What was stopped on its way may stand at an angle between the two that were foreseen.
         add_missing_rasters(world, 0.0)
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+
     return Stage("integrate_positions", run)
 
 
@@ -168,13 +203,21 @@ def _narrow_phase(effects):
     narrow = NarrowPhase(full_masks=effects.response, one_way=effects.one_way, boxes_only=not effects.narrowphase)
 
     def run(world, dt):
-        world.detect = lambda: narrow.collide(world.library.tables, world.bodies, world.shapes, world.pairs.rows,
-                                              len(world.pairs.rows), world.tolerances.slop, 0.1 * world.tolerances.slop,
-                                              world.profile.work)
+        world.detect = lambda: narrow.collide(
+            world.library.tables,
+            world.bodies,
+            world.shapes,
+            world.pairs.rows,
+            len(world.pairs.rows),
+            world.tolerances.slop,
+            0.1 * world.tolerances.slop,
+            world.profile.work,
+        )
         contacts = _measured(world, world.detect())
         if world.effects.continuous and world.impact_count:
             contacts = _append_impacts(world, contacts, dt)
         world.found_contacts = contacts
+
     return Stage("narrow_phase", run)
 
 
@@ -191,8 +234,16 @@ def _measured(world, contacts):
 def _append_impacts(world, contacts, dt):
     """The contacts with those of the impacts that the test at the final poses did not see, in the candidates' order."""
     room = np.zeros(world.impact_count, CONTACT)
-    found = write_impacts(world.bodies, world.shapes, world.pairs.rows, world.impacts, world.impact_count, dt,
-                          int(world.effects.response), room)
+    found = write_impacts(
+        world.bodies,
+        world.shapes,
+        world.pairs.rows,
+        world.impacts,
+        world.impact_count,
+        dt,
+        int(world.effects.response),
+        room,
+    )
     met = _measured(world, room[:found])
     # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
     passed = met["candidate"][met["separation"] < -world.tolerances.slop]
@@ -212,7 +263,7 @@ def _projection(effects):
 
     def run(world, dt):
         if dt == 0.0:
-            return                      # no time, no motion: contacts are reported, nothing is pushed
+            return  # no time, no motion: contacts are reported, nothing is pushed
         solid = ~world.found_contacts["sensor"]
         contacts = world.found_contacts if solid.all() else world.found_contacts[solid]
         for each in range(PROJECTION_PASSES):
@@ -221,6 +272,7 @@ def _projection(effects):
         if contacts is not world.found_contacts:
             world.found_contacts[solid] = contacts
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)
+
     return Stage("projection", run)
 
 
@@ -248,13 +300,17 @@ def _blocking(world, dt):
 def _events(effects):
     def run(world, dt):
         contacts, events, tolerances = world.found_contacts, world.events, world.tolerances
-        begin, persist, events.end, hits, keep = world._touching.compare(contacts, world.parked, False, tolerances.slop, tolerances.hit_speed)
+        begin, persist, events.end, hits, keep = world._touching.compare(
+            contacts, world.parked, False, tolerances.slop, tolerances.hit_speed
+        )
         events.begin, events.hits = begin, hits
         if effects.persist:
             events.persist = persist
         if effects.sensors:
             sensed = contacts if world.sensed is None else world.sensed
-            events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(sensed, world.parked[:0], True, 0.0, np.inf)
+            events.sensor_begin, _, events.sensor_end, _, _ = world._sensing.compare(
+                sensed, world.parked[:0], True, 0.0, np.inf
+            )
             keep = keep & ~contacts["sensor"]
         world.tell_contacts(contacts, keep)
         world.profile.work[CONTACTS] = np.count_nonzero(keep)
@@ -263,6 +319,7 @@ def _events(effects):
             bodies["awake"] &= ~bodies["quarantined"]
         else:
             bodies["awake"] = ~bodies["quarantined"]
+
     return Stage("events", run)
 
 

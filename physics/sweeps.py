@@ -19,8 +19,7 @@ from physics.sleep import in_order
 from physics.solver.approach import measure_approach
 from physics.tables import CONTACT, DYNAMIC, RAY, SWEPT
 
-
-SAME_FRACTION = 1e-9       # of a step
+SAME_FRACTION = 1e-9  # of a step
 
 
 class Sweeper:
@@ -89,8 +88,12 @@ class Sweeper:
         own = np.flatnonzero(rows[shapes["body_row"]] & (shapes["proxy"] >= 0))
         proxies = pairs.proxies[shapes["proxy"][own]]
         s = shapes[own]
-        out = ((s["min_x"] < proxies["lower_x"]) | (s["max_x"] > proxies["upper_x"]) | (s["min_y"] < proxies["lower_y"])
-               | (s["max_y"] > proxies["upper_y"]))
+        out = (
+            (s["min_x"] < proxies["lower_x"])
+            | (s["max_x"] > proxies["upper_x"])
+            | (s["min_y"] < proxies["lower_y"])
+            | (s["max_y"] > proxies["upper_y"])
+        )
         if out.any():
             pairs.widen(s[out], world.tolerances.slop)
             pairs.update(world.broadphase, shapes, int(out.sum()), world.profile.work)
@@ -106,9 +109,23 @@ class Sweeper:
         rows, n = world.pairs.rows, len(world.bodies)
         if len(self.impacts) < len(rows):
             self.impacts = np.zeros((2 * len(rows), 5))
-        found = find_turning_impacts(world.library.tables, world.bodies, world.shapes, rows, len(rows), self.paths[:n],
-                                     self.fast[:n], moving, everyone, world.tolerances.slop, self.one_way, self.cuts[:n],
-                                     self.turning, self.impacts, world.profile.work)
+        found = find_turning_impacts(
+            world.library.tables,
+            world.bodies,
+            world.shapes,
+            rows,
+            len(rows),
+            self.paths[:n],
+            self.fast[:n],
+            moving,
+            everyone,
+            world.tolerances.slop,
+            self.one_way,
+            self.cuts[:n],
+            self.turning,
+            self.impacts,
+            world.profile.work,
+        )
         return self.impacts[:found].copy()
 
     def _stop(self, world, impacts):
@@ -129,8 +146,19 @@ class Sweeper:
         if len(self.impacts) < len(rows):
             self.impacts = np.zeros((2 * len(rows), 5))
         find = find_impacts_by_mode[self.one_way]
-        found = find(world.library.tables, moved, world.shapes, rows, len(rows), dt, world.tolerances.slop, 1, self.scratch,
-                     self.impacts, world.profile.work)
+        found = find(
+            world.library.tables,
+            moved,
+            world.shapes,
+            rows,
+            len(rows),
+            dt,
+            world.tolerances.slop,
+            1,
+            self.scratch,
+            self.impacts,
+            world.profile.work,
+        )
         impacts = self.impacts[:found].copy()
         stop_at_impacts(world.shapes, rows, impacts, found, world.bodies)
         return impacts

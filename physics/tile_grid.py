@@ -35,20 +35,22 @@ class TileGrid:
         kinds = self.solid.astype(int) + self.one_way + (slopes > 0.0).any(axis=2)
         if (kinds > 1).any():
             at = tuple(int(v) for v in np.argwhere(kinds > 1)[0])
-            raise ValueError(f"cell [{at[0]}, {at[1]}] must be one of solid, one_way and slope (got {kinds[at]} of them)")
+            raise ValueError(
+                f"cell [{at[0]}, {at[1]}] must be one of solid, one_way and slope (got {kinds[at]} of them)"
+            )
         self.slopes = slopes
         for array in (self.solid, self.one_way, self.slopes):
             array.flags.writeable = False
 
     def __deepcopy__(self, memo):
-        return self                # a value: copies of a world share it
+        return self  # a value: copies of a world share it
 
     @property
     def smallest_half(self):
         return self.tile_size / 2.0
 
     def mass_of(self, density):
-        return NOTHING                 # tiles are ground: they only carry
+        return NOTHING  # tiles are ground: they only carry
 
     def reach(self, x, y):
         height, width = self.solid.shape

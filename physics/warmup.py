@@ -16,8 +16,14 @@ from physics.world import World
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
 BOX, MASK, TILES = Polygon.box(8, 8), PixelMask(np.ones((4, 4), bool)), TileGrid(np.ones((1, 2), bool), 16)
-PAIRS = {"circles": ((BOX, Circle(4)),), "boxes": ((BOX, Bounds(BOX)),), "masks": ((MASK, MASK), (MASK, BOX), (MASK, Circle(4))),
-         "tiles": ((TILES, BOX),), "chains": ((Chain([(-9, 0), (9, 0)]), BOX),), "capsules": ((BOX, Capsule((-2, 0), (2, 0), 2)),)}
+PAIRS = {
+    "circles": ((BOX, Circle(4)),),
+    "boxes": ((BOX, Bounds(BOX)),),
+    "masks": ((MASK, MASK), (MASK, BOX), (MASK, Circle(4))),
+    "tiles": ((TILES, BOX),),
+    "chains": ((Chain([(-9, 0), (9, 0)]), BOX),),
+    "capsules": ((BOX, Capsule((-2, 0), (2, 0), 2)),),
+}
 
 
 def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=None):
@@ -29,8 +35,13 @@ def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=N
     """
     effects = Effects() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
-    runs = [(f"broad phase {name}", lambda name=name: _small_world(effects, solver, STRATEGIES[name](),
-                                                                  (Circle(4), Circle(4)))) for name in names]
+    runs = [
+        (
+            f"broad phase {name}",
+            lambda name=name: _small_world(effects, solver, STRATEGIES[name](), (Circle(4), Circle(4))),
+        )
+        for name in names
+    ]
     strategy = STRATEGIES[names[0]]
     if effects.stacking:
         runs.append(("rest", lambda: _rest(effects, solver)))
@@ -40,7 +51,9 @@ def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=N
         runs.append(("sweeps", lambda: _impacts(effects, solver)))
     for piece in PIECES if pieces is None else pieces:
         if piece in PAIRS and effects.narrowphase:
-            runs += [(piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]]
+            runs += [
+                (piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]
+            ]
         elif piece in QUESTIONS:
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
         elif piece == "characters" and effects.response:
@@ -57,10 +70,12 @@ def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=N
 
 def _small_world(effects, solver, strategy, pair):
     world = World(effects, strategy, solver)
-    first = world.add_body(pair[0], kind="kinematic" if isinstance(pair[0], (TileGrid, Chain)) else "dynamic", position=(0, 0))
+    first = world.add_body(
+        pair[0], kind="kinematic" if isinstance(pair[0], (TileGrid, Chain)) else "dynamic", position=(0, 0)
+    )
     world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
-    world.query_aabb((0, 0), (1, 1))           # what the strategy answers to a query
+    world.query_aabb((0, 0), (1, 1))  # what the strategy answers to a query
     world.remove_body(first)
     world.step()
 
@@ -68,7 +83,7 @@ def _small_world(effects, solver, strategy, pair):
 def _rest(effects, solver):
     """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep."""
     world = World(effects, solver=solver, **{"gravity": (0.0, 0.0)} if effects.gravity else {})
-    for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3)):         # as near as contacts are found
+    for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3)):  # as near as contacts are found
         world.add_body(Circle(4), position=place)
         for _ in range(3):
             world.step()

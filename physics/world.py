@@ -13,7 +13,7 @@ from physics.geometry import Library
 from physics.motion import carry
 from physics.profile import Profile
 from physics.query_index import QueryIndex
-from physics.settings import POSITION_LIMIT, PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
+from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes import Filter, Material
 from physics.tables import BODY, CHARACTER, CONTACT, SHAPE, STATIC, Table
 
@@ -31,21 +31,37 @@ class World:
     contacts in a step. Raises TypeError or ValueError naming the argument.
     """
 
-    def __init__(self, effects=None, broadphase=None, solver=None, gravity=None, drag=0.0, wind=(0, 0),
-                 pixels_per_meter=PIXELS_PER_METER, dt=1 / 60, substeps=4, seed=0):
+    def __init__(
+        self,
+        effects=None,
+        broadphase=None,
+        solver=None,
+        gravity=None,
+        drag=0.0,
+        wind=(0, 0),
+        pixels_per_meter=PIXELS_PER_METER,
+        dt=1 / 60,
+        substeps=4,
+        seed=0,
+    ):
         effects = Effects.rigid_bodies() if effects is None else effects
         if not isinstance(effects, Effects):
             raise TypeError(f"effects must be an Effects (got {effects!r})")
         self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
         self._dt = checks.number("dt", dt, above=0.0)
         self._drag = checks.number("drag", drag, low=0.0)
-        self._gravity = (0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter) if gravity is None else \
-            checks.vector("gravity", gravity)
+        self._gravity = (
+            (0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter)
+            if gravity is None
+            else checks.vector("gravity", gravity)
+        )
         self._wind = checks.vector("wind", wind)
         self.random = np.random.default_rng(checks.whole("seed", seed, 0, 2**63 - 1))
         self._effects = effects
         self._substeps = checks.whole("substeps", substeps, 1, 1000)
-        self._solver = self._checked_solver(("soft_step" if effects.stacking else "projection") if solver is None else solver)
+        self._solver = self._checked_solver(
+            ("soft_step" if effects.stacking else "projection") if solver is None else solver
+        )
         self._bodies, self._shapes = Table(BODY), Table(SHAPE)
         self.library = Library()
         self.pairs = stages.PairList()
@@ -70,7 +86,7 @@ class World:
 
     def __setstate__(self, state):
         vars(self).update(state)
-        self._plan_list = stages.plan(self._effects, self._solver)     # a copy's stages keep rows of their own
+        self._plan_list = stages.plan(self._effects, self._solver)  # a copy's stages keep rows of their own
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -164,8 +180,10 @@ class World:
     def broadphase(self, strategy):
         self._unlocked()
         if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
-            raise TypeError("broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
-                            f"(got {strategy!r})")
+            raise TypeError(
+                "broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
+                f"(got {strategy!r})"
+            )
         self._broadphase = strategy.fresh()
         self.pairs.start_over()
 
@@ -254,27 +272,90 @@ class World:
 
     # --- adding and removing ---------------------------------------------------------------------------------------
 
-    def add_body(self, *shapes, position=(0, 0), angle=0.0, kind="dynamic", velocity=(0, 0), angular_velocity=0.0,
-                 material=Material(), filter=Filter.ALL, sensor=False, bullet=False, continuous="auto",
-                 fixed_rotation=False, gravity_scale=1.0, tier=None, user=None) -> Body:
+    def add_body(
+        self,
+        *shapes,
+        position=(0, 0),
+        angle=0.0,
+        kind="dynamic",
+        velocity=(0, 0),
+        angular_velocity=0.0,
+        material=Material(),
+        filter=Filter.ALL,
+        sensor=False,
+        bullet=False,
+        continuous="auto",
+        fixed_rotation=False,
+        gravity_scale=1.0,
+        tier=None,
+        user=None,
+    ) -> Body:
         """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
-        ids = adding.add_rows(self, shapes, [checks.position("position", position)], [checks.vector("velocity", velocity)],
-                        [checks.number("angle", angle)], kind, angular_velocity, material, filter, sensor, bullet, continuous,
-                        fixed_rotation, gravity_scale, tier, user)
+        ids = adding.add_rows(
+            self,
+            shapes,
+            [checks.position("position", position)],
+            [checks.vector("velocity", velocity)],
+            [checks.number("angle", angle)],
+            kind,
+            angular_velocity,
+            material,
+            filter,
+            sensor,
+            bullet,
+            continuous,
+            fixed_rotation,
+            gravity_scale,
+            tier,
+            user,
+        )
         return Body(self, int(ids[0]))
 
-    def add_bodies(self, shape, positions, velocities=None, angles=None, kind="dynamic", angular_velocity=0.0,
-                   material=Material(), filter=Filter.ALL, sensor=False, bullet=False, continuous="auto",
-                   fixed_rotation=False, gravity_scale=1.0, tier=None, user=None) -> np.ndarray:
+    def add_bodies(
+        self,
+        shape,
+        positions,
+        velocities=None,
+        angles=None,
+        kind="dynamic",
+        angular_velocity=0.0,
+        material=Material(),
+        filter=Filter.ALL,
+        sensor=False,
+        bullet=False,
+        continuous="auto",
+        fixed_rotation=False,
+        gravity_scale=1.0,
+        tier=None,
+        user=None,
+    ) -> np.ndarray:
         """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
-            raise ValueError(f"positions must lie within {POSITION_LIMIT:g} px of the origin (got {positions.tolist()})")
+            raise ValueError(
+                f"positions must lie within {POSITION_LIMIT:g} px of the origin (got {positions.tolist()})"
+            )
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return adding.add_rows(self, (shape,), positions, velocities, angles, kind, angular_velocity, material, filter, sensor,
-                         bullet, continuous, fixed_rotation, gravity_scale, tier, user)
+        return adding.add_rows(
+            self,
+            (shape,),
+            positions,
+            velocities,
+            angles,
+            kind,
+            angular_velocity,
+            material,
+            filter,
+            sensor,
+            bullet,
+            continuous,
+            fixed_rotation,
+            gravity_scale,
+            tier,
+            user,
+        )
 
     def remove_body(self, body):
         """Remove a body (or its id). Raises KeyError when it is not there."""
@@ -307,7 +388,7 @@ class World:
         sleep.forget(self)
 
     def _drop_shapes(self, keep):
-        self.pairs.ids              # named while the rows still stand
+        self.pairs.ids  # named while the rows still stand
         self.pairs.free_proxies(self.shapes["proxy"][~keep])
         self._shapes.keep(keep)
 

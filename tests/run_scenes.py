@@ -16,21 +16,28 @@ from time import perf_counter
 ROOT = Path(__file__).resolve().parent.parent
 LONG = {"shooter": 3600, "platformer": 3600}
 FRAMES, SHORT = 600, 120
-FEW = 100                   # bodies without compiled kernels, where a scene lets one choose
+FEW = 100  # bodies without compiled kernels, where a scene lets one choose
 
 
 def run(*arguments, plain=False):
     """main.py's JSON object. A failure of it is shown and ends this run."""
     environment = dict(os.environ, **({"NUMBA_DISABLE_JIT": "1"} if plain else {}))
-    done = subprocess.run([sys.executable, "main.py", "--headless", "--json", *map(str, arguments)], cwd=ROOT, text=True,
-                          capture_output=True, env=environment)
+    done = subprocess.run(
+        [sys.executable, "main.py", "--headless", "--json", *map(str, arguments)],
+        cwd=ROOT,
+        text=True,
+        capture_output=True,
+        env=environment,
+    )
     if done.returncode:
         sys.exit(f"main.py {' '.join(map(str, arguments))}\nexit {done.returncode}\n{done.stdout}\n{done.stderr}")
     return json.loads(done.stdout.splitlines()[-1])
 
 
 def names():
-    done = subprocess.run([sys.executable, "main.py", "--list", "--json"], cwd=ROOT, text=True, capture_output=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "main.py", "--list", "--json"], cwd=ROOT, text=True, capture_output=True, check=True
+    )
     return [scene["name"] for scene in json.loads(done.stdout)]
 
 
@@ -53,8 +60,10 @@ def check_scene(name, folder):
     compare(name, "drawing with every overlay", drawn, first)
     short = ("--scene", name, "--seed", 1, "--bot", "--frames", SHORT // 2)
     compare(name, "running without compiled kernels", run(*short, plain=True), run(*short))
-    print(f"{name:18} ok: {frames} frames, digest {first['digest']}, drawn frame p99 {drawn['frame_ms']['p99']:.1f} ms",
-          flush=True)
+    print(
+        f"{name:18} ok: {frames} frames, digest {first['digest']}, drawn frame p99 {drawn['frame_ms']['p99']:.1f} ms",
+        flush=True,
+    )
 
 
 def run_plain(name):
@@ -65,6 +74,7 @@ def run_plain(name):
     from game.registry import Registry
     from game.session import Session
     from scenes import SCENES
+
     start_dummy_display()
     scene = Registry(SCENES).scene_class(name)(seed=1)
     if "bodies" in scene.values:

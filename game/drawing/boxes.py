@@ -6,7 +6,7 @@ import pygame
 
 from game.drawing.sprites import load_atlas
 
-EDGE = 8      # [px] of a slice that keeps its size
+EDGE = 8  # [px] of a slice that keeps its size
 
 
 def draw_box(canvas, rect, name="panel_dark"):

@@ -6,8 +6,8 @@ import pygame
 
 from game.drawing.draw import CANVAS_SIZE, whole
 
-SHAKE_PIXELS = 5.0      # [canvas px] at full trauma; more hides bullets
-SHAKE_DECAY = 0.75      # [1/s] trauma lost per second: a full shake is over in 1.3 s
+SHAKE_PIXELS = 5.0  # [canvas px] at full trauma; more hides bullets
+SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake is over in 1.3 s
 
 
 class Camera:
@@ -23,7 +23,7 @@ class Camera:
         self.x = self.previous_x = float(x)
         self.y = self.previous_y = float(y)
         self.trauma = 0.0
-        self.shake_share = 1.0     # of the shake that is drawn
+        self.shake_share = 1.0  # of the shake that is drawn
         self.clock = 0.0
         self.limits = None
 

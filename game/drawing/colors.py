@@ -1,6 +1,6 @@
 """The shell's colours. Overlay hues are near the Okabe-Ito set; a player may ask for others (see toned)."""
 
-INK = (20, 16, 32)            # text outlines, panel ground: the art's outline colour, never pure black
+INK = (20, 16, 32)  # text outlines, panel ground: the art's outline colour, never pure black
 NIGHT = (26, 22, 42)
 DUSK = (44, 38, 66)
 SLATE = (86, 82, 112)
@@ -10,14 +10,14 @@ GOLD = (255, 206, 92)
 
 ORANGE = (230, 159, 0)
 SKY = (86, 180, 233)
-GREEN = (0, 190, 140)         # lifted from #009E73: thin lines on a dusk sky must stay readable
+GREEN = (0, 190, 140)  # lifted from #009E73: thin lines on a dusk sky must stay readable
 YELLOW = (240, 228, 66)
-BLUE = (70, 140, 230)         # lifted from #0072B2, as above
-RED = (240, 96, 60)           # lifted from #D55E00, as above
+BLUE = (70, 140, 230)  # lifted from #0072B2, as above
+RED = (240, 96, 60)  # lifted from #D55E00, as above
 PINK = (222, 140, 186)
 WHITE = (255, 255, 255)
 
-SERIES = (ORANGE, SKY, GREEN, PINK, YELLOW, BLUE, RED, WHITE)   # for curves and kinds, in this order
+SERIES = (ORANGE, SKY, GREEN, PINK, YELLOW, BLUE, RED, WHITE)  # for curves and kinds, in this order
 
 # What the overlays' hues become under the other palettes. "safe" is the Okabe-Ito set itself (jfly.uni-koeln.de/color):
 # under every kind of colour blindness its two nearest hues are half as far again from each other as the ones above.
@@ -26,12 +26,19 @@ TONES = {
     "standard": {},
     "safe": {GREEN: (0, 158, 115), BLUE: (0, 114, 178), RED: (213, 94, 0), PINK: (204, 121, 167)},
     "contrast": {
-        ORANGE: (255, 176, 0), SKY: (175, 182, 241), GREEN: (47, 226, 159), YELLOW: (255, 218, 118), BLUE: (8, 155, 255),
-        RED: (228, 121, 46), PINK: (173, 141, 157), FOG: (200, 200, 214), SLATE: (140, 138, 160),
+        ORANGE: (255, 176, 0),
+        SKY: (175, 182, 241),
+        GREEN: (47, 226, 159),
+        YELLOW: (255, 218, 118),
+        BLUE: (8, 155, 255),
+        RED: (228, 121, 46),
+        PINK: (173, 141, 157),
+        FOG: (200, 200, 214),
+        SLATE: (140, 138, 160),
     },
 }
-SHADE = 96                    # of 255 that is left of the picture's light under overlays of the palette "contrast"
-BRIGHTER = 0.3                # towards white: what "contrast" does with a mixed colour
+SHADE = 96  # of 255 that is left of the picture's light under overlays of the palette "contrast"
+BRIGHTER = 0.3  # towards white: what "contrast" does with a mixed colour
 
 BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 

@@ -27,7 +27,7 @@ class Canvas:
         self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
         self.boxes = []
         self.reserved = []
-        self.palette = "standard"      # of the overlays, as the player wants it
+        self.palette = "standard"  # of the overlays, as the player wants it
 
     def tone(self, color):
         """An overlay's colour in the palette of this picture."""

@@ -23,7 +23,7 @@ def points_text(points):
 
 
 def count_text(number, what):
-    """"1 plane", "2 planes"."""
+    """ "1 plane", "2 planes"."""
     return f"{number} {what}{'s' if number != 1 else ''}"
 
 

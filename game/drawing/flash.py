@@ -6,11 +6,11 @@ flashes a second).
 
 import pygame
 
-MOST = 2               # flashes that may begin within SPAN
-SPAN = 60              # [steps] one second
-BRIGHTEST = 85         # [0..255] added at full strength
-FADE = 0.88            # of the light that is left a step later
-FAINTEST = 0.02        # of the full light; less is none
+MOST = 2  # flashes that may begin within SPAN
+SPAN = 60  # [steps] one second
+BRIGHTEST = 85  # [0..255] added at full strength
+FADE = 0.88  # of the light that is left a step later
+FAINTEST = 0.02  # of the full light; less is none
 
 
 class Flash:

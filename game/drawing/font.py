@@ -5,7 +5,7 @@ while it is in use: a panel of names and changing numbers costs one blit per lin
 """
 
 import json
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import pygame
 
@@ -14,8 +14,8 @@ from game.drawing.colors import INK
 from game.errors import FileError
 from game.places import FONTS
 
-MEASURED = 4096    # lines of text whose size is remembered
-KEPT = 1024        # lines of text whose picture is kept
+MEASURED = 4096  # lines of text whose size is remembered
+KEPT = 1024  # lines of text whose picture is kept
 UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
@@ -28,8 +28,8 @@ class Font:
         self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
         self.sheet = sheet
         self.tinted = {}
-        self.line = lru_cache(maxsize=KEPT)(self._line)                # names, and figures that come again
-        self.measure = lru_cache(maxsize=MEASURED)(self._measure)      # labels ask for the same text picture by picture
+        self.line = lru_cache(maxsize=KEPT)(self._line)  # names, and figures that come again
+        self.measure = lru_cache(maxsize=MEASURED)(self._measure)  # labels ask for the same text picture by picture
 
     def _measure(self, text, scale=1):
         """Width and height of one line in pixels. The gap behind the last letter does not count."""
@@ -89,7 +89,7 @@ def tint(image, color):
     return copy
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_font(name):
     """The font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
     path = FONTS / f"{name}.json"

@@ -5,7 +5,7 @@ import pygame
 from game.drawing.colors import GOLD, INK, PAPER, SLATE
 from game.drawing.draw import TEXT
 
-MARGIN = 6             # [canvas px] between the HUD and the edge of the picture
+MARGIN = 6  # [canvas px] between the HUD and the edge of the picture
 BANNER_GROUND = (20, 16, 32, 150)
 
 
@@ -38,8 +38,9 @@ def bar(canvas, rect, share, color, ground=INK):
     """A bar filled to `share` 0..1."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
-    canvas.surface.fill(color, (rect.x + 1, rect.y + 1, round((rect.width - 2) * max(0.0, min(1.0, share))),
-                                rect.height - 2))
+    canvas.surface.fill(
+        color, (rect.x + 1, rect.y + 1, round((rect.width - 2) * max(0.0, min(1.0, share))), rect.height - 2)
+    )
     pygame.draw.rect(canvas.surface, SLATE, rect, 1)
     canvas.reserve(rect)
     return rect

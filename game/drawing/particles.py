@@ -3,7 +3,7 @@
 import numpy as np
 import pygame
 
-CAPACITY = 2048        # the oldest give way; a particle is decoration, and nothing else reads them
+CAPACITY = 2048  # the oldest give way; a particle is decoration, and nothing else reads them
 COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 
 
@@ -14,12 +14,12 @@ class Particles:
         self.random = np.random.default_rng(seed)
         self.rows = np.zeros((len(COLUMNS), CAPACITY))
         self.ramps = np.zeros(CAPACITY, dtype=np.int64)
-        self.colors = []           # ramps seen so far: tuples of colours
+        self.colors = []  # ramps seen so far: tuples of colours
         self.clear()
 
     def clear(self):
         """Remove all."""
-        self.rows[5] = 0.0         # life 0: not alive
+        self.rows[5] = 0.0  # life 0: not alive
         self.rows[4] = 1.0
         self.newest = 0
 
@@ -28,8 +28,21 @@ class Particles:
         """How many are alive."""
         return int(np.count_nonzero(self.rows[4] < self.rows[5]))
 
-    def burst(self, x, y, count, ramp, speed=(20, 120), life=(0.2, 0.6), angle=0.0, spread=2 * np.pi,
-              size=(1, 2), drag=2.0, gravity=0.0, carry=(0.0, 0.0)):
+    def burst(
+        self,
+        x,
+        y,
+        count,
+        ramp,
+        speed=(20, 120),
+        life=(0.2, 0.6),
+        angle=0.0,
+        spread=2 * np.pi,
+        size=(1, 2),
+        drag=2.0,
+        gravity=0.0,
+        carry=(0.0, 0.0),
+    ):
         """Throw `count` particles from (x, y) [world px].
 
         ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges; angle and
@@ -43,11 +56,15 @@ class Particles:
         heading = angle + rng.uniform(-0.5, 0.5, len(rows)) * spread
         pace = rng.uniform(*speed, len(rows))
         self.rows[:, rows] = (
-            np.full(len(rows), x), np.full(len(rows), y),
-            np.cos(heading) * pace + carry[0], np.sin(heading) * pace + carry[1],
-            np.zeros(len(rows)), rng.uniform(*life, len(rows)),
+            np.full(len(rows), x),
+            np.full(len(rows), y),
+            np.cos(heading) * pace + carry[0],
+            np.sin(heading) * pace + carry[1],
+            np.zeros(len(rows)),
+            rng.uniform(*life, len(rows)),
             rng.integers(size[0], size[1] + 1, len(rows)),
-            np.full(len(rows), drag), np.full(len(rows), gravity),
+            np.full(len(rows), drag),
+            np.full(len(rows), gravity),
         )
         self.ramps[rows] = self.colors.index(ramp)
 
@@ -79,7 +96,7 @@ class Particles:
                 ax, ay = px + dx, py + dy
                 seen = wide & (ax >= view.left) & (ax < view.right) & (ay >= view.top) & (ay < view.bottom)
                 pixels[ax[seen], ay[seen]] = colors[seen]
-        del pixels     # unlocks the surface
+        del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
         """Each particle's colour as the surface's pixel value."""

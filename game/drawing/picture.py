@@ -10,7 +10,7 @@ from game.drawing.presenter import SCREENSHOT_SCALE, Presenter
 from game.files.data_folder import write_atomically
 from game.overlays.stack import draw_legend, legend_columns, legend_size
 
-GRAPH_LEAST = 120          # [text px] of the strip's width are kept for the stage times when they are on
+GRAPH_LEAST = 120  # [text px] of the strip's width are kept for the stage times when they are on
 
 
 class Picture:
@@ -48,7 +48,7 @@ class Picture:
             overlays.draw_floating(frame, scene.legend_at)
         else:
             if self.presenter.crowded:
-                frame.begin()          # the panel covers the whole picture, and with it all text so far
+                frame.begin()  # the panel covers the whole picture, and with it all text so far
             panel.draw(frame, self.presenter.panel_rect)
             draw_strip(frame, self.presenter.strip_rect, overlays)
         overlays.draw_labels(frame)

@@ -1,6 +1,6 @@
 """The small picture of each scene for the menu, and an empty frame where a picture is missing."""
 
-from functools import lru_cache
+from functools import cache
 
 import pygame
 
@@ -29,7 +29,7 @@ def draw_picture(canvas, name, title, x, y):
     return frame
 
 
-@lru_cache(maxsize=None)
+@cache
 def _load(name):
     path = IMAGES / "pictures" / f"{name.replace('/', '_')}.png"
     if not path.exists():

@@ -9,8 +9,8 @@ import pygame
 from game.drawing.colors import INK
 from game.drawing.draw import CANVAS_SIZE, Canvas
 
-PANEL_SHARE = 1 / 3        # of the window's width, for the docked panel
-SCREENSHOT_SCALE = 3       # 1440 x 810
+PANEL_SHARE = 1 / 3  # of the window's width, for the docked panel
+SCREENSHOT_SCALE = 3  # 1440 x 810
 
 
 class Lens:
@@ -37,7 +37,7 @@ class Frame(Canvas):
     def __init__(self, surface):
         super().__init__(surface)
         self.scale = 1
-        self.area = pygame.Rect((0, 0), CANVAS_SIZE)      # the game canvas on the frame
+        self.area = pygame.Rect((0, 0), CANVAS_SIZE)  # the game canvas on the frame
 
     @property
     def text_scale(self):

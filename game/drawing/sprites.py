@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from math import floor
 
 import numpy as np
@@ -71,13 +71,13 @@ def load_image(path):
     return image.convert_alpha() if pygame.display.get_surface() else image
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_backdrop(name):
     """assets/images/<name>.png as one picture."""
     return load_image(IMAGES / f"{name}.png")
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_atlas(name):
     """The sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
     path = IMAGES / f"{name}.json"
@@ -137,7 +137,7 @@ def pick_pixels(image, turned):
     alpha = pygame.surfarray.pixels_alpha(out)
     alpha[:] = 0
     alpha[columns, rows] = 255
-    del alpha       # unlocks the surface
+    del alpha  # unlocks the surface
     return out
 
 

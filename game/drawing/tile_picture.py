@@ -6,7 +6,7 @@ from game.drawing.sprites import load_image
 from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y
 from game.errors import FileError
 
-CHUNK = 32       # tiles along a side of a chunk: 512 px, so at most four of them are on the screen
+CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are on the screen
 
 
 class TilePicture:

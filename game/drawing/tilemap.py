@@ -15,9 +15,9 @@ from game.errors import FileError
 from game.files.json_file import read_json
 from physics import TileGrid
 
-FLIPS = 0xF0000000          # the top bits of a tile number say how it is mirrored
+FLIPS = 0xF0000000  # the top bits of a tile number say how it is mirrored
 FLIP_X, FLIP_Y, FLIP_DIAGONAL = 0x80000000, 0x40000000, 0x20000000
-LARGEST = 10_000            # tiles along a side; a larger number is damage, not a level
+LARGEST = 10_000  # tiles along a side; a larger number is damage, not a level
 KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 
@@ -44,9 +44,9 @@ class TileMap:
     rows: int
     tile_size: int
     layers: dict
-    flips: dict                # layer name -> (rows, columns) flip bits
+    flips: dict  # layer name -> (rows, columns) flip bits
     tiles: dict
-    image: str                 # the tileset's picture, relative to the map
+    image: str  # the tileset's picture, relative to the map
     image_columns: int
     things: tuple
     properties: dict
@@ -70,7 +70,10 @@ class TileMap:
             solid |= here & (kind == "solid")
             one_way |= here & (kind == "one_way")
             if kind == "slope":
-                sides, flips = (self.tiles[number].get("left", 0.0), self.tiles[number].get("right", 0.0)), self._flips(layer)
+                sides, flips = (
+                    (self.tiles[number].get("left", 0.0), self.tiles[number].get("right", 0.0)),
+                    self._flips(layer),
+                )
                 slopes[here] = sides
                 slopes[here & (flips & FLIP_X > 0)] = sides[::-1]
                 self._refuse_turned(layer, here & (flips & (FLIP_Y | FLIP_DIAGONAL) > 0))
@@ -99,8 +102,11 @@ class TileMap:
     def _refuse_turned(self, layer, turned):
         """A slope is mirrored left and right only: it would hold at its upper edge what the picture shows below."""
         for row, column in np.argwhere(turned)[:1].tolist():
-            raise FileError(self.path, f"layer {layer}", f"the slope at column {column} row {row} is turned or upside down; "
-                            "mirror slopes left and right only")
+            raise FileError(
+                self.path,
+                f"layer {layer}",
+                f"the slope at column {column} row {row} is turned or upside down; mirror slopes left and right only",
+            )
 
     def _layer(self, name):
         if name not in self.layers:
@@ -147,9 +153,19 @@ class _Reader:
                 layers[name], flips[name] = self.tiles(layer, place, (rows, columns), first, count)
             elif layer.get("type") == "objectgroup":
                 things += self.things(layer, place)
-        return TileMap(self.path, columns, rows, size, layers, flips, self.tile_properties(tileset),
-                       str(tileset.get("image", "")), self.whole(tileset, "tilesets[0]", "columns", LARGEST),
-                       tuple(things), self.properties(data, "map"))
+        return TileMap(
+            self.path,
+            columns,
+            rows,
+            size,
+            layers,
+            flips,
+            self.tile_properties(tileset),
+            str(tileset.get("image", "")),
+            self.whole(tileset, "tilesets[0]", "columns", LARGEST),
+            tuple(things),
+            self.properties(data, "map"),
+        )
 
     def whole(self, data, place, name, largest):
         value = data.get(name)
@@ -186,8 +202,11 @@ class _Reader:
         bad = np.flatnonzero((numbers != 0) & ((numbers < first) | (numbers >= first + count)))
         if len(bad):
             at = int(bad[0])
-            self.fail(f"{place}.data[{at}]", f"tile {int(numbers[at])} is not in the tileset "
-                      f"({first}..{first + count - 1}), column {at % shape[1]} row {at // shape[1]}")
+            self.fail(
+                f"{place}.data[{at}]",
+                f"tile {int(numbers[at])} is not in the tileset "
+                f"({first}..{first + count - 1}), column {at % shape[1]} row {at // shape[1]}",
+            )
         tiles = np.where(numbers == 0, -1, numbers - first)
         return tiles.reshape(shape), flip.reshape(shape)
 

@@ -9,9 +9,9 @@ from math import ceil, cos, floor, hypot, pi, sin
 import numpy as np
 import pygame
 
-BUCKETS = 192         # angles kept per picture: 1.9 degrees moves the edge of a 30 px piece by half a pixel
-DOUBLINGS = 3         # of the picture before it is sampled
-MARGIN = 80           # [canvas px] pieces up to this far outside the view may still reach into it
+BUCKETS = 192  # angles kept per picture: 1.9 degrees moves the edge of a 30 px piece by half a pixel
+DOUBLINGS = 3  # of the picture before it is sampled
+MARGIN = 80  # [canvas px] pieces up to this far outside the view may still reach into it
 
 
 class TurnedPicture:
@@ -48,7 +48,7 @@ class TurnedPicture:
         out_width, out_height = (reach + (reach - side) % 2 for side in (width, height))
         x = np.arange(out_width)[:, None] + 0.5 - out_width / 2
         y = np.arange(out_height)[None, :] + 0.5 - out_height / 2
-        c, s, scale = cos(angle), sin(angle), 2 ** DOUBLINGS
+        c, s, scale = cos(angle), sin(angle), 2**DOUBLINGS
         from_x = np.floor((c * x + s * y + width / 2) * scale).astype(np.int64)
         from_y = np.floor((c * y - s * x + height / 2) * scale).astype(np.int64)
         inside = (from_x >= 0) & (from_x < width * scale) & (from_y >= 0) & (from_y < height * scale)
@@ -58,7 +58,7 @@ class TurnedPicture:
         pygame.surfarray.blit_array(turned, found[:, :, :3])
         alpha = pygame.surfarray.pixels_alpha(turned)
         alpha[:] = np.where(found[:, :, 3] > 127, 255, 0)
-        del alpha       # unlocks the surface
+        del alpha  # unlocks the surface
         return turned
 
 
@@ -67,8 +67,8 @@ class Cast:
 
     def __init__(self, atlas):
         self.atlas = atlas
-        self.turned = {}       # name -> TurnedPicture
-        self.looks = {}        # body id -> name
+        self.turned = {}  # name -> TurnedPicture
+        self.looks = {}  # body id -> name
 
     def add(self, body, name):
         """Give a body (or its id) the picture of that name; returns the body."""
@@ -84,8 +84,10 @@ class Cast:
     def draw(self, canvas, camera, world, alpha):
         """Draw the bodies that have a picture, between the last two steps, clipped to the camera's view."""
         bodies, surface = world.bodies, canvas.surface
-        x, y, angle = (bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
-                       for name in ("x", "y", "angle"))
+        x, y, angle = (
+            bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
+            for name in ("x", "y", "angle")
+        )
         x, y = camera.to_canvas(x, y, alpha)
         surface.set_clip(camera.viewport)
         near = camera.viewport.inflate(MARGIN, MARGIN)

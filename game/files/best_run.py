@@ -11,8 +11,8 @@ from game.files.data_folder import data_folder, is_there, refusal, write_atomica
 from game.files.json_file import read_json
 
 FORMAT, VERSION = "hitbox ghost", 1
-LONGEST = 60 * 60 * 60         # rows: an hour
-FARTHEST = 1e7                 # [px] from the origin; drawing turns places into whole numbers
+LONGEST = 60 * 60 * 60  # rows: an hour
+FARTHEST = 1e7  # [px] from the origin; drawing turns places into whole numbers
 
 
 def ghost_path(table):
@@ -49,15 +49,23 @@ def _check(path, data):
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise FileError(path, "format", f"is not {FORMAT!r}")
     if data.get("version") != VERSION or isinstance(data["version"], bool):
-        raise FileError(path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads {VERSION}")
+        raise FileError(
+            path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads {VERSION}"
+        )
     if not _number(data.get("seconds")) or not 0 < data["seconds"] < 1e6:
         raise FileError(path, "seconds", "must be a number above 0")
     rows = data.get("rows")
     if not isinstance(rows, list) or not 0 < len(rows) <= LONGEST:
         raise FileError(path, "rows", f"must be a list of 1 to {LONGEST} rows")
     for number, row in enumerate(rows):
-        fits = (isinstance(row, list) and len(row) == 4 and _number(row[0]) and _number(row[1])
-                and isinstance(row[2], str) and _number(row[3]))
+        fits = (
+            isinstance(row, list)
+            and len(row) == 4
+            and _number(row[0])
+            and _number(row[1])
+            and isinstance(row[2], str)
+            and _number(row[3])
+        )
         if not fits or not (abs(row[0]) < FARTHEST and abs(row[1]) < FARTHEST):
             raise FileError(path, f"rows[{number}]", "must be [x, y, frame name, way]")
 

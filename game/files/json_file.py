@@ -16,7 +16,7 @@ def read_json(path):
         raise FileError(path, f"byte {error.start}", "not UTF-8 text") from error
     except json.JSONDecodeError as error:
         raise FileError(path, f"line {error.lineno} column {error.colno}", error.msg) from error
-    except ValueError as error:          # a number of thousands of digits
+    except ValueError as error:  # a number of thousands of digits
         raise FileError(path, "file", str(error)) from error
     except RecursionError as error:
         raise FileError(path, "file", "nested too deeply") from error

@@ -21,7 +21,7 @@ def own_levels(scene_class):
     suffixes = (scene_class.level_suffix,) if scene_class.level_suffix else SUFFIXES
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
-    except OSError:            # there is no such folder, or nobody may look into it
+    except OSError:  # there is no such folder, or nobody may look into it
         return ()
 
 
@@ -31,5 +31,5 @@ def level_digest(path):
         return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
-    except ValueError as error:        # a name that no system has, out of a recording
+    except ValueError as error:  # a name that no system has, out of a recording
         raise FileError(path, "file", str(error)) from error

@@ -24,7 +24,7 @@ class Entry:
     name: str
     points: int
     seconds: float
-    date: str                  # 2026-01-31
+    date: str  # 2026-01-31
     seed: int = 0
     assisted: bool = False
 
@@ -35,7 +35,7 @@ class Records:
     def __init__(self, path=None):
         self.path = path or records_path()
         self.tables = {}
-        self.ranking = {}          # key -> ranked_by, of the tables that something was added to here
+        self.ranking = {}  # key -> ranked_by, of the tables that something was added to here
 
     def entries(self, key):
         """The entries of a table, best first."""

@@ -17,13 +17,13 @@ from game.files.own_levels import level_digest
 from game.inputs import ACTIONS, NOTHING, InputFrame
 
 FORMAT, VERSION = "hitbox replay", 2
-DIGEST_EVERY = 1       # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
-KEPT_EVERY = 30        # frames between the digests of runs that are kept unasked: half a second is exact enough
-DIGITS = 16            # hex digits kept per frame: 64 bits
-LONGEST = 24 * 60 * 60 * 60    # frames: a day; a file of a few bytes could ask for all memory there is
-LARGEST_SEED = 2**62           # the physics takes 63 bits, and each further world of a scene counts on by one
-FARTHEST = 1_000_000           # canvas px of the pointer, and notches of the wheel
-LONGEST_DATE = 40              # letters
+DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
+KEPT_EVERY = 30  # frames between the digests of runs that are kept unasked: half a second is exact enough
+DIGITS = 16  # hex digits kept per frame: 64 bits
+LONGEST = 24 * 60 * 60 * 60  # frames: a day; a file of a few bytes could ask for all memory there is
+LARGEST_SEED = 2**62  # the physics takes 63 bits, and each further world of a scene counts on by one
+FARTHEST = 1_000_000  # canvas px of the pointer, and notches of the wheel
+LONGEST_DATE = 40  # letters
 MOST_POINTS = 10**15
 
 
@@ -34,13 +34,20 @@ class Recorder:
         level = scene.level_file
         self.every = every
         self.head = {
-            "format": FORMAT, "version": VERSION, "scene": scene.name, "seed": scene.seed,
-            "broadphase": scene.broadphase, "solver": scene.solver, "tier": scene.tier,
+            "format": FORMAT,
+            "version": VERSION,
+            "scene": scene.name,
+            "seed": scene.seed,
+            "broadphase": scene.broadphase,
+            "solver": scene.solver,
+            "tier": scene.tier,
             "level": None if level is None else {"path": str(level), "digest": level_digest(level)},
-            "bot": bot, "date": strftime("%Y-%m-%d %H:%M"), "every": every,
+            "bot": bot,
+            "date": strftime("%Y-%m-%d %H:%M"),
+            "every": every,
         }
         self.frames = 0
-        self.runs = []          # [repeats, InputFrame]
+        self.runs = []  # [repeats, InputFrame]
         self.digests = []
 
     def note(self, frame, scene):
@@ -88,7 +95,9 @@ class Replay:
         path = Path(self.level["path"])
         found = level_digest(path)
         if found != self.level["digest"]:
-            raise FileError(self.path, "level", f"{path} has changed since: digest {found}, recorded {self.level['digest']}")
+            raise FileError(
+                self.path, "level", f"{path} has changed since: digest {found}, recorded {self.level['digest']}"
+            )
         return path
 
     def next(self, scene):
@@ -104,9 +113,7 @@ class Replay:
         expected, found = self.digests[frame // self.every - 1], scene_digest(scene)[:DIGITS]
         if found != expected:
             since = "" if self.every == 1 else f" (since frame {frame - self.every})"
-            raise ReplayDiverged(
-                f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}"
-            )
+            raise ReplayDiverged(f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}")
 
 
 def load_replay(path):
@@ -150,10 +157,24 @@ def _check_head(path, data):
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise FileError(path, "format", f"is not {FORMAT!r}")
     if data.get("version") not in (1, VERSION) or isinstance(data["version"], bool):
-        raise FileError(path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads 1 to {VERSION}")
-    kinds = {"scene": str, "seed": int, "broadphase": str, "solver": (str, type(None)), "tier": (str, type(None)),
-             "level": (dict, type(None)), "date": str, "result": (dict, type(None)),
-             "bot": bool, "every": int, "frames": int, "inputs": list, "digests": list}
+        raise FileError(
+            path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads 1 to {VERSION}"
+        )
+    kinds = {
+        "scene": str,
+        "seed": int,
+        "broadphase": str,
+        "solver": (str, type(None)),
+        "tier": (str, type(None)),
+        "level": (dict, type(None)),
+        "date": str,
+        "result": (dict, type(None)),
+        "bot": bool,
+        "every": int,
+        "frames": int,
+        "inputs": list,
+        "digests": list,
+    }
     for name, kind in kinds.items():
         if name not in data:
             raise FileError(path, name, "is missing")

@@ -10,8 +10,8 @@ from game.errors import FileError
 from game.files.data_folder import data_folder, free_name, write_atomically
 from game.files.replay_check import load_replay_for
 
-RECENT = 10            # runs that are kept unasked
-SHORTEST = 120         # frames: two seconds are not worth a place
+RECENT = 10  # runs that are kept unasked
+SHORTEST = 120  # frames: two seconds are not worth a place
 
 
 def replays_folder():
@@ -36,12 +36,12 @@ def files_of(folder):
     found = []
     try:
         paths = list(folder.glob("*.json"))
-    except OSError:                # nobody may look into the folder
+    except OSError:  # nobody may look into the folder
         return []
     for path in paths:
         try:
             status = path.stat()
-        except OSError:            # a link to nowhere, or deleted in between
+        except OSError:  # a link to nowhere, or deleted in between
             continue
         if S_ISREG(status.st_mode):
             found.append((status.st_mtime, path))
@@ -54,7 +54,7 @@ def put_recent(recorder, result=None):
         return None
     path = free_name(recent_folder(), recorder.head["scene"])
     recorder.save(path, result)
-    runs = sorted(files_of(recent_folder()), key=lambda each: (each[1] == path, each))     # a clock may have been set back
+    runs = sorted(files_of(recent_folder()), key=lambda each: (each[1] == path, each))  # a clock may have been set back
     for _, old in runs[:-RECENT]:
         old.unlink(missing_ok=True)
     return path
@@ -67,8 +67,11 @@ def keep(path):
     """
     content = path.read_bytes()
     names = chain((path.name,), (f"{path.stem}-{number}{path.suffix}" for number in count(2)))
-    kept = next(place for place in map(replays_folder().joinpath, names)
-                if not place.exists() or (place.is_file() and place.read_bytes() == content))
+    kept = next(
+        place
+        for place in map(replays_folder().joinpath, names)
+        if not place.exists() or (place.is_file() and place.read_bytes() == content)
+    )
     if not kept.exists():
         write_atomically(kept, content)
     return kept

@@ -17,9 +17,9 @@ from game.rebinding import FIXED, clash, completed, default_table
 VERSION = 2
 FILE = "settings.json"
 LARGEST_SCALE = 8
-FRAME_CAPS = (60, 120, 30, 0)          # pictures a second; 0: as many as there are
-SLOWEST = 0.5                          # of real time, for players who want more of it
-LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"      # of initials
+FRAME_CAPS = (60, 120, 30, 0)  # pictures a second; 0: as many as there are
+SLOWEST = 0.5  # of real time, for players who want more of it
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"  # of initials
 
 
 @dataclass
@@ -29,7 +29,7 @@ class Settings:
     master: float = 0.8
     music: float = 0.6
     effects: float = 0.8
-    window_scale: int = 0          # 0: the largest that fits the desktop; else 1..8
+    window_scale: int = 0  # 0: the largest that fits the desktop; else 1..8
     fullscreen: bool = False
     vsync: bool = True
     frame_cap: int = FRAME_CAPS[0]
@@ -38,12 +38,12 @@ class Settings:
     hit_stop: bool = True
     reduced_flashing: bool = False
     palette: str = PALETTES[0]
-    speed: float = 1.0             # of real time
+    speed: float = 1.0  # of real time
     invincible: bool = False
-    ghost: bool = True             # the best run is seen beside this one
+    ghost: bool = True  # the best run is seen beside this one
     rumble: bool = True
-    hint_seen: bool = False        # the card of the first game was put away
-    initials: str = "AAA"          # those entered last
+    hint_seen: bool = False  # the card of the first game was put away
+    initials: str = "AAA"  # those entered last
     keys: dict = field(default_factory=lambda: default_table("keys"))
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
 
@@ -103,8 +103,11 @@ def _upgraded(path, data):
             data["shake"] = 1.0 if data["shake"] else 0.0
         table = data.get("keys")
         if isinstance(table, dict) and all(_are_names(keys) for keys in table.values()):
-            kept = {action: [key for key in keys if key not in FIXED["keys"]] for action, keys in table.items()
-                    if action in REBOUND}
+            kept = {
+                action: [key for key in keys if key not in FIXED["keys"]]
+                for action, keys in table.items()
+                if action in REBOUND
+            }
             data["keys"] = completed(kept, "keys")
     return data
 

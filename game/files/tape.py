@@ -21,11 +21,11 @@ class Tape:
         self.recording = recording
         self.length = recording.frames
         seconds = max(KEY_SECONDS, -(-self.length // (60 * MOST_KEYS)))
-        self.spacing = 60 * seconds            # [frames] between two key frames
+        self.spacing = 60 * seconds  # [frames] between two key frames
         self.session = Session(make(), recording, replay=recording)
-        self.diverged = ""                     # the line that names the frame, once it happened
+        self.diverged = ""  # the line that names the frame, once it happened
         self.diverged_at = None
-        self.goal = None                       # the frame that is being sought
+        self.goal = None  # the frame that is being sought
         self.keys = {}
         recording.index = 0
         self._note_key()

@@ -3,5 +3,20 @@
 LAYER_NAMES is what --overlay takes. The layers' order is that of the panel: keys 1 to 9, then letters.
 """
 
-LAYER_NAMES = ("bounds", "motion", "structure", "pairs", "masks", "contacts", "filters", "times", "impulses",
-               "features", "islands", "colors", "centers", "ghosts", "outlines")
+LAYER_NAMES = (
+    "bounds",
+    "motion",
+    "structure",
+    "pairs",
+    "masks",
+    "contacts",
+    "filters",
+    "times",
+    "impulses",
+    "features",
+    "islands",
+    "colors",
+    "centers",
+    "ghosts",
+    "outlines",
+)

@@ -10,9 +10,9 @@ from game.drawing.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
 from physics import debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4
-COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)      # by state
-STAMPED = 48               # [frame px] boxes up to this size are stamped
-BOX_BUDGET = 3000          # boxes drawn per picture; the note says how many there are
+COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)  # by state
+STAMPED = 48  # [frame px] boxes up to this size are stamped
+BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame, lens, rows, palette, colors):
@@ -37,7 +37,10 @@ def draw_boxes(frame, lens, rows, palette, colors):
     small = np.flatnonzero(~large)
     kinds, which = np.unique((colors[small] << 16) | (wide[small] << 8) | high[small], return_inverse=True)
     images = [outline(tones[kind >> 16], kind >> 8 & 255, kind & 255) for kind in kinds.tolist()]
-    blit_many(frame.surface, list(zip(map(images.__getitem__, which.tolist()), zip(left[small].tolist(), top[small].tolist()))))
+    blit_many(
+        frame.surface,
+        list(zip(map(images.__getitem__, which.tolist()), zip(left[small].tolist(), top[small].tolist()))),
+    )
 
 
 @lru_cache(maxsize=2048)
@@ -70,7 +73,7 @@ class Bounds:
             return
         self.drawn += len(seen)
         state = _states(world, debug.shape_rows(world))[seen]
-        order = np.argsort(state, kind="stable")     # red last, over its neighbours
+        order = np.argsort(state, kind="stable")  # red last, over its neighbours
         draw_boxes(frame, lens, rows[seen][order], COLORS, state[order])
 
     def notes(self):
@@ -86,7 +89,7 @@ def _states(world, shapes):
     touching = np.concatenate((contacts["shape_a"], contacts["shape_b"]))
     for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
         rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)
-        state[rows[ids[rows] == among]] = value        # what is gone since the step has no row
+        state[rows[ids[rows] == among]] = value  # what is gone since the step has no row
     return state
 
 

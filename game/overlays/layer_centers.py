@@ -8,9 +8,9 @@ from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import arrow
 from physics.tables import DYNAMIC
 
-CENTER_BUDGET = 600        # bodies per picture; the note says how many there are
-SECONDS = 0.1              # the arrow shows the way of this time
-APART = 1.0                # [px] an origin nearer than this is not drawn beside the centre
+CENTER_BUDGET = 600  # bodies per picture; the note says how many there are
+SECONDS = 0.1  # the arrow shows the way of this time
+APART = 1.0  # [px] an origin nearer than this is not drawn beside the centre
 
 
 class Centers:

@@ -9,9 +9,9 @@ from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import can_move
 from physics import debug
 
-COLOR_BUDGET = 800         # contacts per picture; the note says how many there are
-LABEL_BUDGET = 150         # numbers written out per picture
-LISTED = 8                 # colours counted one by one in the legend
+COLOR_BUDGET = 800  # contacts per picture; the note says how many there are
+LABEL_BUDGET = 150  # numbers written out per picture
+LISTED = 8  # colours counted one by one in the legend
 
 
 class Colors:

@@ -7,10 +7,10 @@ from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PINK, SKY, SLATE
 from game.drawing.draw import SMALL
 from physics import debug
 
-NORMAL_LENGTH = 9.0        # [canvas px] drawn length of a normal, before the depth is added
-CONTACT_BUDGET = 800       # contacts per picture; the note says how many there are
-LABEL_BUDGET = 40          # depths written out per picture
-LEAST_DEPTH = 0.05         # [px] shallower ones round to nothing
+NORMAL_LENGTH = 9.0  # [canvas px] drawn length of a normal, before the depth is added
+CONTACT_BUDGET = 800  # contacts per picture; the note says how many there are
+LABEL_BUDGET = 40  # depths written out per picture
+LEAST_DEPTH = 0.05  # [px] shallower ones round to nothing
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 STATES = ("speculative", "new", "persisted", "sensor", "asleep")
 COLORS = (FOG, GREEN, SKY, PINK, SLATE)
@@ -26,7 +26,7 @@ class Contacts:
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
-        self.labels = []           # (text, x, y, align), drawn when all fixed text has its place
+        self.labels = []  # (text, x, y, align), drawn when all fixed text has its place
 
     def draw(self, frame, lens, world):
         """Draw one world through one lens."""
@@ -46,11 +46,16 @@ class Contacts:
         depth = max(0.0, -separation)
         reach = NORMAL_LENGTH * frame.scale + min(depth, 24.0) * lens.scale
         end_x, end_y = x + nx * reach, y + ny * reach
-        if state in (SPECULATIVE, ASLEEP):       # nothing is pushed here: a short stub, a hollow dot
+        if state in (SPECULATIVE, ASLEEP):  # nothing is pushed here: a short stub, a hollow dot
             end_x, end_y = x + nx * reach / 2, y + ny * reach / 2
         tone = frame.tone(COLORS[state])
-        pygame.draw.line(frame.surface, frame.tone(ORANGE) if state in (NEW, PERSISTED) else tone, (x, y), (end_x, end_y),
-                         max(1, frame.scale - 1))
+        pygame.draw.line(
+            frame.surface,
+            frame.tone(ORANGE) if state in (NEW, PERSISTED) else tone,
+            (x, y),
+            (end_x, end_y),
+            max(1, frame.scale - 1),
+        )
         hollow = 1 if state in (SPECULATIVE, SENSOR) else 0
         pygame.draw.circle(frame.surface, tone, (x, y), frame.scale + 1 + hollow, hollow)
         if depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:

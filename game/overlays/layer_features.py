@@ -7,8 +7,8 @@ from game.drawing.draw import SMALL
 from game.overlays.layer_contacts import seen_points
 from physics import debug
 
-FEATURE_BUDGET = 150       # contacts per picture
-PER_LINK = 4096            # a chain's or grid's feature: number of the link or run, then the corner on it
+FEATURE_BUDGET = 150  # contacts per picture
+PER_LINK = 4096  # a chain's or grid's feature: number of the link or run, then the corner on it
 
 
 class Features:

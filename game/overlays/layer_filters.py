@@ -6,7 +6,7 @@ from game.drawing.colors import FOG, PINK, SERIES
 from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
 from physics import debug
 
-KINDS_LISTED = 6           # lines in the legend; a further line counts the rest
+KINDS_LISTED = 6  # lines in the legend; a further line counts the rest
 
 
 class Filters:
@@ -16,7 +16,7 @@ class Filters:
 
     def begin(self, views=1):
         """Start a picture of so many views, which share the budget evenly."""
-        self.kinds = {}            # (membership, mask) -> [colour, count]
+        self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
 
@@ -29,7 +29,7 @@ class Filters:
             return
         words = shapes["membership"].astype(np.uint64) << np.uint64(32) | shapes["mask"].astype(np.uint64)
         kinds, which, counts = np.unique(words, return_inverse=True, return_counts=True)
-        colors = []                # of this world's kinds; another view may have named them before
+        colors = []  # of this world's kinds; another view may have named them before
         for word, count in zip(kinds.tolist(), counts.tolist(), strict=True):
             kind = self.kinds.setdefault((word >> 32, word & 0xFFFFFFFF), [SERIES[len(self.kinds) % len(SERIES)], 0])
             kind[1] += count

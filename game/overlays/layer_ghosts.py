@@ -8,8 +8,8 @@ from game.drawing.draw import SMALL
 from game.overlays.outlines import draw_outline, moved
 from physics import debug
 
-GHOST_BUDGET = 200         # bodies per picture; the note says how many there are
-KEPT = 45                  # pictures a ghost stays, fading
+GHOST_BUDGET = 200  # bodies per picture; the note says how many there are
+KEPT = 45  # pictures a ghost stays, fading
 
 
 class Ghosts:
@@ -18,7 +18,7 @@ class Ghosts:
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
 
     def __init__(self):
-        self.kept = {}             # id of a world -> ([[age, outlines, fraction, place, where it was going], ...], events, world)
+        self.kept = {}  # id of a world -> ([[age, outlines, fraction, place, where it was going], ...], events, world)
         self.begin()
 
     def begin(self, views=1):
@@ -32,7 +32,7 @@ class Ghosts:
         kept = self._note(world)
         self.total += sum(1 for ghost in kept if ghost[0] == 0)
         width = max(1, frame.scale - 1)
-        for age, outlines, fraction, there, aim in kept[-self.room:]:
+        for age, outlines, fraction, there, aim in kept[-self.room :]:
             place, end = lens.points(*there), lens.points(*aim)
             if not lens.clip.collidepoint(place):
                 continue
@@ -49,7 +49,7 @@ class Ghosts:
     def _note(self, world):
         """Age what is kept and add the impacts of a step that was not seen yet."""
         kept, step, last = self.kept.get(id(world), ([], None, None))
-        now = world.events         # a new object in every step
+        now = world.events  # a new object in every step
         if last is not world:
             kept, step = [], None
         if step is not now:
@@ -84,4 +84,8 @@ class Ghosts:
 
     def notes(self):
         """(color, text) lines for the legend."""
-        return [(self.color, f"impacts {self.drawn} of {self.total} in this step"), (SKY, "where they were going"), (FOG, "number: share of the step")]
+        return [
+            (self.color, f"impacts {self.drawn} of {self.total} in this step"),
+            (SKY, "where they were going"),
+            (FOG, "number: share of the step"),
+        ]

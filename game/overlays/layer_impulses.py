@@ -9,11 +9,11 @@ from game.drawing.colors import RED, YELLOW
 from game.overlays.layer_contacts import seen_points
 from physics import debug
 
-IMPULSE_BUDGET = 800       # contacts per picture; the note says how many there are
-LONGEST = 26.0             # [canvas px] an arrow is drawn at most this long …
-REFERENCE = 10.0           # … and this long for the impulse that the legend names
-TYPICAL = 0.9              # the share of contacts that push less than the one the scale is set by
-FADE = 0.95                # a step: how slowly the scale comes down after a blow
+IMPULSE_BUDGET = 800  # contacts per picture; the note says how many there are
+LONGEST = 26.0  # [canvas px] an arrow is drawn at most this long …
+REFERENCE = 10.0  # … and this long for the impulse that the legend names
+TYPICAL = 0.9  # the share of contacts that push less than the one the scale is set by
+FADE = 0.95  # a step: how slowly the scale comes down after a blow
 
 
 class Impulses:
@@ -22,7 +22,7 @@ class Impulses:
     name, title, key, color = "impulses", "Impulses", "9", RED
 
     def __init__(self):
-        self.level = 0.0           # the impulse that is typical now
+        self.level = 0.0  # the impulse that is typical now
         self.begin()
 
     def begin(self, views=1):
@@ -47,8 +47,15 @@ class Impulses:
         scale = REFERENCE * frame.scale / self.unit if self.unit else 0.0
         scale = scale * np.where(can_move(world.bodies, rows["body_b"][seen]), 1.0, -1.0)
         nx, ny, push, rub = (rows[name][seen] for name in ("normal_x", "normal_y", "normal_impulse", "tangent_impulse"))
-        for x, y, nx, ny, push, rub in zip(x[seen].tolist(), y[seen].tolist(), nx.tolist(), ny.tolist(),
-                                           (push * scale).tolist(), (rub * scale).tolist(), strict=True):
+        for x, y, nx, ny, push, rub in zip(
+            x[seen].tolist(),
+            y[seen].tolist(),
+            nx.tolist(),
+            ny.tolist(),
+            (push * scale).tolist(),
+            (rub * scale).tolist(),
+            strict=True,
+        ):
             arrow(frame, x, y, nx * push, ny * push, RED)
             arrow(frame, x, y, -ny * rub, nx * rub, YELLOW)
 

@@ -10,22 +10,22 @@ from game.drawing.draw import SMALL
 from game.overlays.outlines import draw_outline
 from physics import debug
 
-BODY_BUDGET = 700          # shapes outlined per picture; the note says how many bodies there are
-ISLAND_BUDGET = 120        # hulls drawn per picture
-DIRECTIONS = 32            # a hull is drawn by its farthest points this many ways
-FILL, ASLEEP_FILL, EDGE = 46, 120, 200      # opacity of 255
+BODY_BUDGET = 700  # shapes outlined per picture; the note says how many bodies there are
+ISLAND_BUDGET = 120  # hulls drawn per picture
+DIRECTIONS = 32  # a hull is drawn by its farthest points this many ways
+FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
 class Islands:
     """Each island's hull and shapes in a colour of its own; asleep: grey, with a z."""
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
-    under = True               # drawn before the other layers, since it fills areas
+    under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views=1):
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
-        self.found = False         # some world looks for islands
+        self.found = False  # some world looks for islands
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
@@ -78,8 +78,10 @@ class Islands:
         """(color, text) lines for the legend."""
         if not self.found:
             return [(FOG, "no islands: sleeping is not declared")]
-        return [(self.color, f"{self.islands} islands, outlined {self.drawn} of {self.total} bodies"),
-                (FOG, f"{self.asleep} asleep")]
+        return [
+            (self.color, f"{self.islands} islands, outlined {self.drawn} of {self.total} bodies"),
+            (FOG, f"{self.asleep} asleep"),
+        ]
 
 
 def hull_of(points):

@@ -13,10 +13,10 @@ from game.compat import blit_many
 from game.drawing.colors import BLUE, YELLOW, toned
 from physics import debug
 
-FILL = 96                  # opacity of 255 of a mask's inside
+FILL = 96  # opacity of 255 of a mask's inside
 EDGE = (150, 210, 255, 255)
 HIT = (255, 250, 150, 255)
-CACHE_SIZE = 512           # tinted masks kept; a turning sprite has one per angle bucket
+CACHE_SIZE = 512  # tinted masks kept; a turning sprite has one per angle bucket
 
 
 class Masks:
@@ -43,7 +43,9 @@ class Masks:
         images = [self._tinted(solid, canvas.palette) for solid in found.solids]
         sizes = np.array([image.get_size() for image in images], int).reshape(-1, 2)[found.which]
         x, y = found.left.astype(int) - left + view.x, found.top.astype(int) - top + view.y
-        seen = np.flatnonzero((x < view.right) & (y < view.bottom) & (x + sizes[:, 0] > view.left) & (y + sizes[:, 1] > view.top))
+        seen = np.flatnonzero(
+            (x < view.right) & (y < view.bottom) & (x + sizes[:, 0] > view.left) & (y + sizes[:, 1] > view.top)
+        )
         self.total += len(x)
         self.drawn += len(seen)
         pairs = list(zip(map(images.__getitem__, found.which[seen].tolist()), zip(x[seen].tolist(), y[seen].tolist())))
@@ -63,7 +65,7 @@ class Masks:
         seen = (x >= view.left) & (x < view.right) & (y >= view.top) & (y < view.bottom)
         pixels = pygame.surfarray.pixels2d(surface)
         pixels[x[seen], y[seen]] = surface.map_rgb(HIT)
-        del pixels      # unlocks the surface
+        del pixels  # unlocks the surface
 
     def _tinted(self, solid, palette):
         """Masks hand out the same array for the same angle; it is kept with its image, so its id stays its own."""
@@ -97,5 +99,5 @@ def mask_image(solid, palette="standard"):
     pygame.surfarray.blit_array(image, colors)
     view = pygame.surfarray.pixels_alpha(image)
     view[:] = alpha
-    del view            # unlocks the surface
+    del view  # unlocks the surface
     return image

@@ -8,7 +8,7 @@ from game.overlays.outlines import draw_outline
 from physics import TileGrid, debug
 from physics.tables import MASK
 
-OUTLINE_BUDGET = 900       # shapes per picture; the note says how many there are
+OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
 
 
@@ -33,8 +33,9 @@ class Outlines:
         rows = debug.shape_rows(world)[seen]
         width = max(1, frame.scale - 1)
         tones = [frame.tone(color) for color in (STATIC, KINEMATIC, DYNAMIC)]
-        for outline, kind, sensor in zip(debug.outlines(world, seen.tolist()), rows["kind"].tolist(),
-                                         rows["sensor"].tolist(), strict=True):
+        for outline, kind, sensor in zip(
+            debug.outlines(world, seen.tolist()), rows["kind"].tolist(), rows["sensor"].tolist(), strict=True
+        ):
             color = frame.tone(PINK) if sensor else tones[kind]
             if outline[0] == "tiles":
                 self._draw_tiles(frame, lens, world, outline[1], color, width)
@@ -55,8 +56,12 @@ class Outlines:
 
     def notes(self):
         """(color, text) lines for the legend."""
-        return [(self.color, f"shapes {self.drawn} of {self.total}"), (SKY, "kinematic"), (STATIC, "static"),
-                (PINK, "sensor")]
+        return [
+            (self.color, f"shapes {self.drawn} of {self.total}"),
+            (SKY, "kinematic"),
+            (STATIC, "static"),
+            (PINK, "sensor"),
+        ]
 
 
 def edges_of(grid, lens, x, y):
@@ -84,5 +89,8 @@ def edges_of(grid, lens, x, y):
 
 
 def _line(lens, size, x, y, column, row, ax, ay, bx, by, one_way):
-    return (lens.points(x + (column + ax) * size, y + (row + ay) * size),
-            lens.points(x + (column + bx) * size, y + (row + by) * size), one_way)
+    return (
+        lens.points(x + (column + ax) * size, y + (row + ay) * size),
+        lens.points(x + (column + bx) * size, y + (row + by) * size),
+        one_way,
+    )

@@ -6,7 +6,7 @@ import pygame
 from game.drawing.colors import RED
 from physics import debug
 
-PAIR_BUDGET = 1500         # lines per picture; the note says how many pairs there are
+PAIR_BUDGET = 1500  # lines per picture; the note says how many pairs there are
 MISS = (150, 140, 190)
 
 
@@ -27,10 +27,14 @@ class Pairs:
         if len(rows) == 0:
             return
         self.hits += int(np.count_nonzero(rows[:, 4]))
-        corners = np.column_stack((
-            np.minimum(rows[:, 0], rows[:, 2]), np.minimum(rows[:, 1], rows[:, 3]),
-            np.maximum(rows[:, 0], rows[:, 2]), np.maximum(rows[:, 1], rows[:, 3]),
-        ))
+        corners = np.column_stack(
+            (
+                np.minimum(rows[:, 0], rows[:, 2]),
+                np.minimum(rows[:, 1], rows[:, 3]),
+                np.maximum(rows[:, 0], rows[:, 2]),
+                np.maximum(rows[:, 1], rows[:, 3]),
+            )
+        )
         seen = np.flatnonzero(lens.seen(corners))
         seen = seen[np.argsort(-rows[seen, 4], kind="stable")][: self.room]
         self.drawn += len(seen)
@@ -39,7 +43,7 @@ class Pairs:
         starts, ends = np.column_stack((x0, y0)).tolist(), np.column_stack((x1, y1)).tolist()
         line, surface = pygame.draw.line, frame.surface
         hit, miss = frame.tone(RED), frame.tone(MISS)
-        for i in reversed(range(len(seen))):         # hits last, on top
+        for i in reversed(range(len(seen))):  # hits last, on top
             line(surface, hit if rows[seen[i], 4] else miss, starts[i], ends[i])
 
     def notes(self):

@@ -6,9 +6,9 @@ from game.drawing.colors import BLUE, FOG, GREEN, PINK, SKY, YELLOW, faded
 from game.overlays.layer_bounds import draw_boxes
 from physics import debug
 
-RECT_BUDGET = 2500         # cells or tree boxes per picture; the note says how many there are
-INTERVAL_BUDGET = 1200     # intervals per picture
-LANES = 8                  # intervals of one axis are drawn in this many lanes, so that neighbours show
+RECT_BUDGET = 2500  # cells or tree boxes per picture; the note says how many there are
+INTERVAL_BUDGET = 1200  # intervals per picture
+LANES = 8  # intervals of one axis are drawn in this many lanes, so that neighbours show
 DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE) for amount in (0.0, 0.25))
 
 
@@ -82,7 +82,7 @@ def covered(low, high, lanes, count, length):
     edges = np.zeros((count, length + 1), int)
     np.add.at(edges, (lanes, low), 1)
     np.add.at(edges, (lanes, high), -1)
-    turns = np.diff(np.cumsum(edges, axis=1) > 0, axis=1, prepend=False)       # on and off again, in the order of each lane
+    turns = np.diff(np.cumsum(edges, axis=1) > 0, axis=1, prepend=False)  # on and off again, in the order of each lane
     lane, place = np.nonzero(turns)
     return zip(lane[::2].tolist(), place[::2].tolist(), place[1::2].tolist(), strict=True)
 

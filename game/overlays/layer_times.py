@@ -5,16 +5,27 @@ import pygame
 from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded, toned
 from game.drawing.draw import SMALL
 
-HISTORY = 240              # steps kept: four seconds
-SMOOTHING = 0.06           # share of the newest step in the figures written out; raw ones cannot be read
-SHOWN = (                  # counters written out, in the order of the step
-    "bodies_integrated", "nodes_visited", "pairs_tested", "filtered", "candidates", "narrow_tests",
-    "mask_tests", "gjk_iterations", "contacts", "toi_calls", "solver_rows", "islands", "cap_hits",
+HISTORY = 240  # steps kept: four seconds
+SMOOTHING = 0.06  # share of the newest step in the figures written out; raw ones cannot be read
+SHOWN = (  # counters written out, in the order of the step
+    "bodies_integrated",
+    "nodes_visited",
+    "pairs_tested",
+    "filtered",
+    "candidates",
+    "narrow_tests",
+    "mask_tests",
+    "gjk_iterations",
+    "contacts",
+    "toi_calls",
+    "solver_rows",
+    "islands",
+    "cap_hits",
 )
-SCALED_TO = 0.95           # share of the steps that the graph shows at full height
-LEAST_GRAPH = 70           # [text px] the graph keeps at least this width
-LEAST_TOP = 0.5            # [ms] top of the graph when everything is fast
-FRAME_BUDGET = 1000 / 60   # [ms] a frame at 60 Hz
+SCALED_TO = 0.95  # share of the steps that the graph shows at full height
+LEAST_GRAPH = 70  # [text px] the graph keeps at least this width
+LEAST_TOP = 0.5  # [ms] top of the graph when everything is fast
+FRAME_BUDGET = 1000 / 60  # [ms] a frame at 60 Hz
 
 
 class Times:
@@ -27,11 +38,11 @@ class Times:
 
     def clear(self):
         """Forget the history (another scene)."""
-        self.steps = []            # per step: {stage: ms}
-        self.totals = []           # [ms] of the same steps
+        self.steps = []  # per step: {stage: ms}
+        self.totals = []  # [ms] of the same steps
         self.mean = {}
         self.counters = {}
-        self.noted = self.painted = 0      # steps since the start, and how many of them the sheet shows
+        self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
         self.sheet, self.sheet_for = None, None
 
     def note(self, scene):
@@ -86,8 +97,16 @@ class Times:
             y = rect.bottom - int(rect.height * part * 0.999)
             pygame.draw.line(frame.surface, SLATE, (rect.left, y), (rect.right, y))
         frame.text_if_free(f"{top:g} ms", rect.x + scale, rect.y + scale, PAPER, SMALL, scale, "left", True)
-        frame.text_if_free(f"{sum(self.mean.values()):.2f} ms a step, frame {FRAME_BUDGET:.1f}",
-                           rect.x + scale, rect.bottom - 8 * scale, GOLD, SMALL, scale, "left", True)
+        frame.text_if_free(
+            f"{sum(self.mean.values()):.2f} ms a step, frame {FRAME_BUDGET:.1f}",
+            rect.x + scale,
+            rect.bottom - 8 * scale,
+            GOLD,
+            SMALL,
+            scale,
+            "left",
+            True,
+        )
 
     def _scroll(self, size, top, palette):
         """Bring the graph's sheet up to date: only the new columns are painted unless its size or scale changed."""
@@ -101,8 +120,9 @@ class Times:
             self.sheet.scroll(-new * column, 0)
             self.sheet.fill(faded(NIGHT, 0.3), (size[0] - new * column, 0, new * column, size[1]))
         for place in range(new):
-            self._paint_column(self.steps[len(self.steps) - new + place], size[0] - (new - place) * column, column, top,
-                               palette)
+            self._paint_column(
+                self.steps[len(self.steps) - new + place], size[0] - (new - place) * column, column, top, palette
+            )
         self.painted = self.noted
 
     def _paint_column(self, step, x, width, top, palette):

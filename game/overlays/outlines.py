@@ -5,9 +5,9 @@ from math import atan2, ceil, cos, hypot, pi, sin
 import numpy as np
 import pygame
 
-ARC_STEP = 2.5             # [frame px] of an arc that one line stands for
-TICK_GAP, TICK_LENGTH = 7.0, 4.0       # [canvas px] hatching on the solid side of a chain
-TICK_BUDGET = 400          # ticks of one chain
+ARC_STEP = 2.5  # [frame px] of an arc that one line stands for
+TICK_GAP, TICK_LENGTH = 7.0, 4.0  # [canvas px] hatching on the solid side of a chain
+TICK_BUDGET = 400  # ticks of one chain
 
 
 def ring(points, radius, scale):
@@ -31,8 +31,10 @@ def ring(points, radius, scale):
         start = facing[i - 1]
         turn = (facing[i] - start) % (2 * pi)
         steps = _steps(turn, radius, scale)
-        out += [(x + radius * cos(start + turn * j / steps), y + radius * sin(start + turn * j / steps))
-                for j in range(steps + 1)]
+        out += [
+            (x + radius * cos(start + turn * j / steps), y + radius * sin(start + turn * j / steps))
+            for j in range(steps + 1)
+        ]
     return out
 
 

@@ -20,15 +20,30 @@ from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
 
 SHORTER = (24, 16, 10, 5)  # lines of a legend that does not fit in full
-TIMES_SIZE = (250, 62)     # of the floating graph, in text pixels (frame pixels / text scale)
+TIMES_SIZE = (250, 62)  # of the floating graph, in text pixels (frame pixels / text scale)
 
 
 class Overlays:
     """`on` is the set of layer names switched on."""
 
     def __init__(self, on=()):
-        self.layers = (Bounds(), Motion(), Structure(), Pairs(), Masks(), Contacts(), Filters(), Times(), Impulses(),
-                       Features(), Islands(), Colors(), Centers(), Ghosts(), Outlines())
+        self.layers = (
+            Bounds(),
+            Motion(),
+            Structure(),
+            Pairs(),
+            Masks(),
+            Contacts(),
+            Filters(),
+            Times(),
+            Impulses(),
+            Features(),
+            Islands(),
+            Colors(),
+            Centers(),
+            Ghosts(),
+            Outlines(),
+        )
         self.on = set(on)
 
     @property
@@ -74,8 +89,9 @@ class Overlays:
 
     def legend(self):
         """(color, text) lines of all active layers, in the order of their keys."""
-        return [line for layer in self.layers
-                if layer.name in self.on and layer.name != "times" for line in layer.notes()]
+        return [
+            line for layer in self.layers if layer.name in self.on and layer.name != "times" for line in layer.notes()
+        ]
 
     def draw_floating(self, frame, legend_at=None):
         """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
@@ -96,7 +112,9 @@ class Overlays:
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
                 return
-            shown = lines if room == len(lines) else [*lines[: room - 1], (FOG, f"and {len(lines) - room + 1} more lines")]
+            shown = (
+                lines if room == len(lines) else [*lines[: room - 1], (FOG, f"and {len(lines) - room + 1} more lines")]
+            )
             size = legend_size(frame, shown, scale)
             places = _corners(area, size, 4 * scale)
             if legend_at is not None:
@@ -111,9 +129,11 @@ class Overlays:
 
     def _active(self, on_canvas):
         """Layers to draw, those that fill areas first."""
-        active = [layer for layer in self.layers
-                  if layer.name in self.on and layer.name != "times"
-                  and getattr(layer, "on_canvas", False) == on_canvas]
+        active = [
+            layer
+            for layer in self.layers
+            if layer.name in self.on and layer.name != "times" and getattr(layer, "on_canvas", False) == on_canvas
+        ]
         return sorted(active, key=lambda layer: not getattr(layer, "under", False))
 
 
@@ -148,6 +168,14 @@ def _corners(area, size, margin):
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2
     rows = range(top, bottom + 1, 8 * max(1, margin // 4))
-    places = [(left, bottom), (right, bottom), (left, middle_y), (right, middle_y), (right, top), (left, top),
-              (middle_x, bottom), (middle_x, top)]
+    places = [
+        (left, bottom),
+        (right, bottom),
+        (left, middle_y),
+        (right, middle_y),
+        (right, top),
+        (left, top),
+        (middle_x, bottom),
+        (middle_x, top),
+    ]
     return places + [(x, y) for y in rows for x in (left, right)]

@@ -8,9 +8,9 @@ from game.screens.demo import Demo
 from game.screens.status_line import draw_line
 
 SCENES = ("shooter", "platformer", "lab/pyramid", "lab/masks")
-SECONDS = 25           # of each
+SECONDS = 25  # of each
 STEPS = SECONDS * 60
-AFTER_END = 180        # steps that an ended game is still shown
+AFTER_END = 180  # steps that an ended game is still shown
 LINE = "DEMO - press any key"
 ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
 
@@ -29,7 +29,7 @@ class Attract:
         self.names = [name for name in SCENES if name in names] or list(names[:1])
         self.at = 0
         self.steps = 0
-        self.ended = False         # the bot's game is over
+        self.ended = False  # the bot's game is over
         self.demo = None
         self.outcome = None
 

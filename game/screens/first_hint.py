@@ -9,7 +9,7 @@ LINES = (("Tab or Y", "the panel"), ("1 to 9", "see what the physics sees"), ("E
 FOOT = "Enter or a click puts this away"
 KEYS = (pygame.K_TAB, pygame.K_RETURN, pygame.K_KP_ENTER, *range(pygame.K_0, pygame.K_9 + 1))
 BUTTONS = ("y", "back")
-SIZE = (224, 74)       # [text px]
+SIZE = (224, 74)  # [text px]
 
 
 class HintCard:

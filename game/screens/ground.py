@@ -7,9 +7,9 @@ from game.drawing.boxes import draw_box
 from game.drawing.colors import FOG, GOLD, SLATE
 from game.drawing.draw import SMALL, TEXT
 
-DRIFT = 20.0           # [px/s] of the backdrop
-DIMMED = 72            # of 255 that is left of a waiting game's light
-MARGIN = 8             # [canvas px] between a page and the edge of the picture
+DRIFT = 20.0  # [px/s] of the backdrop
+DIMMED = 72  # of 255 that is left of a waiting game's light
+MARGIN = 8  # [canvas px] between a page and the edge of the picture
 
 
 class DuskGround:

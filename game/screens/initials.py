@@ -8,7 +8,7 @@ from game.drawing.draw import TEXT
 from game.files.settings import LETTERS
 from game.screens.rows import Repeat, confirmed
 
-CELL = (32, 44)        # of a letter with its two arrows
+CELL = (32, 44)  # of a letter with its two arrows
 GAP = 8
 
 
@@ -55,7 +55,9 @@ class Initials:
             self.at = min(3, max(0, self.at + way))
             self.cues.append("blip")
         if inputs.pointer != self.pointer and self.pointer is not None:
-            self.at = next((number for number, cell in enumerate(self.cells) if cell.collidepoint(inputs.pointer)), self.at)
+            self.at = next(
+                (number for number, cell in enumerate(self.cells) if cell.collidepoint(inputs.pointer)), self.at
+            )
         self.pointer = inputs.pointer
         if inputs.pointer_pressed:
             self._click(inputs.pointer)

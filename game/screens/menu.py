@@ -15,7 +15,7 @@ from game.screens.rows import Row, RowList
 
 LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
 ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
-GROUPS = {"": "GAMES", "lab": "LAB"}   # by the part of a scene's name before the slash
+GROUPS = {"": "GAMES", "lab": "LAB"}  # by the part of a scene's name before the slash
 FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
@@ -29,8 +29,8 @@ class Menu:
         self.registry, self.records = registry, records
         self.ground = DuskGround()
         self.cues = []
-        self.tables = {}                           # (scene class, level file) -> its table, asked once: the file is read
-        self.entries = self._entries()             # (scene class or None for Back, level file or None) of each row
+        self.tables = {}  # (scene class, level file) -> its table, asked once: the file is read
+        self.entries = self._entries()  # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
         self.list = RowList(lambda: self.rows, (inside.x, LIST.y + 36, inside.width, 192), self.cues)
         names = [getattr(each[0], "name", None) for each in self.entries]

@@ -7,7 +7,7 @@ from game.screens.ground import DuskGround, draw_page
 from game.screens.rows import confirmed
 
 WIDTH = 400
-MOST_LINES = 6         # of one part; a longer one is cut where it ends
+MOST_LINES = 6  # of one part; a longer one is cut where it ends
 
 
 class MessageScreen:

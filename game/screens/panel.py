@@ -4,8 +4,8 @@ A Row says what it shows and what turning or pressing it does; the panel knows n
 down move the mark, left and right turn a value, Enter presses.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import pygame
 
@@ -14,7 +14,7 @@ from game.drawing.draw import SMALL, TEXT, shorten
 
 HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE = "head", "check", "choice", "slider", "button", "note"
 LIVE = (CHECK, CHOICE, SLIDER, BUTTON)
-ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9}     # [text px]
+ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9}  # [text px]
 WHEEL_ROWS = 3
 
 
@@ -25,14 +25,14 @@ class Row:
     kind: str
     label: str
     value: str = ""
-    key: str = ""                       # the key that does the same, shown at the right
+    key: str = ""  # the key that does the same, shown at the right
     color: tuple = PAPER
     on: bool = False
-    share: float = 0.0                  # of a slider's range
+    share: float = 0.0  # of a slider's range
     turn: Callable | None = None
     press: Callable | None = None
     put: Callable | None = None
-    hint: str = ""                      # one sentence, shown at the panel's foot while marked
+    hint: str = ""  # one sentence, shown at the panel's foot while marked
 
 
 class Panel:
@@ -41,10 +41,10 @@ class Panel:
     def __init__(self, rows):
         self.rows = rows
         self.mark = 0
-        self.first = 0                  # first row shown, when there are more than fit
+        self.first = 0  # first row shown, when there are more than fit
         self.focused = True
-        self.places = []                # (rect, row number) of the last picture
-        self.dragged = None             # row number of the slider being dragged
+        self.places = []  # (rect, row number) of the last picture
+        self.dragged = None  # row number of the slider being dragged
         self.rect = pygame.Rect(0, 0, 0, 0)
 
     def feed(self, event):

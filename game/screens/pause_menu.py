@@ -28,11 +28,20 @@ class PauseMenu:
         self.outcome = None
 
     def _rows(self):
-        entries = [("Resume", ("back",)), ("Restart", ("restart",)), ("Settings", ("settings", None)),
-                   ("Keys", ("settings", "Keyboard")), ("Save replay", ("save_replay",)),
-                   ("Tour of the overlays", ("tour",)), ("Leave", ("menu",))]
-        return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in entries
-                if self.can_save or outcome[0] != "save_replay"]
+        entries = [
+            ("Resume", ("back",)),
+            ("Restart", ("restart",)),
+            ("Settings", ("settings", None)),
+            ("Keys", ("settings", "Keyboard")),
+            ("Save replay", ("save_replay",)),
+            ("Tour of the overlays", ("tour",)),
+            ("Leave", ("menu",)),
+        ]
+        return [
+            Row(label, press=lambda outcome=outcome: self._leave(outcome))
+            for label, outcome in entries
+            if self.can_save or outcome[0] != "save_replay"
+        ]
 
     def _leave(self, outcome):
         self.outcome = outcome

@@ -16,12 +16,17 @@ from game.screens.status_line import RESULT_WAIT, draw_status
 from game.session import Session
 from physics import BROADPHASES
 
-RECORDED_ON = 120      # steps that are still recorded after the end, so that a replay shows it
-RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0.8, 0.5, 300)}    # low, high 0..1, [ms]
-PANEL_BUTTONS = {"dpad up": pygame.K_UP, "dpad down": pygame.K_DOWN, "dpad left": pygame.K_LEFT,
-                 "dpad right": pygame.K_RIGHT, "a": pygame.K_RETURN}
-EASIER = ("tier", "narrowphase", "slider:")      # changes that make a score an assisted one
-KEPT_ACTIONS = {"confirm", "cancel", "pause"}    # a key that means more than these is a move, whatever else it does
+RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
+RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0.8, 0.5, 300)}  # low, high 0..1, [ms]
+PANEL_BUTTONS = {
+    "dpad up": pygame.K_UP,
+    "dpad down": pygame.K_DOWN,
+    "dpad left": pygame.K_LEFT,
+    "dpad right": pygame.K_RIGHT,
+    "a": pygame.K_RETURN,
+}
+EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
+KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
 class Play:
@@ -34,8 +39,8 @@ class Play:
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
-        self.renews = self.person and not records       # each attempt is a recording of its own
-        self.table = table_of(scene.name, scene.level_file)     # now: by the end the level's file may be another, or gone
+        self.renews = self.person and not records  # each attempt is a recording of its own
+        self.table = table_of(scene.name, scene.level_file)  # now: by the end the level's file may be another, or gone
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
@@ -44,8 +49,8 @@ class Play:
         self.panel_open = False
         self.outcome = None
         self.wants_screenshot = False
-        self.prepare = lambda solver: None     # called before a solver is switched to; the app compiles it then
-        self.run_ended = lambda recorder, result: None       # called with each run that ends, to keep it
+        self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
+        self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
         self.assisted = False
         self.since_result = 0
@@ -66,7 +71,9 @@ class Play:
     def shows_pointer(self):
         """True while the mouse has something to do."""
         scene = self.scene
-        return self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused or self.hint is not None
+        return (
+            self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused or self.hint is not None
+        )
 
     def apply_settings(self):
         """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
@@ -93,7 +100,7 @@ class Play:
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
         if self.session.replay is not None:
-            self.devices.next()        # a replay takes no advice
+            self.devices.next()  # a replay takes no advice
         elif self.clock.paused and self.devices.changes and not self.clock.requested:
             self.clock.request_step()  # a change while paused costs one step, so that its effect is seen
         for _ in range(self.clock.advance(now)):
@@ -229,7 +236,7 @@ class Play:
     def _key(self, key):
         change, scene = self.devices.change, self.scene
         if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
-            return False               # the player gave it to a move, and a move it stays
+            return False  # the player gave it to a move, and a move it stays
         layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
         if key in layers:
             self.overlays.toggle(layers[key])
@@ -250,7 +257,7 @@ class Play:
         elif key == pygame.K_r:
             self.wish_restart()
         elif key == pygame.K_p:
-            self.toggle_pause()        # not through the input of a step: a paused game makes none
+            self.toggle_pause()  # not through the input of a step: a paused game makes none
         elif key == pygame.K_o:
             self.single_step()
         elif key == pygame.K_MINUS:

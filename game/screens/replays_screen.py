@@ -13,7 +13,7 @@ from game.screens.rows import LINE, Row, RowList
 LIST = pygame.Rect(MARGIN, MARGIN, 232, 254)
 CARD = pygame.Rect(LIST.right + MARGIN, MARGIN, 224, 254)
 FOOT = "Enter opens   Esc back"
-MISSING = object()     # not read yet
+MISSING = object()  # not read yet
 
 
 class ReplaysScreen:
@@ -27,11 +27,13 @@ class ReplaysScreen:
         self.ground = ground or DuskGround()
         self.cues = []
         self.message = ""
-        self.inside = False                    # the keys work the card, not the list
-        self.entries = shelf()                 # (path, kept on purpose) each
-        self.read = {}                         # path -> (replay, reason); one more is read in each step
+        self.inside = False  # the keys work the card, not the list
+        self.entries = shelf()  # (path, kept on purpose) each
+        self.read = {}  # path -> (replay, reason); one more is read in each step
         self.list = RowList(self._rows, (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192), self.cues)
-        self.card = RowList(self._card_rows, (CARD.x + 16, CARD.bottom - 20 - 4 * LINE, CARD.width - 32, 4 * LINE), self.cues)
+        self.card = RowList(
+            self._card_rows, (CARD.x + 16, CARD.bottom - 20 - 4 * LINE, CARD.width - 32, 4 * LINE), self.cues
+        )
         self.time = 0.0
         self.outcome = None
 
@@ -134,8 +136,10 @@ class ReplaysScreen:
         draw_box(canvas, CARD)
         x, y, width = CARD.x + 16, CARD.y + 14, CARD.width - 32
         if self.chosen is None:
-            text = ("Every game you play is kept here, the last ten. Those you keep stay. "
-                    f"Put a friend's file into {replays_folder()}, or drop it on the window.")
+            text = (
+                "Every game you play is kept here, the last ten. Those you keep stay. "
+                f"Put a friend's file into {replays_folder()}, or drop it on the window."
+            )
             for line in wrap(text, width, SMALL):
                 canvas.text(shorten(line, width, SMALL), x, y, FOG, SMALL)
                 y += 9
@@ -155,9 +159,11 @@ class ReplaysScreen:
         if replay is None:
             lines = [("This file cannot be used", ORANGE, TEXT, 14), (shorten(path.name, width, SMALL), FOG, SMALL, 12)]
             return lines + [(shorten(line, width), PAPER, TEXT, 12) for line in wrap(reason, width)][:6]
-        lines = [(self.registry.scene_class(replay.scene).title, GOLD, TEXT, 14),
-                 (f"{replay.date or 'no date'}   {'kept' if kept else 'a recent run'}", FOG, SMALL, 11),
-                 (f"{clock(replay.frames / 60)}   seed {replay.seed}", PAPER, TEXT, 13)]
+        lines = [
+            (self.registry.scene_class(replay.scene).title, GOLD, TEXT, 14),
+            (f"{replay.date or 'no date'}   {'kept' if kept else 'a recent run'}", FOG, SMALL, 11),
+            (f"{clock(replay.frames / 60)}   seed {replay.seed}", PAPER, TEXT, 13),
+        ]
         if replay.result is not None:
             ended = "won" if replay.result["won"] else "lost"
             points, seconds = points_text(replay.result["points"]), clock(replay.result["seconds"])
@@ -166,12 +172,15 @@ class ReplaysScreen:
             lines.append((shorten(f"level {replay.level['path']}", width, SMALL), FOG, SMALL, 10))
         lines.append(("", FOG, SMALL, 4))
         text = self.message or f"file: {path}"
-        lines += [(shorten(line, width, SMALL), GOLD if self.message else FOG, SMALL, 9)
-                  for line in _path_lines(text, width)][:7]
+        lines += [
+            (shorten(line, width, SMALL), GOLD if self.message else FOG, SMALL, 9) for line in _path_lines(text, width)
+        ][:7]
         return lines
 
 
 def _path_lines(text, width):
     """Wrap at spaces, and a path at its slashes."""
-    return [line.replace("/ ", "/").replace("\\ ", "\\") for line in
-            wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)]
+    return [
+        line.replace("/ ", "/").replace("\\ ", "\\")
+        for line in wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)
+    ]

@@ -9,7 +9,7 @@ from game.screens.initials import Initials
 from game.screens.rows import LINE, Row, RowList
 
 PAGE = (104, 8, 272, 254)
-COUNT_SECONDS = 0.8        # the numbers count up this long
+COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen:
@@ -23,7 +23,7 @@ class ResultScreen:
     def __init__(self, scene, result, place, initials, enter, can_save=True, notes=(), assisted=False):
         self.scene, self.result, self.place, self.enter = scene, result, place, enter
         self.can_save, self.assisted = can_save, assisted
-        self.notes = list(notes)           # what else is to be said: a ghost kept, a file that cannot be written
+        self.notes = list(notes)  # what else is to be said: a ghost kept, a file that cannot be written
         self.ground = SceneGround(scene)
         self.tune = None
         self.cues = []
@@ -107,5 +107,7 @@ class ResultScreen:
 
     def _draw_place(self, canvas, x, y):
         words = "the best run so far" if self.place == 1 else f"place {self.place} of the table"
-        text = f"{self.initials.text}   {words}" if self.initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
+        text = (
+            f"{self.initials.text}   {words}" if self.initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
+        )
         canvas.text(text, x, y, PAPER if self.place > 1 else GOLD, TEXT, 1, "center")

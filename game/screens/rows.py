@@ -4,19 +4,19 @@ Works the same by keyboard, controller and mouse. A Row says what it shows and w
 does; the list knows nothing of screens. All measures are canvas pixels on one grid of 8.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import pygame
 
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SKY, SLATE
 from game.drawing.draw import SMALL, TEXT, shorten
 
-FIRST_WAIT, NEXT_WAIT = 0.4, 0.1       # [s] before a held direction repeats, and between repeats
+FIRST_WAIT, NEXT_WAIT = 0.4, 0.1  # [s] before a held direction repeats, and between repeats
 GRID = 8
-LINE = 16              # from one row to the next
-VALUE_WIDTH = 112      # at the right of a row: where a value stands and a click turns it
-BAR_WIDTH = 64         # of a slider
+LINE = 16  # from one row to the next
+VALUE_WIDTH = 112  # at the right of a row: where a value stands and a click turns it
+BAR_WIDTH = 64  # of a slider
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Row:
     put: Callable | None = None
     share: float = 0.0
     head: bool = False
-    hint: str = ""             # one sentence about it, shown by the screen while it is marked
+    hint: str = ""  # one sentence about it, shown by the screen while it is marked
     color: tuple = PAPER
 
 
@@ -38,7 +38,7 @@ class Repeat:
     """Turns a held direction into single moves."""
 
     def __init__(self, names):
-        self.names = names         # (action for -1, action for +1)
+        self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
     def move(self, inputs, dt):
@@ -68,8 +68,8 @@ class RowList:
 
     def __init__(self, rows, rect, cues, mark=0):
         self.rows, self.rect, self.cues = rows, pygame.Rect(rect), cues
-        self.first = 0             # first row shown, when there are more than fit
-        self.dragged = None        # row number of the bar being dragged
+        self.first = 0  # first row shown, when there are more than fit
+        self.dragged = None  # row number of the bar being dragged
         self.pointer = None
         self.vertical, self.sideways = Repeat(("up", "down")), Repeat(("left", "right"))
         self.mark = mark
@@ -109,7 +109,7 @@ class RowList:
         self.first = max(0, min(self.first - inputs.wheel, len(rows) - self.room))
         under = self._row_at(inputs.pointer)
         if inputs.pointer != self.pointer and under is not None and self.dragged is None:
-            self.mark = under      # only a pointer that moves takes the mark from the keys
+            self.mark = under  # only a pointer that moves takes the mark from the keys
         self.pointer = inputs.pointer
         row = self.marked
         if row is None:

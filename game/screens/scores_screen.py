@@ -21,6 +21,7 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 class Page(NamedTuple):
     """What stands over a table, its key in the records, and what it is ordered by."""
+
     title: str
     table: str
     ranked_by: str
@@ -39,7 +40,7 @@ def pages_of(registry, records, played=None):
         for level in levels:
             try:
                 table = table_of(scene_class.name, level)
-            except FileError:              # it cannot be read: who plays it is told why
+            except FileError:  # it cannot be read: who plays it is told why
                 continue
             if records.entries(table) and all(page.table != table for page in found):
                 found.append(Page(f"{scene_class.title}: {level.stem}", table, scene_class.ranked_by))
@@ -122,8 +123,14 @@ class ScoresScreen:
                 canvas.surface.fill(DUSK, (x - GRID, top - 3, PAGE.width - 40, LINE - 1))
                 canvas.surface.fill(GOLD, (x - GRID, top - 3, 2, LINE - 1))
             color = PAPER if number < 3 else FOG
-            cells = (f"{number + 1}", entry.name, points_text(entry.points), clock(entry.seconds), entry.date,
-                     "assisted" if entry.assisted else "")
+            cells = (
+                f"{number + 1}",
+                entry.name,
+                points_text(entry.points),
+                clock(entry.seconds),
+                entry.date,
+                "assisted" if entry.assisted else "",
+            )
             ruling = 3 if by_time else 2
             for place, ((dx, align), text) in enumerate(zip(COLUMNS, cells, strict=True)):
                 if text:

@@ -10,7 +10,7 @@ from game.rebinding import default_table
 from game.screens.rows import Row
 
 PAGES = ("Sound", "Picture", "Comfort", "Keyboard", "Controller")
-STEP = 0.1                     # of a volume or the shake, by key
+STEP = 0.1  # of a volume or the shake, by key
 SPEED_STEP = 0.05
 CAPS = {0: "none", 30: "30 a second", 60: "60 a second", 120: "120 a second"}
 PALETTE_HINTS = {
@@ -38,12 +38,20 @@ def _sound_rows(s, changed):
 def _picture_rows(s, changed):
     scale = "fit" if s.window_scale == 0 else f"x{s.window_scale}"
     return [
-        Row("Window size", scale, turn=partial(_turn_scale, s, changed),
-            hint="Whole steps, so that every pixel stays square."),
+        Row(
+            "Window size",
+            scale,
+            turn=partial(_turn_scale, s, changed),
+            hint="Whole steps, so that every pixel stays square.",
+        ),
         _switch(s, changed, "Full screen", "fullscreen", "F11 does the same, anywhere."),
         _switch(s, changed, "Wait for the screen", "vsync", "No torn pictures (vsync), where the system has it."),
-        Row("Picture limit", CAPS[s.frame_cap], turn=partial(_turn_choice, s, changed, "frame_cap", FRAME_CAPS),
-            hint="More pictures a second are smoother and cost power. The game runs the same."),
+        Row(
+            "Picture limit",
+            CAPS[s.frame_cap],
+            turn=partial(_turn_choice, s, changed, "frame_cap", FRAME_CAPS),
+            hint="More pictures a second are smoother and cost power. The game runs the same.",
+        ),
         _switch(s, changed, "Show frame rate", "show_fps", "Milliseconds of a picture, in the corner."),
     ]
 
@@ -53,13 +61,22 @@ def _comfort_rows(s, changed):
         Row("FOR EYES AND HANDS", head=True),
         _slider(s, changed, "Screen shake", "shake", "How much the picture shakes when something breaks."),
         _switch(s, changed, "Reduced flashing", "reduced_flashing", "No flash fills the picture, and nothing blinks."),
-        Row("Colours", s.palette, turn=partial(_turn_choice, s, changed, "palette", PALETTES),
-            hint=PALETTE_HINTS[s.palette]),
+        Row(
+            "Colours",
+            s.palette,
+            turn=partial(_turn_choice, s, changed, "palette", PALETTES),
+            hint=PALETTE_HINTS[s.palette],
+        ),
         _switch(s, changed, "Rumble", "rumble", "The controller shakes when you are hit."),
         Row("HELP IN GAMES", head=True),
-        Row("Game speed", f"{s.speed:.0%}", turn=partial(_turn_share, s, changed, "speed", SPEED_STEP, SLOWEST),
-            put=partial(_put_share, s, changed, "speed", SPEED_STEP, SLOWEST), share=(s.speed - SLOWEST) / (1 - SLOWEST),
-            hint="Slower, if you like. Scores are then marked assisted."),
+        Row(
+            "Game speed",
+            f"{s.speed:.0%}",
+            turn=partial(_turn_share, s, changed, "speed", SPEED_STEP, SLOWEST),
+            put=partial(_put_share, s, changed, "speed", SPEED_STEP, SLOWEST),
+            share=(s.speed - SLOWEST) / (1 - SLOWEST),
+            hint="Slower, if you like. Scores are then marked assisted.",
+        ),
         _switch(s, changed, "Invincible", "invincible", "Nothing hurts you. Scores are then marked assisted."),
         _switch(s, changed, "Hit-stop", "hit_stop", "A blink of stillness when something heavy is hit."),
         _switch(s, changed, "Ghost of the best run", "ghost", "Runs beside you where a game keeps one."),
@@ -68,19 +85,36 @@ def _comfort_rows(s, changed):
 
 def _binding_rows(device, settings, changed, wait_for):
     table = getattr(settings, device)
-    rows = [Row(action.capitalize(), ", ".join(shown(each) for each in table[action]),
-                press=partial(wait_for, device, action),
-                hint=f"Enter, then the new {'key' if device == 'keys' else 'button'} for {action}.")
-            for action in REBOUND]
-    rows.append(Row("All as they were", press=partial(_reset, settings, device, changed), color=FOG,
-                    hint="Every action gets back what it had at first."))
+    rows = [
+        Row(
+            action.capitalize(),
+            ", ".join(shown(each) for each in table[action]),
+            press=partial(wait_for, device, action),
+            hint=f"Enter, then the new {'key' if device == 'keys' else 'button'} for {action}.",
+        )
+        for action in REBOUND
+    ]
+    rows.append(
+        Row(
+            "All as they were",
+            press=partial(_reset, settings, device, changed),
+            color=FOG,
+            hint="Every action gets back what it had at first.",
+        )
+    )
     return rows
 
 
 def _slider(s, changed, label, name, hint):
     value = getattr(s, name)
-    return Row(label, f"{value:.0%}", turn=partial(_turn_share, s, changed, name, STEP, 0.0),
-               put=partial(_put_share, s, changed, name, STEP / 2, 0.0), share=value, hint=hint)
+    return Row(
+        label,
+        f"{value:.0%}",
+        turn=partial(_turn_share, s, changed, name, STEP, 0.0),
+        put=partial(_put_share, s, changed, name, STEP / 2, 0.0),
+        share=value,
+        hint=hint,
+    )
 
 
 def _switch(s, changed, label, name, hint):

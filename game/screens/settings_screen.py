@@ -26,17 +26,21 @@ class SettingsScreen:
     """
 
     shows_pointer = True
-    tune = None            # whatever is playing plays on
+    tune = None  # whatever is playing plays on
 
     def __init__(self, settings, devices, changed=lambda: None, ground=None, page=None):
         self.settings, self.devices, self.changed = settings, devices, changed
         self.ground = ground or DuskGround()
         self.cues = []
-        self.pages = RowList(self._page_rows, (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192), self.cues,
-                             PAGES.index(page) if page else 0)
+        self.pages = RowList(
+            self._page_rows,
+            (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192),
+            self.cues,
+            PAGES.index(page) if page else 0,
+        )
         self.list = RowList(self._rows, (PAGE.x + 16, PAGE.y + 12, PAGE.width - 32, 192), self.cues)
-        self.inside = page is not None         # the keys work the page, not the list of pages
-        self.waiting_for = None                # (device, action) whose next key or button is its new one
+        self.inside = page is not None  # the keys work the page, not the list of pages
+        self.waiting_for = None  # (device, action) whose next key or button is its new one
         self.message = ""
         self.time = 0.0
         self.outcome = None

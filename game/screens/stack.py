@@ -42,13 +42,25 @@ class Screens:
         self.app = app
         self.stack = []
         self.table = {
-            "title": self.title, "menu": self.menu, "back": self.back, "settings": self.settings, "scores": self.scores,
-            "replays": self.replays, "watch": self.watch, "tour": self.tour, "attract": self.attract, "play": self.play,
-            "pause": self.pause, "restart": self.restart, "again": self.restart, "result": self.result,
-            "save_replay": self.save_replay, "quit": self.quit,
+            "title": self.title,
+            "menu": self.menu,
+            "back": self.back,
+            "settings": self.settings,
+            "scores": self.scores,
+            "replays": self.replays,
+            "watch": self.watch,
+            "tour": self.tour,
+            "attract": self.attract,
+            "play": self.play,
+            "pause": self.pause,
+            "restart": self.restart,
+            "again": self.restart,
+            "result": self.result,
+            "save_replay": self.save_replay,
+            "quit": self.quit,
         }
         self.last_played = None
-        self.newest = None         # (table, place) of the last entry, marked in the high scores
+        self.newest = None  # (table, place) of the last entry, marked in the high scores
 
     @property
     def top(self):
@@ -180,8 +192,18 @@ class Screens:
         scene_class = app.registry.scene_class(options.scene)
         app.compile_for(scene_class, options.solver, options.broadphase)
         scene = make_scene(options, app.registry)
-        self._begin(Play(scene, app.devices, app.sounds, options.bot, options.recording, bool(options.record),
-                         options.overlay, app.settings))
+        self._begin(
+            Play(
+                scene,
+                app.devices,
+                app.sounds,
+                options.bot,
+                options.recording,
+                bool(options.record),
+                options.overlay,
+                app.settings,
+            )
+        )
 
     def _begin(self, play):
         scene_class = type(play.scene)
@@ -237,8 +259,14 @@ class Screens:
         """What came of the game; a run that ranks asks for initials."""
         app, play = self.app, self.played
         scene, result = play.scene, play.scene.result
-        entry = Entry(app.settings.initials, int(result.points), round(float(result.seconds), 3), strftime("%Y-%m-%d"),
-                      scene.seed, play.assisted)
+        entry = Entry(
+            app.settings.initials,
+            int(result.points),
+            round(float(result.seconds), 3),
+            strftime("%Y-%m-%d"),
+            scene.seed,
+            play.assisted,
+        )
         table, notes = play.table, []
         place = app.records.place(table, scene.ranked_by, entry) if ranks(result, scene.ranked_by) else None
         if result.won and scene.trail and scene.ranked_by == "seconds" and not play.assisted:
@@ -263,7 +291,11 @@ class Screens:
     def enter_results(self):
         """The window closes: a place in the table that waits for its initials is taken with those entered last."""
         play = self.played
-        if play is not None and play.since_result and not any(isinstance(screen, ResultScreen) for screen in self.stack):
+        if (
+            play is not None
+            and play.since_result
+            and not any(isinstance(screen, ResultScreen) for screen in self.stack)
+        ):
             self.result()
         for screen in self.stack:
             if isinstance(screen, ResultScreen):

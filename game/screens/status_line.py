@@ -6,8 +6,8 @@ from game.bindings import help_pairs
 from game.drawing.colors import GOLD, PAPER
 from game.drawing.draw import SMALL
 
-HELP_SECONDS = 6.0     # how long the keys stay after the start
-RESULT_WAIT = 60       # steps after the end before a key leads on: nobody skips it by holding fire
+HELP_SECONDS = 6.0  # how long the keys stay after the start
+RESULT_WAIT = 60  # steps after the end before a key leads on: nobody skips it by holding fire
 SHADE = (20, 16, 32, 225)
 
 

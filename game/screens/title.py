@@ -11,12 +11,18 @@ from game.drawing.draw import SMALL, TEXT, shorten
 from game.drawing.sprites import load_atlas
 from game.screens.rows import LINE, Row, RowList
 
-LOOP = 9.0         # [s] one pass of the planes
-IDLE = 10.0        # [s] without any input before the games play themselves
+LOOP = 9.0  # [s] one pass of the planes
+IDLE = 10.0  # [s] without any input before the games play themselves
 LOGO_Y, LINE_Y, WORD_Y, FOOT_Y = 6, 82, 104, 256
 MENU = pygame.Rect(24, 112, 128, 6 * LINE)
-ENTRIES = (("Play", ("menu",)), ("Replays", ("replays",)), ("High scores", ("scores",)),
-           ("Tour of the overlays", ("tour",)), ("Settings", ("settings",)), ("Leave", ("quit",)))
+ENTRIES = (
+    ("Play", ("menu",)),
+    ("Replays", ("replays",)),
+    ("High scores", ("scores",)),
+    ("Tour of the overlays", ("tour",)),
+    ("Settings", ("settings",)),
+    ("Leave", ("quit",)),
+)
 
 
 class Title:
@@ -50,11 +56,13 @@ class Title:
     def step(self, inputs, dt):
         """One fixed step."""
         self.time += dt
-        busy = inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
+        busy = (
+            inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
+        )
         self.idle = 0.0 if busy else self.idle + dt
         if inputs.pressed("cancel"):
             self.cues.append("back")
-            if self.list.mark == len(ENTRIES) - 1:       # Esc marks Leave, and a second one leaves
+            if self.list.mark == len(ENTRIES) - 1:  # Esc marks Leave, and a second one leaves
                 self.outcome = ("quit",)
             self.list.mark = len(ENTRIES) - 1
         self.list.step(inputs, dt)
@@ -66,8 +74,9 @@ class Title:
         self.backdrop.draw(canvas, self.time * 40.0)
         self._draw_planes(canvas)
         canvas.sprite(self.logo, canvas.rect.centerx, LOGO_Y + self.logo.get_height() // 2)
-        canvas.text("collision you can feel, trust and see", canvas.rect.centerx, LINE_Y, PAPER, TEXT, 1, "center",
-                    True)
+        canvas.text(
+            "collision you can feel, trust and see", canvas.rect.centerx, LINE_Y, PAPER, TEXT, 1, "center", True
+        )
         draw_box(canvas, MENU.inflate(16, 16))
         self.list.draw(canvas)
         foot = self.message or "\u2191 \u2193 choose   Enter goes   or the mouse, or a controller"

@@ -11,42 +11,104 @@ from game.screens.demo import Demo
 from game.screens.panel import HEAD, NOTE, Panel, Row
 from game.screens.panel_rows import layer_rows
 
-SECONDS = 5            # of each stop: twelve stops are a minute
-CARD = (312, 66)       # [text px]
+SECONDS = 5  # of each stop: twelve stops are a minute
+CARD = (312, 66)  # [text px]
 # Scene and how many steps its bot has played before it is shown; layer, or the panel; title; two lines.
 GAME, LEVEL, PILE, SHOTS = ("shooter", 800), ("platformer", 240), ("lab/pyramid", 120), ("lab/tunnelling", 90)
 STOPS = (
-    (GAME, "bounds", "1  Bounding boxes", ("Every shape in its box. Orange: two boxes meet.",
-                                           "Red: what is inside them touches.")),
-    (GAME, "motion", "2  Motion rectangles", ("Where a body is, was, and will be in one step.",
-                                              "So nothing fast slips between two pictures.")),
-    (GAME, "structure", "3  Broad phase", ("The grid that finds who could meet whom",
-                                           "without asking every pair. B switches it.")),
-    (GAME, "pairs", "4  Candidate pairs", ("What the broad phase hands on: the few pairs",
-                                           "that are worth a closer look.")),
-    (GAME, "masks", "5  Masks", ("The pixels that decide. Yellow: shared ones.",
-                                 "Boxes may meet and it is still a miss.")),
-    (LEVEL, "islands", "I  Islands", ("What leans on each other is solved together,",
-                                      "and sleeps together, z, when nothing moves.")),
-    (LEVEL, "contacts", "6  Contacts", ("Where things touch, and the normal that says",
-                                        "whether it is floor, wall or slope.")),
-    (LEVEL, "outlines", "L  Shapes", ("What the solver knows under the painted picture:",
-                                      "boxes, circles, tiles, chains.")),
-    (PILE, "impulses", "9  Impulses", ("How hard each contact pushes: the bottom row",
-                                       "carries all that lies above it.")),
-    (SHOTS, "ghosts", "H  Times of impact", ("Where a fast body was stopped on its way,",
-                                             "before it could pass through a thin wall.")),
-    (LEVEL, "times", "8  Stage times", ("What each stage of a step costs, live.",
-                                        "What a scene does not use costs nothing.")),
-    (LEVEL, "panel", "Tab  The panel", ("All of it in one place, in any scene, mid-game:",
-                                        "layers, solver, slow motion, single step.")),
+    (
+        GAME,
+        "bounds",
+        "1  Bounding boxes",
+        ("Every shape in its box. Orange: two boxes meet.", "Red: what is inside them touches."),
+    ),
+    (
+        GAME,
+        "motion",
+        "2  Motion rectangles",
+        ("Where a body is, was, and will be in one step.", "So nothing fast slips between two pictures."),
+    ),
+    (
+        GAME,
+        "structure",
+        "3  Broad phase",
+        ("The grid that finds who could meet whom", "without asking every pair. B switches it."),
+    ),
+    (
+        GAME,
+        "pairs",
+        "4  Candidate pairs",
+        ("What the broad phase hands on: the few pairs", "that are worth a closer look."),
+    ),
+    (
+        GAME,
+        "masks",
+        "5  Masks",
+        ("The pixels that decide. Yellow: shared ones.", "Boxes may meet and it is still a miss."),
+    ),
+    (
+        LEVEL,
+        "islands",
+        "I  Islands",
+        ("What leans on each other is solved together,", "and sleeps together, z, when nothing moves."),
+    ),
+    (
+        LEVEL,
+        "contacts",
+        "6  Contacts",
+        ("Where things touch, and the normal that says", "whether it is floor, wall or slope."),
+    ),
+    (
+        LEVEL,
+        "outlines",
+        "L  Shapes",
+        ("What the solver knows under the painted picture:", "boxes, circles, tiles, chains."),
+    ),
+    (
+        PILE,
+        "impulses",
+        "9  Impulses",
+        ("How hard each contact pushes: the bottom row", "carries all that lies above it."),
+    ),
+    (
+        SHOTS,
+        "ghosts",
+        "H  Times of impact",
+        ("Where a fast body was stopped on its way,", "before it could pass through a thin wall."),
+    ),
+    (
+        LEVEL,
+        "times",
+        "8  Stage times",
+        ("What each stage of a step costs, live.", "What a scene does not use costs nothing."),
+    ),
+    (
+        LEVEL,
+        "panel",
+        "Tab  The panel",
+        ("All of it in one place, in any scene, mid-game:", "layers, solver, slow motion, single step."),
+    ),
 )
 NEXT, BACK, LEAVE = "next", "back", "leave"
-KEYS = {pygame.K_RIGHT: NEXT, pygame.K_RETURN: NEXT, pygame.K_SPACE: NEXT, pygame.K_LEFT: BACK, pygame.K_ESCAPE: LEAVE,
-        pygame.K_BACKSPACE: LEAVE}
-AHEAD = 0.03           # [s] of each picture are spent on playing up to where it gets interesting
-BUTTONS = {"a": NEXT, "right shoulder": NEXT, "dpad right": NEXT, "dpad left": BACK, "left shoulder": BACK, "b": LEAVE,
-           "start": LEAVE, "back": LEAVE}
+KEYS = {
+    pygame.K_RIGHT: NEXT,
+    pygame.K_RETURN: NEXT,
+    pygame.K_SPACE: NEXT,
+    pygame.K_LEFT: BACK,
+    pygame.K_ESCAPE: LEAVE,
+    pygame.K_BACKSPACE: LEAVE,
+}
+AHEAD = 0.03  # [s] of each picture are spent on playing up to where it gets interesting
+BUTTONS = {
+    "a": NEXT,
+    "right shoulder": NEXT,
+    "dpad right": NEXT,
+    "dpad left": BACK,
+    "left shoulder": BACK,
+    "b": LEAVE,
+    "start": LEAVE,
+    "back": LEAVE,
+}
 
 
 class Tour:
@@ -58,10 +120,10 @@ class Tour:
     def __init__(self, make, names, devices, comfort):
         self.make, self.devices, self.comfort = make, devices, comfort
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
-        self.demos = {}            # scene name -> Demo, each played on from stop to stop
+        self.demos = {}  # scene name -> Demo, each played on from stop to stop
         self.at = 0
-        self.shown = 0             # steps of this stop
-        self.places = []           # (rect, what it does) of the last picture
+        self.shown = 0  # steps of this stop
+        self.places = []  # (rect, what it does) of the last picture
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
         self.outcome = None
@@ -80,9 +142,15 @@ class Tour:
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
     def _panel_rows(self):
-        return [Row(HEAD, self.demo.scene.title), Row(HEAD, "See"), *layer_rows(self.demo.overlays), Row(HEAD, "Time"),
-                Row(NOTE, "P freezes, O makes one step, - and + change the speed"),
-                Row(NOTE, "B broad phase, V solver, T tier, N narrow phase"), Row(NOTE, "R restart, F12 a picture")]
+        return [
+            Row(HEAD, self.demo.scene.title),
+            Row(HEAD, "See"),
+            *layer_rows(self.demo.overlays),
+            Row(HEAD, "Time"),
+            Row(NOTE, "P freezes, O makes one step, - and + change the speed"),
+            Row(NOTE, "B broad phase, V solver, T tier, N narrow phase"),
+            Row(NOTE, "R restart, F12 a picture"),
+        ]
 
     def advance(self, now):
         """Make the steps that are due at `now` [s]; the next stop when this one has had its time."""
@@ -91,7 +159,7 @@ class Tour:
             started = perf_counter()
             while self.begins_in > 0 and perf_counter() - started < AHEAD:
                 self.demo.step()
-        except UsageError:         # a scene whose files are damaged cannot be shown; the menu says why
+        except UsageError:  # a scene whose files are damaged cannot be shown; the menu says why
             self.outcome = ("back",)
             return
         self.shown += due if self.begins_in <= 0 else 0
@@ -162,7 +230,9 @@ class Tour:
             color = GOLD if number == self.at else FOG if number < self.at else DUSK
             frame.surface.fill(color, (rect.x + (10 + 8 * number) * scale, y + scale, 4 * scale, 4 * scale))
         share = min(1.0, self.shown / (SECONDS * 60)) if self.begins_in <= 0 else 0.0
-        frame.surface.fill(SLATE, (rect.x + 2 * scale, rect.bottom - 2 * scale, int((rect.width - 4 * scale) * share), scale))
+        frame.surface.fill(
+            SLATE, (rect.x + 2 * scale, rect.bottom - 2 * scale, int((rect.width - 4 * scale) * share), scale)
+        )
         right = rect.right - 8 * scale
         for text, does in (("Esc leave", LEAVE), ("\u2192 next", NEXT), ("\u2190 back", BACK)):
             place = frame.text(text, right, y, FOG, SMALL, scale, "right")

@@ -13,16 +13,28 @@ from game.screens.panel_rows import layer_rows
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
-LEAP = 5 * 60          # frames of one leap by left or right
-SEEK_SECONDS = 0.025   # of each picture are spent on the way to a sought frame
-HIDE_SECONDS = 3.0     # after the last input the controls go, and come back with the next
-LEAST_WIDTH = 360      # [text px] that the controls need
-BAR_HEIGHT = 26        # [text px] of the controls at the bottom
-KEYS_LINE = "Space play   \u2190 \u2192 5 s   \u2191 \u2193 speed   , . step   Home End   1-9 see   Tab panel   Esc back"
-BUTTON_KEYS = {"a": pygame.K_SPACE, "b": pygame.K_ESCAPE, "start": pygame.K_SPACE, "back": pygame.K_ESCAPE,
-               "y": pygame.K_TAB, "x": pygame.K_PERIOD, "dpad left": pygame.K_LEFT, "dpad right": pygame.K_RIGHT,
-               "dpad up": pygame.K_UP, "dpad down": pygame.K_DOWN, "left shoulder": pygame.K_HOME,
-               "right shoulder": pygame.K_END}
+LEAP = 5 * 60  # frames of one leap by left or right
+SEEK_SECONDS = 0.025  # of each picture are spent on the way to a sought frame
+HIDE_SECONDS = 3.0  # after the last input the controls go, and come back with the next
+LEAST_WIDTH = 360  # [text px] that the controls need
+BAR_HEIGHT = 26  # [text px] of the controls at the bottom
+KEYS_LINE = (
+    "Space play   \u2190 \u2192 5 s   \u2191 \u2193 speed   , . step   Home End   1-9 see   Tab panel   Esc back"
+)
+BUTTON_KEYS = {
+    "a": pygame.K_SPACE,
+    "b": pygame.K_ESCAPE,
+    "start": pygame.K_SPACE,
+    "back": pygame.K_ESCAPE,
+    "y": pygame.K_TAB,
+    "x": pygame.K_PERIOD,
+    "dpad left": pygame.K_LEFT,
+    "dpad right": pygame.K_RIGHT,
+    "dpad up": pygame.K_UP,
+    "dpad down": pygame.K_DOWN,
+    "left shoulder": pygame.K_HOME,
+    "right shoulder": pygame.K_END,
+}
 
 
 class Watch:
@@ -36,9 +48,9 @@ class Watch:
         self.panel = Panel(lambda: watch_rows(self))
         self.panel_open = False
         self.dragging = False
-        self.alone = 0.0               # [s] since the last key or move of the mouse
+        self.alone = 0.0  # [s] since the last key or move of the mouse
         self.before = None
-        self.bar = self.button = pygame.Rect(0, 0, 0, 0)       # of the last picture
+        self.bar = self.button = pygame.Rect(0, 0, 0, 0)  # of the last picture
         self.outcome = None
 
     @property
@@ -58,7 +70,7 @@ class Watch:
 
     def advance(self, now):
         """Make the steps that are due at `now` [s], or go on towards the frame that is sought."""
-        self.devices.next()            # a replay takes no advice
+        self.devices.next()  # a replay takes no advice
         self.alone += 0.0 if self.before is None else now - self.before
         self.before = now
         due = self.clock.advance(now)
@@ -141,14 +153,24 @@ class Watch:
     def _key(self, key):
         layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
         does = {
-            pygame.K_SPACE: self.toggle, pygame.K_RETURN: self.toggle, pygame.K_p: self.toggle,
-            pygame.K_LEFT: lambda: self.leap(-LEAP), pygame.K_RIGHT: lambda: self.leap(LEAP),
-            pygame.K_UP: lambda: self.turn_speed(1), pygame.K_DOWN: lambda: self.turn_speed(-1),
-            pygame.K_EQUALS: lambda: self.turn_speed(1), pygame.K_PLUS: lambda: self.turn_speed(1),
-            pygame.K_MINUS: lambda: self.turn_speed(-1), pygame.K_PERIOD: lambda: self.single(1),
-            pygame.K_o: lambda: self.single(1), pygame.K_COMMA: lambda: self.single(-1),
-            pygame.K_HOME: lambda: self.leap(-self.tape.length), pygame.K_END: lambda: self.leap(self.tape.length),
-            pygame.K_0: self.overlays.toggle_all, pygame.K_TAB: self._toggle_panel, pygame.K_ESCAPE: self._leave,
+            pygame.K_SPACE: self.toggle,
+            pygame.K_RETURN: self.toggle,
+            pygame.K_p: self.toggle,
+            pygame.K_LEFT: lambda: self.leap(-LEAP),
+            pygame.K_RIGHT: lambda: self.leap(LEAP),
+            pygame.K_UP: lambda: self.turn_speed(1),
+            pygame.K_DOWN: lambda: self.turn_speed(-1),
+            pygame.K_EQUALS: lambda: self.turn_speed(1),
+            pygame.K_PLUS: lambda: self.turn_speed(1),
+            pygame.K_MINUS: lambda: self.turn_speed(-1),
+            pygame.K_PERIOD: lambda: self.single(1),
+            pygame.K_o: lambda: self.single(1),
+            pygame.K_COMMA: lambda: self.single(-1),
+            pygame.K_HOME: lambda: self.leap(-self.tape.length),
+            pygame.K_END: lambda: self.leap(self.tape.length),
+            pygame.K_0: self.overlays.toggle_all,
+            pygame.K_TAB: self._toggle_panel,
+            pygame.K_ESCAPE: self._leave,
             pygame.K_BACKSPACE: self._leave,
         }
         if key in layers:
@@ -189,10 +211,12 @@ class Watch:
     def _draw_controls(self, frame):
         scale, rect = frame.scale_for(LEAST_WIDTH), self._controls_rect(frame)
         frame.surface.fill(INK, rect)
-        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]      # covered now
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
         self.button = pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, 14 * scale, 9 * scale)
         _draw_button(frame.surface, self.button, self.clock.paused, scale)
-        total = f"{short_clock(self.tape.position / 60)} / {short_clock(self.tape.length / 60)}  x{SPEED_NAMES[self.speed]}"
+        total = (
+            f"{short_clock(self.tape.position / 60)} / {short_clock(self.tape.length / 60)}  x{SPEED_NAMES[self.speed]}"
+        )
         text = frame.text(total, rect.right - 4 * scale, rect.y + 4 * scale, PAPER, TEXT, scale, "right")
         self.bar = pygame.Rect(self.button.right + 4 * scale, rect.y + 3 * scale, 0, 10 * scale)
         self.bar.width = text.left - 6 * scale - self.bar.x
@@ -220,8 +244,10 @@ class Watch:
         width, height = frame.measure(text, TEXT, scale)
         size = (width + 12 * scale, height + 8 * scale)
         area = frame.area.clip(frame.rect)
-        place = frame.free_place(size, [(area.centerx - size[0] // 2, y)
-                                        for y in range(area.y + 4 * scale, area.bottom - size[1], 8 * scale)])
+        place = frame.free_place(
+            size,
+            [(area.centerx - size[0] // 2, y) for y in range(area.y + 4 * scale, area.bottom - size[1], 8 * scale)],
+        )
         if place is not None:
             frame.surface.fill(INK, (*place, *size))
             pygame.draw.rect(frame.surface, RED, (*place, *size), scale)
@@ -246,7 +272,9 @@ def watch_rows(watch):
         Row(HEAD, scene.title),
         Row(NOTE, f"a recording: {watch.name}"),
         Row(NOTE, f"seed {scene.seed}, {scene.broadphase}, {solver_name(scene)}, tier {scene.tier or 'none'}"),
-        Row(HEAD, "See"), *layer_rows(watch.overlays), Row(HEAD, "Time"),
+        Row(HEAD, "See"),
+        *layer_rows(watch.overlays),
+        Row(HEAD, "Time"),
         Row(CHECK, "Freeze", key="P", on=watch.clock.paused, press=watch.toggle),
         Row(BUTTON, "Single step", key=".", press=lambda: watch.single(1), hint="one sixtieth of a second"),
         Row(CHOICE, "Speed", f"x{SPEED_NAMES[watch.speed]}", "- +", turn=watch.turn_speed),

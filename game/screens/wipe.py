@@ -4,7 +4,7 @@ import pygame
 
 SECONDS = 0.3
 STRIPS = 12
-SPREAD = 0.5           # of the time, by which the last strip goes later than the first
+SPREAD = 0.5  # of the time, by which the last strip goes later than the first
 
 
 class Wipe:

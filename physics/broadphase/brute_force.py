@@ -11,9 +11,11 @@ from physics.profile import PAIRS_TESTED
 @kernel
 def find_all(
     # read
-    proxies, changed,
+    proxies,
+    changed,
     # write
-    pairs_out, work_inout,
+    pairs_out,
+    work_inout,
 ):
     """List the pairs of which at least one side changed.
 
@@ -36,9 +38,14 @@ def find_all(
 @kernel
 def near_in_all(
     # read
-    proxies, lower_x, lower_y, upper_x, upper_y,
+    proxies,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
     # write
-    slots_out, work_inout,
+    slots_out,
+    work_inout,
 ):
     """List the slots whose box meets a closed box [px], one by one. Returns their number. O(n)."""
     found = 0

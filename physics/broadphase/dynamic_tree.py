@@ -17,16 +17,24 @@ from physics.jit import kernel
 from physics.profile import NODES_VISITED, REINSERTS
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
 
-REBUILD_FROM = 64                  # changed proxies below which every leaf is moved by itself
-STACK = 256                        # far above any height that fits in memory
+REBUILD_FROM = 64  # changed proxies below which every leaf is moved by itself
+STACK = 256  # far above any height that fits in memory
 
 
 @kernel
 def place_changed(
     # read
-    proxies, changed, margin, margin_fraction, loose, loose_still,
+    proxies,
+    changed,
+    margin,
+    margin_fraction,
+    loose,
+    loose_still,
     # write
-    leaf_of_inout, nodes_inout, state_inout, work_inout,
+    leaf_of_inout,
+    nodes_inout,
+    state_inout,
+    work_inout,
 ):
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
 
@@ -42,11 +50,19 @@ def place_changed(
         grow = min(margin, margin_fraction * max(p.upper_x - p.lower_x, p.upper_y - p.lower_y))
         if leaf >= 0:
             n = nodes_inout[leaf]
-            fits = (p.row >= 0 and n.still == p.still and n.lower_x <= p.lower_x and n.lower_y <= p.lower_y
-                    and n.upper_x >= p.upper_x and n.upper_y >= p.upper_y)
+            fits = (
+                p.row >= 0
+                and n.still == p.still
+                and n.lower_x <= p.lower_x
+                and n.lower_y <= p.lower_y
+                and n.upper_x >= p.upper_x
+                and n.upper_y >= p.upper_y
+            )
             # A box that was fast and is no more would stay huge for ever.
-            if fits and ((n.upper_x - n.lower_x) + (n.upper_y - n.lower_y)
-                         <= 8.0 * grow + (p.upper_x - p.lower_x) + (p.upper_y - p.lower_y)):
+            if fits and (
+                (n.upper_x - n.lower_x) + (n.upper_y - n.lower_y)
+                <= 8.0 * grow + (p.upper_x - p.lower_x) + (p.upper_y - p.lower_y)
+            ):
                 continue
             moved += 1
             if (loose_still if n.still else loose) == 0:
@@ -84,9 +100,14 @@ def place_changed(
 @kernel
 def find_in_trees(
     # read
-    proxies, changed, nodes, state,
+    proxies,
+    changed,
+    nodes,
+    state,
     # write
-    stack_inout, pairs_out, work_inout,
+    stack_inout,
+    pairs_out,
+    work_inout,
 ):
     """List the pairs of which a side changed, by descending both trees with each changed box.
 
@@ -109,7 +130,7 @@ def find_in_trees(
             depth -= 1
             n = nodes[stack_inout[depth]]
             work_inout[NODES_VISITED] += 1
-            if (n.lower_x > p.upper_x or p.lower_x > n.upper_x or n.lower_y > p.upper_y or p.lower_y > n.upper_y):
+            if n.lower_x > p.upper_x or p.lower_x > n.upper_x or n.lower_y > p.upper_y or p.lower_y > n.upper_y:
                 continue
             if n.height > 0:
                 stack_inout[depth] = n.child_a
@@ -125,9 +146,16 @@ def find_in_trees(
 @kernel
 def near_in_trees(
     # read
-    nodes, roots, lower_x, lower_y, upper_x, upper_y,
+    nodes,
+    roots,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
     # write
-    stack_inout, slots_out, work_inout,
+    stack_inout,
+    slots_out,
+    work_inout,
 ):
     """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number. O(log n + found)."""
     found = 0
@@ -180,11 +208,21 @@ class DynamicTree:
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
             # Leaves, inner nodes of both trees, and those of an old tree until it is rebuilt.
             nodes = np.zeros(3 * slots + 2, NODE)
-            nodes[:len(self.nodes)] = self.nodes
+            nodes[: len(self.nodes)] = self.nodes
             self.nodes = nodes
         loose, loose_still = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (False, False)
-        moved = place_changed(arena.proxies, arena.changed, self.margin, AABB_MARGIN_FRACTION, int(loose), int(loose_still),
-                              self.leaf_of, self.nodes, self.state, arena.work)
+        moved = place_changed(
+            arena.proxies,
+            arena.changed,
+            self.margin,
+            AABB_MARGIN_FRACTION,
+            int(loose),
+            int(loose_still),
+            self.leaf_of,
+            self.nodes,
+            self.state,
+            arena.work,
+        )
         if len(self.spans) < len(self.leaf_of):
             self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
         for still, wanted in ((0, loose), (1, loose_still)):
@@ -195,14 +233,15 @@ class DynamicTree:
         """Whether so many of the moving, of the still proxies changed that building their tree anew costs less than
         moving each leaf, and gives the better tree."""
         still = arena.proxies["still"]
-        total = np.bincount(still[self.leaf_of[:len(still)] >= 0], minlength=2)
+        total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)
         changed = np.bincount(still[arena.changed], minlength=2)
         return tuple(bool(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena):
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
-        return lambda pairs, work: find_in_trees(arena.proxies, arena.changed, self.nodes, self.state, self.stack,
-                                                 pairs, work)
+        return lambda pairs, work: find_in_trees(
+            arena.proxies, arena.changed, self.nodes, self.state, self.stack, pairs, work
+        )
 
     def near(self, proxies, box, slots, work) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
@@ -226,4 +265,6 @@ class DynamicTree:
                 if node["height"] > 0:
                     todo += [(int(node["child_a"]), depth + 1), (int(node["child_b"]), depth + 1)]
         nodes = self.nodes[found]
-        return np.stack([nodes[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1), np.array(depths, int)
+        return np.stack([nodes[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1), np.array(
+            depths, int
+        )

@@ -16,8 +16,8 @@ class PairList:
 
     def __init__(self):
         self.arena = Arena()
-        self.free = []                 # slots that a new shape may take
-        self.freed = []                # slots freed since the last update: strategies have not heard yet
+        self.free = []  # slots that a new shape may take
+        self.freed = []  # slots freed since the last update: strategies have not heard yet
         self.slots = np.zeros((64, 2), np.int32)
         self.spare = np.zeros((64, 2), np.int32)
         self.candidates = np.zeros((64, 2), np.int64)
@@ -25,9 +25,9 @@ class PairList:
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
-        self.known_ids = self.candidates[:0]         # None until somebody asks
+        self.known_ids = self.candidates[:0]  # None until somebody asks
         self.shapes = None
-        self.everything = False        # the strategy is new: tell it about all proxies
+        self.everything = False  # the strategy is new: tell it about all proxies
 
     @property
     def proxies(self):
@@ -54,7 +54,7 @@ class PairList:
         for name in ("body", "membership", "mask"):
             self.proxies[name][slots] = shapes[name][rows]
         self.proxies["still"][slots] = still
-        self.proxies["row"][slots] = -1              # until its rectangle is known
+        self.proxies["row"][slots] = -1  # until its rectangle is known
 
     def free_proxies(self, slots):
         """Take shapes out of the broad phase."""
@@ -71,12 +71,16 @@ class PairList:
     def widen(self, shapes, margin):
         """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed."""
         slots = shapes["proxy"]
-        for low, high, axis in (("lower_x", "min_x", -1.0), ("lower_y", "min_y", -1.0), ("upper_x", "max_x", 1.0),
-                                ("upper_y", "max_y", 1.0)):
+        for low, high, axis in (
+            ("lower_x", "min_x", -1.0),
+            ("lower_y", "min_y", -1.0),
+            ("upper_x", "max_x", 1.0),
+            ("upper_y", "max_y", 1.0),
+        ):
             pick = np.minimum if axis < 0.0 else np.maximum
             self.proxies[low][slots] = pick(self.proxies[low][slots], shapes[high] + axis * margin)
         self.proxies["changed"][slots] = True
-        self.changed[:len(slots)] = slots
+        self.changed[: len(slots)] = slots
 
     def set_filter(self, slots, value):
         """Change the filter of slots."""
@@ -141,7 +145,7 @@ class PairList:
 
     def _rename(self, shapes):
         """Rows may have moved though nothing changed: a body without proxies was removed."""
-        self.candidates[:self.count] = self.proxies["row"][self.slots[:self.count]]
-        self.rows = self.candidates[:self.count]
+        self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
+        self.rows = self.candidates[: self.count]
         self.known_ids = None
         self.shapes = shapes

@@ -16,7 +16,8 @@ def overlaps(
     # read
     proxies,
     # scalars
-    a, b,
+    a,
+    b,
     # write
     work_inout,
 ):
@@ -37,7 +38,8 @@ def may_meet(
     # read
     proxies,
     # scalars
-    a, b,
+    a,
+    b,
     # write
     work_inout,
 ):
@@ -55,7 +57,9 @@ def may_meet(
 @subkernel
 def write_pair(
     # scalars
-    a, b, found,
+    a,
+    b,
+    found,
     # write
     pairs_out,
 ):
@@ -74,8 +78,8 @@ class Arena:
 
     def __init__(self):
         self.proxies = np.zeros(0, PROXY)
-        self.changed = np.zeros(0, np.int64)         # slots, ascending: box, filter or existence changed
-        self.pairs = np.zeros((64, 2), np.int32)     # slots, in any order
+        self.changed = np.zeros(0, np.int64)  # slots, ascending: box, filter or existence changed
+        self.pairs = np.zeros((64, 2), np.int32)  # slots, in any order
         self.work = np.zeros(len(COUNTERS), np.int64)
 
     def collect(self, query) -> int:
@@ -136,7 +140,9 @@ def _corners(name, value):
 @kernel
 def keep_pairs(
     # read
-    proxies, old, old_count,
+    proxies,
+    old,
+    old_count,
     # write
     kept_out,
 ):
@@ -158,9 +164,12 @@ def keep_pairs(
 @kernel
 def pair_keys(
     # read
-    proxies, pairs, count,
+    proxies,
+    pairs,
+    count,
     # write
-    pairs_inout, keys_out,
+    pairs_inout,
+    keys_out,
 ):
     """Order each pair by shape row and write a key that sorts by both rows.
 
@@ -181,9 +190,15 @@ def pair_keys(
 @kernel
 def merge_pairs(
     # read
-    proxies, shapes, kept, kept_count, keys, new_count,
+    proxies,
+    shapes,
+    kept,
+    kept_count,
+    keys,
+    new_count,
     # write
-    pairs_out, candidates_out,
+    pairs_out,
+    candidates_out,
 ):
     """Merge the kept pairs with the sorted keys of the new ones.
 

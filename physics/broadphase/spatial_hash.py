@@ -15,10 +15,10 @@ from physics.broadphase.proxies import find_pairs, may_meet, overlaps, write_pai
 from physics.jit import kernel, subkernel
 from physics.profile import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
-LEVELS = 24                # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
-CELL_OF_MEDIAN = 2.0       # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
-SMALLEST_CELL = 2.0 ** -1000   # its inverse is still finite
-CELL_RANGE = 1e9           # cells from the origin up to which coordinates are hashed exactly in 64 bits
+LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
+CELL_OF_MEDIAN = 2.0  # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
+SMALLEST_CELL = 2.0**-1000  # its inverse is still finite
+CELL_RANGE = 1e9  # cells from the origin up to which coordinates are hashed exactly in 64 bits
 
 
 @subkernel
@@ -53,7 +53,13 @@ def take_out(
     # scalars
     slot,
     # write
-    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
 ):
     """Unlink a slot from its cells and from the list of its level. O(4)."""
     level = levels_inout[slot]
@@ -87,9 +93,18 @@ def put_in(
     # read
     proxies,
     # scalars
-    slot, level, base, mask,
+    slot,
+    level,
+    base,
+    mask,
     # write
-    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
 ):
     """Link a slot into the cells its box touches and into the list of its level. O(4)."""
     p = proxies[slot]
@@ -128,9 +143,17 @@ def put_in(
 @kernel
 def place_changed(
     # read
-    proxies, changed, base,
+    proxies,
+    changed,
+    base,
     # write
-    levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout, level_counts_inout, work_inout,
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
 ):
     """Move the changed proxies to the cells they touch now; those that stay in theirs are left alone.
 
@@ -143,15 +166,23 @@ def place_changed(
         slot = changed[i]
         p = proxies[slot]
         if p.row < 0:
-            take_out(slot, levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout,
-                     level_counts_inout, work_inout)
+            take_out(
+                slot,
+                levels_inout,
+                heads_inout,
+                entries_inout,
+                lists_inout,
+                level_heads_inout,
+                level_counts_inout,
+                work_inout,
+            )
             continue
         level = level_of(p.lower_x, p.lower_y, p.upper_x, p.upper_y, base)
         if level < LEVELS:
             inverse = 1.0 / (base * (1 << level))
             columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
             rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
-            if columns > 2 or rows > 2:      # a box as wide as a cell, with both ends on borders
+            if columns > 2 or rows > 2:  # a box as wide as a cell, with both ends on borders
                 level += 1
                 inverse *= 0.5
                 columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
@@ -159,10 +190,15 @@ def place_changed(
             if level == levels_inout[slot] and level < LEVELS:
                 first = entries_inout[4 * slot]
                 last = entries_inout[4 * slot + columns * rows - 1]
-                if (first.bucket >= 0 and first.cell_x == cell_of(p.lower_x, inverse)
-                        and first.cell_y == cell_of(p.lower_y, inverse) and last.bucket >= 0
-                        and last.cell_x == cell_of(p.upper_x, inverse) and last.cell_y == cell_of(p.upper_y, inverse)
-                        and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)):
+                if (
+                    first.bucket >= 0
+                    and first.cell_x == cell_of(p.lower_x, inverse)
+                    and first.cell_y == cell_of(p.lower_y, inverse)
+                    and last.bucket >= 0
+                    and last.cell_x == cell_of(p.upper_x, inverse)
+                    and last.cell_y == cell_of(p.upper_y, inverse)
+                    and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)
+                ):
                     for k in range(4 * slot, 4 * slot + columns * rows):
                         e = entries_inout[k]
                         e.lower_x = p.lower_x
@@ -170,19 +206,48 @@ def place_changed(
                         e.upper_x = p.upper_x
                         e.upper_y = p.upper_y
                     continue
-        take_out(slot, levels_inout, heads_inout, entries_inout, lists_inout, level_heads_inout,
-                 level_counts_inout, work_inout)
-        put_in(proxies, slot, level, base, mask, levels_inout, heads_inout, entries_inout, lists_inout,
-               level_heads_inout, level_counts_inout, work_inout)
+        take_out(
+            slot,
+            levels_inout,
+            heads_inout,
+            entries_inout,
+            lists_inout,
+            level_heads_inout,
+            level_counts_inout,
+            work_inout,
+        )
+        put_in(
+            proxies,
+            slot,
+            level,
+            base,
+            mask,
+            levels_inout,
+            heads_inout,
+            entries_inout,
+            lists_inout,
+            level_heads_inout,
+            level_counts_inout,
+            work_inout,
+        )
         work_inout[REINSERTS] += 1
 
 
 @kernel
 def find_in_cells(
     # read
-    proxies, changed, base, levels, heads, entries, lists, level_heads, level_counts,
+    proxies,
+    changed,
+    base,
+    levels,
+    heads,
+    entries,
+    lists,
+    level_heads,
+    level_counts,
     # write
-    pairs_out, work_inout,
+    pairs_out,
+    work_inout,
 ):
     """List the pairs of which a side changed: per level through the cells its box touches, or through the level's list.
 
@@ -235,15 +300,26 @@ def find_in_cells(
                         k = e.next
                         tested += 1
                         # The box stands in the entry: most tests read nothing else. One branch, not four.
-                        if not ((e.lower_x <= p.upper_x) & (e.upper_x >= p.lower_x) & (e.lower_y <= p.upper_y)
-                                & (e.upper_y >= p.lower_y)):
+                        if not (
+                            (e.lower_x <= p.upper_x)
+                            & (e.upper_x >= p.lower_x)
+                            & (e.lower_y <= p.upper_y)
+                            & (e.upper_y >= p.lower_y)
+                        ):
                             continue
-                        if (b == a or e.cell_x != cell_x or e.cell_y != cell_y or e.level != level
-                                or (b < a and proxies[b].changed)):
+                        if (
+                            b == a
+                            or e.cell_x != cell_x
+                            or e.cell_y != cell_y
+                            or e.level != level
+                            or (b < a and proxies[b].changed)
+                        ):
                             continue
-                        if (cell_of(max(p.lower_x, e.lower_x), inverse) == cell_x
-                                and cell_of(max(p.lower_y, e.lower_y), inverse) == cell_y
-                                and may_meet(proxies, a, b, work_inout)):
+                        if (
+                            cell_of(max(p.lower_x, e.lower_x), inverse) == cell_x
+                            and cell_of(max(p.lower_y, e.lower_y), inverse) == cell_y
+                            and may_meet(proxies, a, b, work_inout)
+                        ):
                             found = write_pair(a, b, found, pairs_out)
     work_inout[PAIRS_TESTED] += tested
     return found
@@ -252,9 +328,20 @@ def find_in_cells(
 @kernel
 def near_in_cells(
     # read
-    base, heads, entries, lists, level_heads, level_counts, proxies, lower_x, lower_y, upper_x, upper_y,
+    base,
+    heads,
+    entries,
+    lists,
+    level_heads,
+    level_counts,
+    proxies,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
     # write
-    slots_out, work_inout,
+    slots_out,
+    work_inout,
 ):
     """List the slots whose box meets a closed box [px], per level by its cells or by the level's list. Returns their number.
 
@@ -272,8 +359,10 @@ def near_in_cells(
         if not by_list:
             size = base * (1 << level)
             inverse = 1.0 / (base * (1 << level))
-            by_list = (not reach < CELL_RANGE * size
-                       or (upper_x - lower_x) * inverse + (upper_y - lower_y) * inverse > level_counts[level] + 4)
+            by_list = (
+                not reach < CELL_RANGE * size
+                or (upper_x - lower_x) * inverse + (upper_y - lower_y) * inverse > level_counts[level] + 4
+            )
         if not by_list:
             columns = cell_of(upper_x, inverse) - cell_of(lower_x, inverse) + 1
             rows = cell_of(upper_y, inverse) - cell_of(lower_y, inverse) + 1
@@ -295,19 +384,38 @@ def near_in_cells(
                 while k >= 0:
                     e = entries[k]
                     work_inout[PAIRS_TESTED] += 1
-                    if (e.level == level and e.cell_x == cell_x and e.cell_y == cell_y and e.lower_x <= upper_x
-                            and e.upper_x >= lower_x and e.lower_y <= upper_y and e.upper_y >= lower_y
-                            and cell_of(max(lower_x, e.lower_x), inverse) == cell_x
-                            and cell_of(max(lower_y, e.lower_y), inverse) == cell_y):
+                    if (
+                        e.level == level
+                        and e.cell_x == cell_x
+                        and e.cell_y == cell_y
+                        and e.lower_x <= upper_x
+                        and e.upper_x >= lower_x
+                        and e.lower_y <= upper_y
+                        and e.upper_y >= lower_y
+                        and cell_of(max(lower_x, e.lower_x), inverse) == cell_x
+                        and cell_of(max(lower_y, e.lower_y), inverse) == cell_y
+                    ):
                         slots_out[found] = k // 4
                         found += 1
                     k = e.next
     return found
 
 
-ENTRY = np.dtype([("lower_x", np.float64), ("lower_y", np.float64), ("upper_x", np.float64), ("upper_y", np.float64),
-                  ("cell_x", np.int64), ("cell_y", np.int64), ("next", np.int64), ("level", np.int64),
-                  ("bucket", np.int64), ("previous", np.int64)], align=True)
+ENTRY = np.dtype(
+    [
+        ("lower_x", np.float64),
+        ("lower_y", np.float64),
+        ("upper_x", np.float64),
+        ("upper_y", np.float64),
+        ("cell_x", np.int64),
+        ("cell_y", np.int64),
+        ("next", np.int64),
+        ("level", np.int64),
+        ("bucket", np.int64),
+        ("previous", np.int64),
+    ],
+    align=True,
+)
 
 
 class SpatialHashGrid:
@@ -342,7 +450,7 @@ class SpatialHashGrid:
         """Move what changed to its cells; grow, and tune the cell size anew, when the number of bodies doubled."""
         proxies = arena.proxies
         changed = arena.changed
-        alive = int(self.level_counts.sum()) + len(changed)      # an upper bound, cheap, good enough to double by
+        alive = int(self.level_counts.sum()) + len(changed)  # an upper bound, cheap, good enough to double by
         coarse = int(self.level_counts[2:LEVELS].sum())
         retune = self.cell is None and (alive > 2 * self.tuned_for or 2 * coarse > max(alive, 8))
         if retune or alive > len(self.heads) or len(proxies) > len(self.levels):
@@ -353,8 +461,10 @@ class SpatialHashGrid:
             buckets = len(self.heads)
             while buckets < 2 * alive:
                 buckets *= 2
-            self._clear(max(len(proxies), 2 * len(self.levels) if len(proxies) > len(self.levels) else len(self.levels)),
-                        buckets)
+            self._clear(
+                max(len(proxies), 2 * len(self.levels) if len(proxies) > len(self.levels) else len(self.levels)),
+                buckets,
+            )
             changed = rows
         place_changed(proxies, changed, self.base, *self._state(), arena.work)
 
@@ -375,15 +485,28 @@ class SpatialHashGrid:
 
     def near(self, proxies, box, slots, work) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
-        return near_in_cells(self.base, self.heads, self.entries, self.lists, self.level_heads, self.level_counts, proxies, *box,
-                             slots, work)
+        return near_in_cells(
+            self.base,
+            self.heads,
+            self.entries,
+            self.lists,
+            self.level_heads,
+            self.level_counts,
+            proxies,
+            *box,
+            slots,
+            work,
+        )
 
     def cells(self):
         """Occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
         used = self.entries[self.entries["bucket"] >= 0]
         level = np.repeat(self.levels, 4)[self.entries["bucket"] >= 0]
-        cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0) if len(used) else \
-            np.zeros((0, 3), np.int64)
+        cells = (
+            np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)
+            if len(used)
+            else np.zeros((0, 3), np.int64)
+        )
         size = self.base * 2.0 ** cells[:, 0]
         low = cells[:, 1:] * size[:, None]
         return np.concatenate([low, low + size[:, None]], axis=1), cells[:, 0]

@@ -12,17 +12,19 @@ from physics.broadphase.proxies import find_pairs, may_meet, write_pair
 from physics.jit import kernel
 from physics.profile import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
 
-AXIS_SWITCH = 2.0          # the other axis must vary this much more before the order is sorted anew
-AXIS_INTERVAL = 32         # updates between two looks at how the bodies are spread
-SWAP_BUDGET = 16           # swaps per body after which a full sort is cheaper than going on inserting
+AXIS_SWITCH = 2.0  # the other axis must vary this much more before the order is sorted anew
+AXIS_INTERVAL = 32  # updates between two looks at how the bodies are spread
+SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than going on inserting
 
 
 @kernel
 def refresh_order(
     # read
-    proxies, axis,
+    proxies,
+    axis,
     # write
-    order_inout, lower_out,
+    order_inout,
+    lower_out,
 ):
     """Drop freed slots from the order and read the lower ends along the axis.
 
@@ -42,9 +44,12 @@ def refresh_order(
 @kernel
 def insertion_sort(
     # scalars
-    count, budget,
+    count,
+    budget,
     # write
-    order_inout, lower_inout, work_inout,
+    order_inout,
+    lower_inout,
+    work_inout,
 ):
     """Restore the order of nearly sorted lower ends. Returns 0, or 1 when the budget of swaps ran out.
 
@@ -71,9 +76,13 @@ def insertion_sort(
 @kernel
 def sort_boxes(
     # read
-    proxies, order, count, axis,
+    proxies,
+    order,
+    count,
+    axis,
     # write
-    boxes_out, next_changed_out,
+    boxes_out,
+    next_changed_out,
 ):
     """Copy boxes and owners into sorted order, where the sweep reads them one after another.
 
@@ -96,9 +105,14 @@ def sort_boxes(
 @kernel
 def sweep_one(
     # read
-    proxies, order, count, boxes, next_changed,
+    proxies,
+    order,
+    count,
+    boxes,
+    next_changed,
     # write
-    pairs_out, work_inout,
+    pairs_out,
+    work_inout,
 ):
     """Sweep the sorted intervals; test each overlap of which a side changed. Returns the number of pairs.
 
@@ -145,9 +159,14 @@ def sweep_one(
 @kernel
 def sweep_intervals(
     # read
-    proxies, order, count, boxes, next_changed,
+    proxies,
+    order,
+    count,
+    boxes,
+    next_changed,
     # write
-    keys_out, work_inout,
+    keys_out,
+    work_inout,
 ):
     """List the interval overlaps along one axis as keys slot << 32 | slot. Returns their number."""
     found = 0
@@ -173,9 +192,14 @@ def sweep_intervals(
 @kernel
 def intersect(
     # read
-    proxies, keys_x, count_x, keys_y, count_y,
+    proxies,
+    keys_x,
+    count_x,
+    keys_y,
+    count_y,
     # write
-    pairs_out, work_inout,
+    pairs_out,
+    work_inout,
 ):
     """Pairs that stand in both sorted key lists and pass the filter. Returns their number. O(both lists)."""
     found = 0
@@ -202,9 +226,16 @@ def intersect(
 @kernel
 def near_in_order(
     # read
-    order, boxes, highest, lower, upper, other_lower, other_upper,
+    order,
+    boxes,
+    highest,
+    lower,
+    upper,
+    other_lower,
+    other_upper,
     # write
-    slots_out, work_inout,
+    slots_out,
+    work_inout,
 ):
     """List the slots whose box meets a closed box, by binary search along the sorted axis. Returns their number.
 
@@ -239,11 +270,11 @@ class Axis:
     def __init__(self, axis):
         self.axis = axis
         self.order = np.zeros(0, np.int64)
-        self.known = np.zeros(0, bool)          # slot -> is in the order
+        self.known = np.zeros(0, bool)  # slot -> is in the order
         self.boxes = np.zeros((0, 4))
         self.next_changed = np.zeros(0, np.int64)
         self.keys = np.zeros(64, np.int64)
-        self.highest = None             # the greatest upper end so far, along the order; None until a query asks
+        self.highest = None  # the greatest upper end so far, along the order; None until a query asks
 
     def update(self, arena):
         """Bring the order up to date with the changed proxies."""
@@ -271,10 +302,19 @@ class Axis:
     def near(self, box, slots, work):
         """List the slots whose box meets box (lower x, y, upper x, y) [px]; how many there are."""
         if self.highest is None:
-            self.highest = np.maximum.accumulate(self.boxes[:len(self.order), 1])
+            self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
         other = 1 - self.axis
-        return near_in_order(self.order, self.boxes, self.highest, box[self.axis], box[self.axis + 2], box[other], box[other + 2],
-                             slots, work)
+        return near_in_order(
+            self.order,
+            self.boxes,
+            self.highest,
+            box[self.axis],
+            box[self.axis + 2],
+            box[other],
+            box[other + 2],
+            slots,
+            work,
+        )
 
     def sweep(self, arena, pairs, work):
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
@@ -282,7 +322,9 @@ class Axis:
     def intervals(self, arena, work):
         """Sorted keys of the interval overlaps along this axis."""
         before = work.copy()
-        count = sweep_intervals(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work)
+        count = sweep_intervals(
+            arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work
+        )
         if count > len(self.keys):
             self.keys = np.zeros(count, np.int64)
             work[:] = before
@@ -314,7 +356,9 @@ class SweepAndPrune:
     def update(self, arena):
         """Sort what changed into its place."""
         self.updates += 1
-        if self.axes == "auto" and (self.updates % AXIS_INTERVAL == 1 or len(arena.changed) > 2 * len(self.sorted[0].order)):
+        if self.axes == "auto" and (
+            self.updates % AXIS_INTERVAL == 1 or len(arena.changed) > 2 * len(self.sorted[0].order)
+        ):
             best = self._best_axis(arena.proxies)
             if best != self.sorted[0].axis:
                 everything = arena.changed
@@ -332,8 +376,10 @@ class SweepAndPrune:
         if not len(alive):
             return now
         with np.errstate(over="ignore", invalid="ignore"):
-            spread = [float(np.var(alive["lower_x"] + alive["upper_x"])),
-                      float(np.var(alive["lower_y"] + alive["upper_y"]))]
+            spread = [
+                float(np.var(alive["lower_x"] + alive["upper_x"])),
+                float(np.var(alive["lower_y"] + alive["upper_y"])),
+            ]
         needed = AXIS_SWITCH if len(self.sorted[0].order) else 1.0
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
@@ -346,6 +392,7 @@ class SweepAndPrune:
             keys_x, count_x = self.sorted[0].intervals(arena, work)
             keys_y, count_y = self.sorted[1].intervals(arena, work)
             return intersect(arena.proxies, keys_x, count_x, keys_y, count_y, pairs, work)
+
         return both
 
     def near(self, proxies, box, slots, work) -> int:

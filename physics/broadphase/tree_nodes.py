@@ -9,15 +9,22 @@ import numpy as np
 from physics.jit import subkernel
 from physics.profile import NODES_VISITED
 
-NODE = np.dtype([
-    ("lower_x", np.float64), ("lower_y", np.float64), ("upper_x", np.float64), ("upper_y", np.float64),   # [px]
-    ("parent", np.int64),          # of a free node: the next free one
-    ("child_a", np.int64), ("child_b", np.int64),       # -1 in a leaf
-    ("height", np.int64),          # 0 in a leaf, -1 in a free node
-    ("slot", np.int64),            # of the proxy in a leaf, else -1
-    ("still", np.bool_),
-], align=True)
-FREE, USED, ROOT_MOVING, ROOT_STILL = 0, 1, 2, 3           # places in the state array
+NODE = np.dtype(
+    [
+        ("lower_x", np.float64),
+        ("lower_y", np.float64),
+        ("upper_x", np.float64),
+        ("upper_y", np.float64),  # [px]
+        ("parent", np.int64),  # of a free node: the next free one
+        ("child_a", np.int64),
+        ("child_b", np.int64),  # -1 in a leaf
+        ("height", np.int64),  # 0 in a leaf, -1 in a free node
+        ("slot", np.int64),  # of the proxy in a leaf, else -1
+        ("still", np.bool_),
+    ],
+    align=True,
+)
+FREE, USED, ROOT_MOVING, ROOT_STILL = 0, 1, 2, 3  # places in the state array
 
 
 @subkernel
@@ -25,7 +32,9 @@ def joined_outline(nodes, a, b):
     """Half the outline [px] of the box around two nodes: the surface area of two dimensions."""
     p = nodes[a]
     q = nodes[b]
-    return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y))
+    return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
+        max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y)
+    )
 
 
 @subkernel
@@ -73,8 +82,9 @@ def rotate(index, root, nodes_inout, state_inout):
     stays = c.child_a
     goes = c.child_b
     if nodes_inout[stays].height < nodes_inout[goes].height or (
-            nodes_inout[stays].height == nodes_inout[goes].height
-            and joined_outline(nodes_inout, other, stays) < joined_outline(nodes_inout, other, goes)):
+        nodes_inout[stays].height == nodes_inout[goes].height
+        and joined_outline(nodes_inout, other, stays) < joined_outline(nodes_inout, other, goes)
+    ):
         stays, goes = goes, stays
     replace_child(a.parent, index, up, root, nodes_inout, state_inout)
     a.child_a = other
@@ -182,7 +192,7 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
         work_inout[NODES_VISITED] += 1
         n = nodes_inout[at]
         here = joined_outline(nodes_inout, at, leaf)
-        grown = here - joined_outline(nodes_inout, at, at)       # every node above the sibling grows by this
+        grown = here - joined_outline(nodes_inout, at, at)  # every node above the sibling grows by this
         cost_a = joined_outline(nodes_inout, n.child_a, leaf) + grown
         if nodes_inout[n.child_a].height > 0:
             cost_a -= joined_outline(nodes_inout, n.child_a, n.child_a)

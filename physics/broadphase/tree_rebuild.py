@@ -57,9 +57,13 @@ def wider_axis(nodes, leaves, first, last):
 @kernel
 def rebuild(
     # read
-    leaf_of, still,
+    leaf_of,
+    still,
     # write
-    leaves_out, spans_out, nodes_inout, state_inout,
+    leaves_out,
+    spans_out,
+    nodes_inout,
+    state_inout,
 ):
     """Build the tree of the still leaves (still 1) or of the moving ones (0) anew by median splits.
 

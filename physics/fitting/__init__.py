@@ -23,7 +23,7 @@ def fit(mask, tier, tolerance=1.0) -> tuple:
         return (mask,)
     if mask.area == 0:
         return ()
-    if tier not in mask.fitted:           # a mask never changes, so neither does what stands for it
+    if tier not in mask.fitted:  # a mask never changes, so neither does what stands for it
         mask.fitted[tier] = _fit(mask, tier)
     return mask.fitted[tier]
 

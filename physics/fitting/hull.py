@@ -16,8 +16,13 @@ def mask_hull(mask) -> np.ndarray:
 def _half(points):
     chain = []
     for x, y in points:
-        while len(chain) > 1 and ((chain[-1][0] - chain[-2][0]) * (y - chain[-2][1])
-                                  - (chain[-1][1] - chain[-2][1]) * (x - chain[-2][0])) <= 0:
+        while (
+            len(chain) > 1
+            and (
+                (chain[-1][0] - chain[-2][0]) * (y - chain[-2][1]) - (chain[-1][1] - chain[-2][1]) * (x - chain[-2][0])
+            )
+            <= 0
+        ):
             chain.pop()
         chain.append((x, y))
     return chain

@@ -70,16 +70,21 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
     a = rasters[mask_a]
     b = rasters[mask_b]
     area, sum_x, sum_y = shared_moments(rasters, words, mask_a, mask_b, dx, dy)
-    slope_x = float(shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
-                    - shared_area(rasters, words, mask_a, mask_b, dx + 1, dy))
-    slope_y = float(shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
-                    - shared_area(rasters, words, mask_a, mask_b, dx, dy + 1))
+    slope_x = float(
+        shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
+        - shared_area(rasters, words, mask_a, mask_b, dx + 1, dy)
+    )
+    slope_y = float(
+        shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
+        - shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
+    )
     axis_x, axis_y, least = least_axis(a, b, dx, dy)
     nx, ny = unit(slope_x, slope_y, 0.0, 0.0)
     if length_of(slope_x, slope_y) == 0.0:
         nx, ny = center_normal(a, b, dx, dy)
         if b.set_left + b.set_right + 2 * dx == a.set_left + a.set_right and (
-                b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom):
+            b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom
+        ):
             nx = axis_x
             ny = axis_y
     depth = way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, least)

@@ -4,15 +4,27 @@ dx, dy [px] is where B's raster starts, seen from A's. Only the rectangle that b
 """
 
 from physics.jit import subkernel, word
-from physics.masks.bits import (bits_from, both, columns_up_to, count_bits, first_shared_row, lowest_bit, shared_word,
-                                without_lowest)
+from physics.masks.bits import (
+    bits_from,
+    both,
+    columns_up_to,
+    count_bits,
+    first_shared_row,
+    lowest_bit,
+    shared_word,
+    without_lowest,
+)
 
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
     """(left, top, right, bottom) of the solid bounds that two rasters share, in A's columns and rows."""
-    return (max(a.set_left, b.set_left + dx), max(a.set_top, b.set_top + dy),
-            min(a.set_right, b.set_right + dx), min(a.set_bottom, b.set_bottom + dy))
+    return (
+        max(a.set_left, b.set_left + dx),
+        max(a.set_top, b.set_top + dy),
+        min(a.set_right, b.set_right + dx),
+        min(a.set_bottom, b.set_bottom + dy),
+    )
 
 
 @subkernel
@@ -24,16 +36,19 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
     if left >= right or top >= bottom:
         return False, 0, 0
     if a.stride == 1 and b.stride == 1:
-        row, shared = first_shared_row(words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top,
-                                       columns_up_to(right - left))
+        row, shared = first_shared_row(
+            words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top, columns_up_to(right - left)
+        )
         return row < bottom - top, left + lowest_bit(shared), top + row
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride
         row_b = b.offset + (y - dy) * b.stride
         x = left
         while x < right:
-            shared = both(both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
-                          columns_up_to(right - x))
+            shared = both(
+                both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                columns_up_to(right - x),
+            )
             if shared != word(0):
                 return True, x + lowest_bit(shared), y
             x += 64
@@ -59,8 +74,12 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
         row_b = b.offset + (y - dy) * b.stride
         x = left
         while x < right:
-            area += count_bits(both(both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
-                                    columns_up_to(right - x)))
+            area += count_bits(
+                both(
+                    both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                    columns_up_to(right - x),
+                )
+            )
             x += 64
     return area
 
@@ -81,8 +100,10 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
         row_b = b.offset + (y - dy) * b.stride
         x = left
         while x < right:
-            shared = both(both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
-                          columns_up_to(right - x))
+            shared = both(
+                both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                columns_up_to(right - x),
+            )
             bits = count_bits(shared)
             area += bits
             sum_y += bits * y

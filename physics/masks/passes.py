@@ -18,12 +18,23 @@ def make_mask_pass(full: bool):
 
     Without them the normal is the direction between the centres and the separation -1: one shared pixel is known.
     """
+
     @kernel
     def collide_mask_pairs(
         # read
-        geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+        geometry,
+        bodies,
+        shapes,
+        candidates,
+        kinds,
+        count,
+        margin,
+        bias,
         # write
-        scratch, contacts_out, found, work_inout,
+        scratch,
+        contacts_out,
+        found,
+        work_inout,
     ):
         """Contacts of all pairs of masks as drawn, by AND of words, appended at `found`. Returns the new count."""
         for i in range(count):
@@ -44,8 +55,9 @@ def make_mask_pass(full: bool):
                 x, y, right, bottom = shared_rectangle(r, s, dx, dy)
                 if x >= right or y >= bottom:
                     continue
-                row, shared = first_shared_row(geometry.words, r.offset + y, x, s.offset + y - dy, x - dx, bottom - y,
-                                               columns_up_to(right - x))
+                row, shared = first_shared_row(
+                    geometry.words, r.offset + y, x, s.offset + y - dy, x - dx, bottom - y, columns_up_to(right - x)
+                )
                 if row == bottom - y:
                     continue
                 x += lowest_bit(shared)
@@ -59,15 +71,49 @@ def make_mask_pass(full: bool):
                 q = bodies[b.body_row]
                 p = bodies[a.body_row]
                 area, px, py, nx, ny, separation = mask_contact(
-                    geometry.rasters, geometry.words, a.raster, b.raster, dx, dy, p.x - r.origin_x + 0.5 - a.left,
-                    p.y - r.origin_y + 0.5 - a.top, q.x - s.origin_x + 0.5 - b.left, q.y - s.origin_y + 0.5 - b.top)
-                found = write_contact(shapes, candidates, i, found, nx, ny, left + px, top + py, separation,
-                                      float(area), feature, contacts_out)
+                    geometry.rasters,
+                    geometry.words,
+                    a.raster,
+                    b.raster,
+                    dx,
+                    dy,
+                    p.x - r.origin_x + 0.5 - a.left,
+                    p.y - r.origin_y + 0.5 - a.top,
+                    q.x - s.origin_x + 0.5 - b.left,
+                    q.y - s.origin_y + 0.5 - b.top,
+                )
+                found = write_contact(
+                    shapes,
+                    candidates,
+                    i,
+                    found,
+                    nx,
+                    ny,
+                    left + px,
+                    top + py,
+                    separation,
+                    float(area),
+                    feature,
+                    contacts_out,
+                )
             else:
                 nx, ny = center_normal(r, s, dx, dy)
-                found = write_contact(shapes, candidates, i, found, nx, ny, left + x + 0.5, top + y + 0.5, -1.0,
-                                      0.0, feature, contacts_out)
+                found = write_contact(
+                    shapes,
+                    candidates,
+                    i,
+                    found,
+                    nx,
+                    ny,
+                    left + x + 0.5,
+                    top + y + 0.5,
+                    -1.0,
+                    0.0,
+                    feature,
+                    contacts_out,
+                )
         return found
+
     return collide_mask_pairs
 
 
@@ -78,9 +124,19 @@ collide_mask_pairs_hit = make_mask_pass(full=False)
 @kernel
 def collide_mask_shape_pairs(
     # read
-    geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
     # write
-    scratch, contacts_out, found, work_inout,
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
 ):
     """Contacts of all pairs of a mask and a hull, appended at `found`. Returns the new count."""
     for i in range(count):
@@ -95,21 +151,26 @@ def collide_mask_shape_pairs(
         top = shapes[row].top
         if kinds[i] == MASK_CIRCLE:
             cx, cy, radius = circle_at(bodies, shapes, other)
-            area, nx, ny, x, y, separation, feature = collide_mask_circle(geometry.rasters, geometry.words, mask, left, top,
-                                                                          cx, cy, radius)
+            area, nx, ny, x, y, separation, feature = collide_mask_circle(
+                geometry.rasters, geometry.words, mask, left, top, cx, cy, radius
+            )
         else:
             n = corners_of(geometry, bodies, shapes, other, scratch.a)
             radius = rounding(shapes, other)
         if kinds[i] == MASK_POLYGON and radius > 0.0:
-            area, nx, ny, x, y, separation, feature = collide_mask_rounded(geometry.rasters, geometry.words, mask, left, top,
-                                                                           scratch.a, n, radius)
+            area, nx, ny, x, y, separation, feature = collide_mask_rounded(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, radius
+            )
         elif kinds[i] == MASK_POLYGON and n == 2:
-            area, nx, ny, x, y, separation, feature = collide_mask_line(geometry.rasters, geometry.words, mask, left, top,
-                                                                        scratch.a, scratch.depths)
+            area, nx, ny, x, y, separation, feature = collide_mask_line(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, scratch.depths
+            )
         elif kinds[i] == MASK_POLYGON:
-            area, nx, ny, x, y, separation, feature = collide_mask_polygon(geometry.rasters, geometry.words, mask, left, top,
-                                                                           scratch.a, n, ALL_EDGES, scratch.depths)
+            area, nx, ny, x, y, separation, feature = collide_mask_polygon(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, ALL_EDGES, scratch.depths
+            )
         if area > 0:
-            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area),
-                                  feature, contacts_out)
+            found = write_contact(
+                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area), feature, contacts_out
+            )
     return found

@@ -11,15 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SAMPLES = 5       # per side of a pixel, so that one is its centre: coverage in steps of 1/25
+SAMPLES = 5  # per side of a pixel, so that one is its centre: coverage in steps of 1/25
 
 
 @dataclass(frozen=True)
 class Turned:
     """A mask at one angle: solid[row, col], the origin from its top left corner, and each pixel's source."""
+
     solid: np.ndarray
     origin: tuple[float, float]
-    source_x: np.ndarray        # (rows, columns) int, -1 where clear
+    source_x: np.ndarray  # (rows, columns) int, -1 where clear
     source_y: np.ndarray
 
 
@@ -58,7 +59,7 @@ def _any_turn(solid, origin, angle):
     width, height = math.ceil(out_x.max()) + origin_x, math.ceil(out_y.max()) + origin_y
 
     rows, columns = solid.shape
-    padded = np.zeros((rows + 2, columns + 2), bool)         # a clear border catches what falls beside the source
+    padded = np.zeros((rows + 2, columns + 2), bool)  # a clear border catches what falls beside the source
     padded[1:-1, 1:-1] = solid
     coverage = np.zeros(height * width, np.int64)
     centered = np.zeros(height * width, bool)
@@ -67,7 +68,7 @@ def _any_turn(solid, origin, angle):
     base_x = (cosine * (pixel_x - origin_x) + sine * (pixel_y - origin_y) + (origin[0] + 1.0)).ravel()
     base_y = (cosine * (pixel_y - origin_y) - sine * (pixel_x - origin_x) + (origin[1] + 1.0)).ravel()
     offsets = [((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)]
-    offsets.sort(key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at))   # the centre decides the colour
+    offsets.sort(key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at))  # the centre decides the colour
     for number, (x, y) in enumerate(offsets):
         at_x = np.clip(base_x + (cosine * x + sine * y), 0.0, columns + 1.0).astype(np.intp)
         at_y = np.clip(base_y + (cosine * y - sine * x), 0.0, rows + 1.0).astype(np.intp)
@@ -96,7 +97,7 @@ def _as_many(centered, coverage, wanted):
         if missing == 0 or not kept.ravel()[at]:
             break
         row, column = divmod(at, kept.shape[1])
-        if _is_simple(padded[row:row + 3, column:column + 3]):
+        if _is_simple(padded[row : row + 3, column : column + 3]):
             padded[row + 1, column + 1] = False
             missing += 1
     return padded[1:-1, 1:-1]
@@ -106,7 +107,7 @@ def _is_simple(around):
     """Whether the middle of 3 x 3 pixels can go without parting the others: its solid neighbours hang together."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
-        return False                       # alone, or inside
+        return False  # alone, or inside
     # Corners between two solid sides belong to them; count how often the ring changes from clear to solid.
     joined = [solid or (k % 2 == 0 and ring[k - 1] and ring[(k + 1) % 8]) for k, solid in enumerate(ring)]
     return sum(not joined[k - 1] and joined[k] for k in range(8)) == 1

@@ -22,7 +22,12 @@ def square_gap(corners, count, x, y):
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         for corner in range(4):
-            gap = min(gap, edge_gap(corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x + (corner & 1), y + (corner >> 1)))
+            gap = min(
+                gap,
+                edge_gap(
+                    corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x + (corner & 1), y + (corner >> 1)
+                ),
+            )
         beside = max(max(x - corners[k, 0], corners[k, 0] - x - 1.0), 0.0)
         above = max(max(y - corners[k, 1], corners[k, 1] - y - 1.0), 0.0)
         gap = min(gap, length_of(beside, above))
@@ -90,7 +95,10 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
     first = -1
     for j in range(first_y, last_y):
         for i in range(first_x, last_x):
-            if is_set(words, r.offset + j * r.stride, i) and square_gap(corners, count, float(left + i), float(top + j)) < radius:
+            if (
+                is_set(words, r.offset + j * r.stride, i)
+                and square_gap(corners, count, float(left + i), float(top + j)) < radius
+            ):
                 area += 1
                 sum_x += left + i + 0.5
                 sum_y += top + j + 0.5
@@ -110,7 +118,9 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
             ny = -my
         else:
             nx, ny = way_to_core(corners, count, point_x, point_y)
-        out = depth_along(rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny)
+        out = depth_along(
+            rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny
+        )
         if out < depth:
             depth = out
             best_x = nx

@@ -187,7 +187,9 @@ def border_pixels(rasters, words, mask, line, low, high, level):
         column = k if level else line
         before_row = line - 1 if level else k
         before_column = k if level else line - 1
-        if is_set(words, r.offset + row * r.stride, column) and is_set(words, r.offset + before_row * r.stride, before_column):
+        if is_set(words, r.offset + row * r.stride, column) and is_set(
+            words, r.offset + before_row * r.stride, before_column
+        ):
             found += 1
             middle += k + 0.5
             if first < 0:
@@ -202,7 +204,9 @@ def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
     It is met where it runs through the inside of the solid: across a pixel, or along the border of two solid ones, out
     of which it leads on the side that is further from the middle of the mask. depths_out (16,): scratch.
     """
-    area, nx, ny, x, y, separation, first = collide_mask_polygon(rasters, words, mask, left, top, points, 2, 3, depths_out)
+    area, nx, ny, x, y, separation, first = collide_mask_polygon(
+        rasters, words, mask, left, top, points, 2, 3, depths_out
+    )
     level = points[0, 1] == points[1, 1] and points[0, 1] == math.floor(points[0, 1])
     upright = points[0, 0] == points[1, 0] and points[0, 0] == math.floor(points[0, 0])
     if area > 0 or level == upright:

@@ -18,29 +18,38 @@ from physics.motion.time_of_impact import MISS
 from physics.narrowphase.gjk import AX, AY, CAPPED, FIRST_A, FIRST_B, NX, NY, ROUNDS, GapRoom, new_gap_room
 from physics.narrowphase.separation import separate
 
-ADVANCE_CAP = 256          # stops; transversal impacts take under ten, grazes some forty
-LEAVING_CAP = 1024         # stops of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
-TOLERANCE = 2.0 ** -43     # 1e-13 of the size of shapes and motion: met
-TOUCHING_BAND = 2.0 ** -30  # 1e-9 of the size: corners this near to the touching one touch too
-RESTING = 2.0 ** -42       # of the speed: a slide, whose approach is but rounding
+ADVANCE_CAP = 256  # stops; transversal impacts take under ten, grazes some forty
+LEAVING_CAP = 1024  # stops of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
+TOLERANCE = 2.0**-43  # 1e-13 of the size of shapes and motion: met
+TOUCHING_BAND = 2.0**-30  # 1e-9 of the size: corners this near to the touching one touch too
+RESTING = 2.0**-42  # of the speed: a slide, whose approach is but rounding
 CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
 
 
 class AdvanceRoom(NamedTuple):
     """Room for one pair on its way."""
-    local_a: np.ndarray        # (16, 2) corners from the point that each side turns about [px], at angle 0
+
+    local_a: np.ndarray  # (16, 2) corners from the point that each side turns about [px], at angle 0
     local_b: np.ndarray
-    a: np.ndarray              # (16, 2) corners at the present fraction, from where A's point was at the start [px]
+    a: np.ndarray  # (16, 2) corners at the present fraction, from where A's point was at the start [px]
     b: np.ndarray
-    motion_a: np.ndarray       # (6,) point it turns about and angle at the start; what they change by until the end
+    motion_a: np.ndarray  # (6,) point it turns about and angle at the start; what they change by until the end
     motion_b: np.ndarray
-    totals: np.ndarray         # (2,) rounds of GJK and EPA, caps hit
+    totals: np.ndarray  # (2,) rounds of GJK and EPA, caps hit
     gap: GapRoom
 
 
 def new_advance_room() -> AdvanceRoom:
-    return AdvanceRoom(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(6), np.zeros(6),
-                       np.zeros(2), new_gap_room())
+    return AdvanceRoom(
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros(6),
+        np.zeros(6),
+        np.zeros(2),
+        new_gap_room(),
+    )
 
 
 @subkernel
@@ -124,11 +133,14 @@ def free_motion(a_count, b_count, radii, fraction, separation, room):
             until = min(until, free_until(max(0.0, gap), speed_b - speed_a, bend_a + bend_b))
     if separation > 0.0:
         # Far apart and turning fast: no corner leaves its circle.
-        center = (nx * ((room.motion_b[CENTER_X] - x) + fraction * room.motion_b[MOVE_X] - fraction * room.motion_a[MOVE_X])
-                  + ny * ((room.motion_b[CENTER_Y] - y) + fraction * room.motion_b[MOVE_Y] - fraction * room.motion_a[MOVE_Y]))
+        center = nx * (
+            (room.motion_b[CENTER_X] - x) + fraction * room.motion_b[MOVE_X] - fraction * room.motion_a[MOVE_X]
+        ) + ny * ((room.motion_b[CENTER_Y] - y) + fraction * room.motion_b[MOVE_Y] - fraction * room.motion_a[MOVE_Y])
         gap = center - reach_of(room.local_a, a_count) - reach_of(room.local_b, b_count) - radii
         if gap > 0.0:
-            speed = nx * (room.motion_b[MOVE_X] - room.motion_a[MOVE_X]) + ny * (room.motion_b[MOVE_Y] - room.motion_a[MOVE_Y])
+            speed = nx * (room.motion_b[MOVE_X] - room.motion_a[MOVE_X]) + ny * (
+                room.motion_b[MOVE_Y] - room.motion_a[MOVE_Y]
+            )
             until = max(until, free_until(gap, speed, 0.0))
     return until
 
@@ -179,8 +191,11 @@ def approach_at(a_count, b_count, fraction, band, room):
         at = low if end == 0 else high
         x = across * nx - at * ny
         y = across * ny + at * nx
-        most = max(most, speed_of(room.motion_a, room.motion_a, fraction, x, y, nx, ny)
-                   - speed_of(room.motion_b, room.motion_a, fraction, x, y, nx, ny))
+        most = max(
+            most,
+            speed_of(room.motion_a, room.motion_a, fraction, x, y, nx, ny)
+            - speed_of(room.motion_b, room.motion_a, fraction, x, y, nx, ny),
+        )
     return most
 
 
@@ -215,7 +230,7 @@ def advance(a_count, a_radius, b_count, b_radius, room):
             if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, room) > RESTING * speed:
                 return fraction
             if turn_a * reach_a + turn_b * reach_b == 0.0:
-                return MISS              # convex and not turning: they part for good
+                return MISS  # convex and not turning: they part for good
             leaving += 1
             fraction += max(free_motion(a_count, b_count, radii, fraction, separation, room), 1.0 / LEAVING_CAP)
             if fraction >= 1.0:

@@ -16,7 +16,7 @@ from physics.narrowphase.contacts import new_scratch
 from physics.narrowphase.placement import aabb_at, refresh_aabbs
 from physics.tables import BOUNDS, KINEMATIC, POLYGON, STATIC
 
-GIVE = 2.0             # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
+GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
 
 
 @subkernel
@@ -25,16 +25,44 @@ def shift(geometry, shapes, me, without, pixels, along_x, piles, slop, scratch, 
     c = characters_inout[me]
     direction = 1 if pixels > 0 else -1
     reach = float(abs(pixels) + 2)
-    count = gather_solids(geometry, bodies_inout, shapes, characters_inout, me, without, piles, c.left - reach, c.top - reach,
-                          c.left + c.width + reach, c.top + c.height + reach, rows)
+    count = gather_solids(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        me,
+        without,
+        piles,
+        c.left - reach,
+        c.top - reach,
+        c.left + c.width + reach,
+        c.top + c.height + reach,
+        rows,
+    )
     way_x = direction * along_x
     way_y = direction * (1 - along_x)
     for done in range(abs(pixels)):
         left = c.left + way_x
         top = c.top + way_y
         falling = 1 if along_x == 0 and direction > 0 else 0
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, left, top, c.width, c.height,
-                              way_x, way_y, falling, GIVE, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            left,
+            top,
+            c.width,
+            c.height,
+            way_x,
+            way_y,
+            falling,
+            GIVE,
+            slop,
+            scratch,
+        )
         if what != FREE:
             settle(me, characters_inout, bodies_inout)
             return abs(pixels) - done
@@ -56,8 +84,20 @@ def carry_riders(geometry, shapes, along_x, piles, slop, scratch, rows, characte
             for under in range(len(characters_inout)):
                 u = characters_inout[under]
                 if u.body == c.riding and u.carried != 0:
-                    stopped = shift(geometry, shapes, me, u.body_row, u.carried, along_x, piles, slop, scratch, rows,
-                                    characters_inout, bodies_inout)
+                    stopped = shift(
+                        geometry,
+                        shapes,
+                        me,
+                        u.body_row,
+                        u.carried,
+                        along_x,
+                        piles,
+                        slop,
+                        scratch,
+                        rows,
+                        characters_inout,
+                        bodies_inout,
+                    )
                     c.carried = u.carried - stopped if u.carried > 0 else u.carried + stopped
                     if stopped > 0 and along_x == 0 and u.carried < 0:
                         c.squeezed = True
@@ -69,9 +109,15 @@ def carry_riders(geometry, shapes, along_x, piles, slop, scratch, rows, characte
 @kernel
 def carry_and_push(
     # read
-    geometry, shapes, piles, slop,
+    geometry,
+    shapes,
+    piles,
+    slop,
     # write
-    scratch, rows_out, characters_inout, bodies_inout,
+    scratch,
+    rows_out,
+    characters_inout,
+    bodies_inout,
 ):
     """Let every upright kinematic box that moved by whole pixels carry its riders and push what it ran into.
 
@@ -84,7 +130,9 @@ def carry_and_push(
             continue
         if character_of(characters_inout, s.body_row) >= 0 or (piles == 1 and is_loose(bodies_inout, shapes, row)):
             continue
-        old_left, old_top, old_right, old_bottom = aabb_at(geometry, shapes, row, b.previous_x, b.previous_y, b.previous_angle)
+        old_left, old_top, old_right, old_bottom = aabb_at(
+            geometry, shapes, row, b.previous_x, b.previous_y, b.previous_angle
+        )
         left, top, right, bottom = aabb_at(geometry, shapes, row, b.x, b.y, b.angle)
         for axis in range(2):
             along_x = 1 - axis
@@ -105,8 +153,12 @@ def carry_and_push(
                 way = 0
                 if c.riding == s.body:
                     way = moved
-                elif (c.left < box_right and box_left < c.left + c.width and c.top < box_bottom
-                      and box_top < c.top + c.height):
+                elif (
+                    c.left < box_right
+                    and box_left < c.left + c.width
+                    and c.top < box_bottom
+                    and box_top < c.top + c.height
+                ):
                     if along_x == 1:
                         way = box_right - c.left if moved > 0 else box_left - (c.left + c.width)
                     else:
@@ -117,12 +169,28 @@ def carry_and_push(
                     c.push_vx = b.vx
                 else:
                     c.push_vy = b.vy
-                stopped = shift(geometry, shapes, me, s.body_row, way, along_x, piles, slop, scratch, rows_out, characters_inout,
-                                bodies_inout)
+                stopped = shift(
+                    geometry,
+                    shapes,
+                    me,
+                    s.body_row,
+                    way,
+                    along_x,
+                    piles,
+                    slop,
+                    scratch,
+                    rows_out,
+                    characters_inout,
+                    bodies_inout,
+                )
                 c.carried = way - stopped if way > 0 else way + stopped
                 # A rider that is stopped slides; it is squeezed where the box now stands in it.
-                if stopped > 0 and (c.left < box_right and box_left < c.left + c.width and c.top < box_bottom
-                                    and box_top < c.top + c.height):
+                if stopped > 0 and (
+                    c.left < box_right
+                    and box_left < c.left + c.width
+                    and c.top < box_bottom
+                    and box_top < c.top + c.height
+                ):
                     c.squeezed = True
             carry_riders(geometry, shapes, along_x, piles, slop, scratch, rows_out, characters_inout, bodies_inout)
 
@@ -154,13 +222,57 @@ def ridden_freely(bodies, shapes, body_row):
 def step_down(geometry, shapes, me, slop, scratch, rows, characters_inout, bodies_inout):
     """Down one pixel to a ground that is one pixel away."""
     c = characters_inout[me]
-    count = gather_solids(geometry, bodies_inout, shapes, characters_inout, me, -1, 1, c.left - 1.0, c.top - 1.0,
-                          c.left + c.width + 1.0, c.top + c.height + 3.0, rows)
-    near, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, c.left, c.top + 1, c.width, c.height,
-                          0, 1, 1, 0.0, slop, scratch)
+    count = gather_solids(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        me,
+        -1,
+        1,
+        c.left - 1.0,
+        c.top - 1.0,
+        c.left + c.width + 1.0,
+        c.top + c.height + 3.0,
+        rows,
+    )
+    near, by = blocked_at(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        rows,
+        count,
+        c.left,
+        c.top + 1,
+        c.width,
+        c.height,
+        0,
+        1,
+        1,
+        0.0,
+        slop,
+        scratch,
+    )
     if near == FREE:
-        below, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, c.left, c.top + 2, c.width,
-                               c.height, 0, 1, 1, 0.0, slop, scratch)
+        below, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            c.left,
+            c.top + 2,
+            c.width,
+            c.height,
+            0,
+            1,
+            1,
+            0.0,
+            slop,
+            scratch,
+        )
         if below != FREE:
             c.top += 1
             settle(me, characters_inout, bodies_inout)
@@ -178,9 +290,17 @@ def take_back(characters_inout, bodies_inout):
 @kernel
 def ride_bodies(
     # read
-    geometry, shapes, piles, belts, dt, slop,
+    geometry,
+    shapes,
+    piles,
+    belts,
+    dt,
+    slop,
     # write
-    scratch, rows_out, characters_inout, bodies_inout,
+    scratch,
+    rows_out,
+    characters_inout,
+    bodies_inout,
 ):
     """Carry characters by what the point under their feet was moved by, in whole pixels with the remainder kept.
 
@@ -202,8 +322,12 @@ def ride_bodies(
             else:
                 r = bodies_inout[row]
                 # x is carried first; the point's motion is the same for both axes.
-                u, v = turned(c.foot_x - r.previous_x, c.foot_y - r.previous_y, math.cos(r.angle - r.previous_angle),
-                              math.sin(r.angle - r.previous_angle))
+                u, v = turned(
+                    c.foot_x - r.previous_x,
+                    c.foot_y - r.previous_y,
+                    math.cos(r.angle - r.previous_angle),
+                    math.sin(r.angle - r.previous_angle),
+                )
                 if along_x == 1:
                     c.carry_x += r.x + u - c.foot_x
                     way = whole_pixels(c.carry_x)
@@ -218,8 +342,20 @@ def ride_bodies(
                 c.belt_x -= run
                 way += run
             if way != 0:
-                stopped = shift(geometry, shapes, me, row, way, along_x, piles, slop, scratch, rows_out, characters_inout,
-                                bodies_inout)
+                stopped = shift(
+                    geometry,
+                    shapes,
+                    me,
+                    row,
+                    way,
+                    along_x,
+                    piles,
+                    slop,
+                    scratch,
+                    rows_out,
+                    characters_inout,
+                    bodies_inout,
+                )
                 c.carried = way - stopped if way > 0 else way + stopped
         carry_riders(geometry, shapes, along_x, piles, slop, scratch, rows_out, characters_inout, bodies_inout)
     for me in range(len(characters_inout)):
@@ -232,9 +368,15 @@ def ride_bodies(
 @kernel
 def give_way(
     # read
-    geometry, shapes, slop,
+    geometry,
+    shapes,
+    slop,
     # write
-    scratch, rows_out, more_rows_out, characters_inout, bodies_inout,
+    scratch,
+    rows_out,
+    more_rows_out,
+    characters_inout,
+    bodies_inout,
 ):
     """Move characters out of the loose bodies that came into them, and tell which are squeezed: in deep, and not less so.
 
@@ -245,8 +387,20 @@ def give_way(
         c.wedged = False
         before = c.deep
         c.deep = 0.0
-        count = gather_solids(geometry, bodies_inout, shapes, characters_inout, me, -1, 1, float(c.left), float(c.top),
-                              float(c.left + c.width), float(c.top + c.height), rows_out)
+        count = gather_solids(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            me,
+            -1,
+            1,
+            float(c.left),
+            float(c.top),
+            float(c.left + c.width),
+            float(c.top + c.height),
+            rows_out,
+        )
         for k in range(count):
             if rows_out[k] >= 0:
                 continue
@@ -256,12 +410,24 @@ def give_way(
             into = nx if along_x == 1 else ny
             speed = bodies_inout[shapes[row].body_row].vx
             if along_x == 1 and depth > 0.5 * slop and speed * into < 0.0:
-                c.push_vx = speed            # what is pressed against it need not stop: it goes along
+                c.push_vx = speed  # what is pressed against it need not stop: it goes along
             pixels = math.ceil(depth - 1.5 * FEET)
             if pixels <= 0:
                 continue
-            stopped = shift(geometry, shapes, me, shapes[row].body_row, -pixels if into > 0.0 else pixels, along_x, 1, slop,
-                            scratch, more_rows_out, characters_inout, bodies_inout)
+            stopped = shift(
+                geometry,
+                shapes,
+                me,
+                shapes[row].body_row,
+                -pixels if into > 0.0 else pixels,
+                along_x,
+                1,
+                slop,
+                scratch,
+                more_rows_out,
+                characters_inout,
+                bodies_inout,
+            )
             if stopped > 0 and along_x == 1:
                 c.push_vx = 0.0
             depth, nx, ny, x, y = meet(geometry, bodies_inout, shapes, row, c.left, c.top, c.width, c.height, scratch)
@@ -283,14 +449,34 @@ def carry_characters(world, dt):
     if piles:
         take_back(characters, bodies)
     room = world.scratch_rows(2 * len(shapes))
-    carry_and_push(world.library.tables, shapes, piles, slop, world.walk_scratch, room[:len(shapes)], characters, bodies)
+    carry_and_push(
+        world.library.tables, shapes, piles, slop, world.walk_scratch, room[: len(shapes)], characters, bodies
+    )
     belts = int(world.effects.conveyor)
     if piles or belts:
-        ride_bodies(world.library.tables, shapes, piles, belts, dt, slop, world.walk_scratch, room[:len(shapes)], characters,
-                    bodies)
+        ride_bodies(
+            world.library.tables,
+            shapes,
+            piles,
+            belts,
+            dt,
+            slop,
+            world.walk_scratch,
+            room[: len(shapes)],
+            characters,
+            bodies,
+        )
     if piles:
-        give_way(world.library.tables, shapes, slop, world.walk_scratch, room[:len(shapes)],
-                 room[len(shapes):2 * len(shapes)], characters, bodies)
+        give_way(
+            world.library.tables,
+            shapes,
+            slop,
+            world.walk_scratch,
+            room[: len(shapes)],
+            room[len(shapes) : 2 * len(shapes)],
+            characters,
+            bodies,
+        )
     moved = characters["body"][before != world.bodies[characters["body_row"]][["x", "y"]]]
     if len(moved):
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)

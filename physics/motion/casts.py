@@ -17,9 +17,18 @@ from physics.tables import CHAIN, MASK, TILES
 @kernel
 def cast_ray_at_rows(
     # read
-    geometry, bodies, shapes, rows, x, y, dx, dy,
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
+    dx,
+    dy,
     # write
-    corners_inout, hits_out, work_inout,
+    corners_inout,
+    hits_out,
+    work_inout,
 ):
     """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] meets.
 
@@ -41,9 +50,21 @@ def cast_ray_at_rows(
 @kernel
 def cast_hull_at_rows(
     # read
-    geometry, bodies, shapes, rows, corners, count, radius, x, y, dx, dy,
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    corners,
+    count,
+    radius,
+    x,
+    y,
+    dx,
+    dy,
     # write
-    room, hits_out, work_inout,
+    room,
+    hits_out,
+    work_inout,
 ):
     """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
 
@@ -98,9 +119,18 @@ def cast_hull_at_rows(
 @kernel
 def nearest_hull(
     # read
-    geometry, bodies, shapes, rows, x, y,
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
     # write
-    point_inout, corners_inout, room, nearest_out, work_inout,
+    point_inout,
+    corners_inout,
+    room,
+    nearest_out,
+    work_inout,
 ):
     """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Returns its row, -1 without any.
 

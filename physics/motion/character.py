@@ -8,8 +8,8 @@ from physics import checks
 from physics.motion.walk import walk
 from physics.shapes import Bounds, Filter, PixelMask, Polygon
 
-LONGEST = 1e6          # [px] of one move: it is walked pixel by pixel
-PUSH = 2000.0          # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
+LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
+PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
 
 
 class Moved(NamedTuple):
@@ -19,6 +19,7 @@ class Moved(NamedTuple):
     riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
     move, and left no room.
     """
+
     x: int
     y: int
     grounded: bool
@@ -50,8 +51,14 @@ class Character:
         push = PUSH if push is None else checks.number("push", push, low=0.0)
         self.world = world
         left, top = int(np.floor(x - width / 2.0 + 0.5)), int(np.floor(y - height / 2.0 + 0.5))
-        self.body = world.add_body(Polygon.box(width, height), position=(left + width / 2.0, top + height / 2.0),
-                                   kind="kinematic", filter=filter, continuous="off", user=user)
+        self.body = world.add_body(
+            Polygon.box(width, height),
+            position=(left + width / 2.0, top + height / 2.0),
+            kind="kinematic",
+            filter=filter,
+            continuous="off",
+            user=user,
+        )
         row = world.characters.append()
         row["body"], row["riding"], row["pushable"] = self.body.id, -1, pushable
         row["left"], row["top"], row["width"], row["height"] = left, top, width, height
@@ -89,7 +96,10 @@ class Character:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError."""
         world = self.world
         world._unlocked()
-        dx, dy = checks.number("dx", dx, high=LONGEST, low=-LONGEST), checks.number("dy", dy, high=LONGEST, low=-LONGEST)
+        dx, dy = (
+            checks.number("dx", dx, high=LONGEST, low=-LONGEST),
+            checks.number("dy", dy, high=LONGEST, low=-LONGEST),
+        )
         drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
@@ -99,24 +109,48 @@ class Character:
         rows["squeezed"][me] = False
         world.refresh_character_rows()
         room = world.scratch_rows(2 * len(world.shapes))
-        walk(world.library.tables, world.shapes, me, dx, dy, int(world.effects.stacking), int(world.effects.rotation), world.dt,
-             world.tolerances.slop, world.walk_scratch, room[:len(world.shapes)], room[len(world.shapes):2 * len(world.shapes)], rows, world.bodies, world.walk_moved)
+        walk(
+            world.library.tables,
+            world.shapes,
+            me,
+            dx,
+            dy,
+            int(world.effects.stacking),
+            int(world.effects.rotation),
+            world.dt,
+            world.tolerances.slop,
+            world.walk_scratch,
+            room[: len(world.shapes)],
+            room[len(world.shapes) : 2 * len(world.shapes)],
+            rows,
+            world.bodies,
+            world.walk_moved,
+        )
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
-        return Moved(int(world.walk_moved[0]), int(world.walk_moved[1]), bool(row["grounded"]), int(row["wall"]),
-                     float(row["slope"]), riding, squeezed)
+        return Moved(
+            int(world.walk_moved[0]),
+            int(world.walk_moved[1]),
+            bool(row["grounded"]),
+            int(row["wall"]),
+            float(row["slope"]),
+            riding,
+            squeezed,
+        )
 
     def move_to(self, position):
         """Put the centre of the box at the nearest whole pixel to a position [px], without walking there."""
         self.world._unlocked()
         x, y = checks.position("position", position)
-        row = self.world.characters.rows[self._row:self._row + 1]
+        row = self.world.characters.rows[self._row : self._row + 1]
         row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
         row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)
         for name in ("remainder_x", "remainder_y", "carry_x", "carry_y", "push_vx", "push_vy", "belt", "belt_x"):
             row[name] = 0.0
         row["riding"], row["grounded"], row["squeezed"] = -1, False, False
-        self.body.move_to((float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0)))
+        self.body.move_to(
+            (float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0))
+        )
 
     def remove(self):
         """Remove the character and its body."""
@@ -128,10 +162,16 @@ def _size(shape):
     shape = shape.shape if wrapped else shape
     if wrapped and isinstance(shape, PixelMask) and shape.bounds is not None:
         left, top, right, bottom = shape.bounds
-    elif isinstance(shape, Polygon) and len(shape.points) == 4 and all(len(set(each)) == 2 for each in zip(*shape.points)):
+    elif (
+        isinstance(shape, Polygon)
+        and len(shape.points) == 4
+        and all(len(set(each)) == 2 for each in zip(*shape.points))
+    ):
         left, top, right, bottom = *map(min, zip(*shape.points)), *map(max, zip(*shape.points))
     else:
-        raise TypeError(f"shape must be Polygon.box(width, height) without angle, or Bounds of a sprite (got {shape!r})")
+        raise TypeError(
+            f"shape must be Polygon.box(width, height) without angle, or Bounds of a sprite (got {shape!r})"
+        )
     width, height = round(right - left), round(bottom - top)
     if width < 1 or height < 1:
         raise ValueError(f"shape must be at least 1 x 1 px (got {right - left} x {bottom - top})")

@@ -13,9 +13,17 @@ from physics.tables import DYNAMIC, MASK, STATIC
 @kernel
 def update_fat_rectangles(
     # read
-    bodies, shapes, gravity_x, gravity_y, dt, margin, spare, spare_share,
+    bodies,
+    shapes,
+    gravity_x,
+    gravity_y,
+    dt,
+    margin,
+    spare,
+    spare_share,
     # write
-    proxies_inout, changed_out,
+    proxies_inout,
+    changed_out,
 ):
     """Write the motion rectangles that no longer hold what they have to, and list the slots that changed.
 
@@ -48,13 +56,13 @@ def update_fat_rectangles(
             # A point turns by no more than its arc, or across the whole circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.kind == MASK:
-                arc += 1.0                # snapped to the pixel grid at both ends
+                arc += 1.0  # snapped to the pixel grid at both ends
             lower_x += min(dx, 0.0) - arc - margin
             lower_y += min(dy, 0.0) - arc - margin
             upper_x += max(dx, 0.0) + arc + margin
             upper_y += max(dy, 0.0) + arc + margin
             fat = min(spare, spare_share * max(s.max_x - s.min_x, s.max_y - s.min_y))
-        inside = (p.lower_x <= lower_x and p.lower_y <= lower_y and p.upper_x >= upper_x and p.upper_y >= upper_y)
+        inside = p.lower_x <= lower_x and p.lower_y <= lower_y and p.upper_x >= upper_x and p.upper_y >= upper_y
         # A rectangle left over from a fast step would be far too large.
         slack = 4.0 * fat + length_of(upper_x - lower_x, upper_y - lower_y)
         small = length_of(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack

@@ -3,18 +3,23 @@
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.motion.advance import CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, advance, place_at, reach_of
-from physics.narrowphase.nearest import copy_part
 from physics.motion.time_of_impact import MISS
 from physics.motion.turning import sweep_chain, sweep_tiles
 from physics.narrowphase.gjk import NX, NY
+from physics.narrowphase.nearest import copy_part
 
 
 @kernel
 def advance_parts(
     # read
-    a, b, motion_a, motion_b,
+    a,
+    b,
+    motion_a,
+    motion_b,
     # write
-    room, impact_out, totals_out,
+    room,
+    impact_out,
+    totals_out,
 ):
     """Write (fraction or MISS, normal from A to B) of the first impact of any part of A with any of B to impact_out (3,).
 
@@ -61,9 +66,16 @@ def advance_parts(
 @kernel
 def advance_on_ground(
     # read
-    geometry, ground, is_chain, a, motion_a, motion_b,
+    geometry,
+    ground,
+    is_chain,
+    a,
+    motion_a,
+    motion_b,
     # write
-    room, impact_out, totals_out,
+    room,
+    impact_out,
+    totals_out,
 ):
     """As advance_parts, of A's parts against tiles (is_chain 0) or a chain (1): through no covered side, from its front.
 

@@ -9,8 +9,8 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
-from physics.motion.turning import sweep_turning
 from physics.motion.time_of_impact import MISS, has_closed_form, write_impact
+from physics.motion.turning import sweep_turning
 from physics.profile import TOI_CALLS
 from physics.tables import AUTO, CHAIN, DYNAMIC, MASK, OFF, RAY, STATIC, SWEPT, TILES
 
@@ -41,7 +41,8 @@ def list_paths(
 @kernel
 def find_fast(
     # read
-    bodies, paths,
+    bodies,
+    paths,
     # write
     fast_out,
 ):
@@ -67,7 +68,8 @@ def find_fast(
 @kernel
 def foresee_paths(
     # read
-    bodies, dt,
+    bodies,
+    dt,
     # write
     paths_out,
 ):
@@ -107,7 +109,9 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
     if both > 0.0:
         cut_path(paths, p, 0.0, both, cuts)
         cut_path(paths, q, 0.0, both, cuts)
-        fraction, nx, ny, core = sweep_turning(geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout)
+        fraction, nx, ny, core = sweep_turning(
+            geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout
+        )
         if fraction <= 1.0:
             return fraction * both, nx, ny
     last = max(far_p, far_q)
@@ -115,7 +119,9 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
         return MISS, 0.0, -1.0
     cut_path(paths, p, min(both, far_p), far_p, cuts)
     cut_path(paths, q, min(both, far_q), far_q, cuts)
-    fraction, nx, ny, core = sweep_turning(geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout)
+    fraction, nx, ny, core = sweep_turning(
+        geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout
+    )
     if fraction <= 1.0:
         return both + fraction * (last - both), nx, ny
     return MISS, 0.0, -1.0
@@ -124,16 +130,30 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
 @subkernel
 def stands_still(bodies, paths, row):
     """Whether a body is static, or kinematic and not moved in this step."""
-    return bodies[row].kind != DYNAMIC and (paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4]
-                                            and paths[row, 2] == paths[row, 5])
+    return bodies[row].kind != DYNAMIC and (
+        paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
+    )
 
 
 @kernel
 def find_turning_impacts(
     # read
-    geometry, bodies, shapes, candidates, count, paths, fast, moving, everyone, slack, one_way,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    paths,
+    fast,
+    moving,
+    everyone,
+    slack,
+    one_way,
     # write
-    cuts, room, impacts_out, work_inout,
+    cuts,
+    room,
+    impacts_out,
+    work_inout,
 ):
     """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets on its path.
 
@@ -165,7 +185,9 @@ def find_turning_impacts(
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
             continue
         work_inout[TOI_CALLS] += 1
-        fraction, nx, ny = first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts, room, work_inout)
+        fraction, nx, ny = first_meeting(
+            geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts, room, work_inout
+        )
         if fraction > 1.0:
             continue
         m = shapes[mover].body_row

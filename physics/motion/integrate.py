@@ -16,10 +16,16 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
 
     Wind pushes by drag_rate · wind; with drag too, bodies tend to the velocity of the wind.
     """
+
     @kernel
     def integrate_velocities(
         # read, scalars
-        gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt,
+        gravity_x,
+        gravity_y,
+        drag_rate,
+        wind_x,
+        wind_y,
+        dt,
         # write
         bodies_inout,
     ):
@@ -47,17 +53,20 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
             b.force_x = 0.0
             b.force_y = 0.0
             b.torque = 0.0
+
     return integrate_velocities
 
 
 def make_position_pass(rotation: bool):
     """The pass over the moving bodies; with rotation they turn about their centres of mass."""
+
     @kernel
     def integrate_positions(
         # read, scalars
         dt,
         # write
-        bodies_inout, work_inout,
+        bodies_inout,
+        work_inout,
     ):
         """Move every body by the free fraction of its motion in dt [s], keeping the pose it came from; O(bodies)."""
         for i in range(len(bodies_inout)):
@@ -80,6 +89,7 @@ def make_position_pass(rotation: bool):
             else:
                 b.x += h * b.vx
                 b.y += h * b.vy
+
     return integrate_positions
 
 
@@ -103,9 +113,12 @@ def refresh_centers(bodies_inout):
 @kernel
 def find_broken(
     # read, scalars
-    speed_limit, position_limit, dt,
+    speed_limit,
+    position_limit,
+    dt,
     # write
-    bodies_inout, broken_out,
+    bodies_inout,
+    broken_out,
 ):
     """List the rows of bodies that are not finite, too fast [px/s] or too far out [px], and put them to rest.
 
@@ -117,9 +130,14 @@ def find_broken(
         if b.quarantined:
             continue
         there = abs(b.x) < position_limit and abs(b.y) < position_limit and abs(b.angle) < math.inf
-        finite = (there and abs(b.vx) < speed_limit and abs(b.vy) < speed_limit
-                  and abs(b.x + dt * b.vx) < position_limit and abs(b.y + dt * b.vy) < position_limit
-                  and abs(b.angle + dt * b.angular_velocity) < math.inf)
+        finite = (
+            there
+            and abs(b.vx) < speed_limit
+            and abs(b.vy) < speed_limit
+            and abs(b.x + dt * b.vx) < position_limit
+            and abs(b.y + dt * b.vy) < position_limit
+            and abs(b.angle + dt * b.angular_velocity) < math.inf
+        )
         if not finite:
             broken_out[found] = i
             found += 1

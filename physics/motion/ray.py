@@ -8,8 +8,8 @@ import math
 from physics.jit import subkernel
 from physics.masks.bits import is_set
 from physics.math2d import turned, unit
-from physics.motion.time_of_impact import MISS, sweep_circle_polygon, sweep_circles
 from physics.motion.ray_lines import cast_on_chain, cast_on_hull
+from physics.motion.time_of_impact import MISS, sweep_circle_polygon, sweep_circles
 from physics.narrowphase.placement import corners_at, raster_at, rounding, snapped
 from physics.narrowphase.sat import ALL_EDGES
 from physics.narrowphase.tiles import tile_at
@@ -208,13 +208,28 @@ def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
         if point:
             column = math.floor(x - left)
             line = math.floor(y - top)
-            if 0 <= column < r.width and 0 <= line < r.height and is_set(geometry.words, r.offset + line * r.stride, column):
+            if (
+                0 <= column < r.width
+                and 0 <= line < r.height
+                and is_set(geometry.words, r.offset + line * r.stride, column)
+            ):
                 return 0.0, back_x, back_y
             return MISS, 0.0, -1.0
         return cast_on_mask(geometry.rasters, geometry.words, mask, x - left, y - top, dx, dy)
     if s.kind == CHAIN:
-        return cast_on_chain(geometry.chains, geometry.links, geometry.link_blocks, s.geometry, x - b.x, y - b.y,
-                             math.cos(b.angle), math.sin(b.angle), dx, dy, BLOCK_LINKS)
+        return cast_on_chain(
+            geometry.chains,
+            geometry.links,
+            geometry.link_blocks,
+            s.geometry,
+            x - b.x,
+            y - b.y,
+            math.cos(b.angle),
+            math.sin(b.angle),
+            dx,
+            dy,
+            BLOCK_LINKS,
+        )
     count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_inout)
     radius = rounding(shapes, row)
     if count == 2 or radius > 0.0:

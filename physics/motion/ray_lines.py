@@ -71,8 +71,16 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
         n = k + 1 if k + 1 < count else 0
         nx, ny = edge_normal(corners, count, k)
         if nx * dx + ny * dy < 0.0:
-            fraction = cast_on_line(corners[k, 0] + radius * nx, corners[k, 1] + radius * ny, corners[n, 0] + radius * nx,
-                                    corners[n, 1] + radius * ny, x, y, dx, dy)
+            fraction = cast_on_line(
+                corners[k, 0] + radius * nx,
+                corners[k, 1] + radius * ny,
+                corners[n, 0] + radius * nx,
+                corners[n, 1] + radius * ny,
+                x,
+                y,
+                dx,
+                dy,
+            )
             if fraction < best:
                 best = fraction
                 best_x = nx

@@ -10,12 +10,18 @@ from physics.tables import BOUNDS, MASK, STATIC
 
 def make_rectangle_pass(rotation: bool):
     """The pass over the shapes; with rotation a rectangle also holds the arcs between the first and the last pose."""
+
     @kernel
     def update_rectangles(
         # read
-        geometry, bodies, dt, margin,
+        geometry,
+        bodies,
+        dt,
+        margin,
         # write
-        shapes_inout, proxies_inout, changed_out,
+        shapes_inout,
+        proxies_inout,
+        changed_out,
     ):
         """Write the motion rectangle of every shape that can move or was moved, and list the slots that changed.
 
@@ -31,8 +37,12 @@ def make_rectangle_pass(rotation: bool):
             p = proxies_inout[s.proxy]
             fresh = p.row < 0
             p.row = row
-            if b.kind == STATIC and not fresh and not p.changed and (b.x == b.previous_x and b.y == b.previous_y
-                                                   and b.angle == b.previous_angle):
+            if (
+                b.kind == STATIC
+                and not fresh
+                and not p.changed
+                and (b.x == b.previous_x and b.y == b.previous_y and b.angle == b.previous_angle)
+            ):
                 continue
             raster = 0
             if s.kind == MASK:
@@ -52,7 +62,9 @@ def make_rectangle_pass(rotation: bool):
                     y += v
                     # No point is further from the centre of mass than the AABB's corners; its arc rises above the
                     # chord by no more than the sagitta.
-                    reach = max(length_of(lower_x - b.x - u, lower_y - b.y - v), length_of(upper_x - b.x - u, upper_y - b.y - v))
+                    reach = max(
+                        length_of(lower_x - b.x - u, lower_y - b.y - v), length_of(upper_x - b.x - u, upper_y - b.y - v)
+                    )
                     reach = max(reach, length_of(lower_x - b.x - u, upper_y - b.y - v))
                     reach = max(reach, length_of(upper_x - b.x - u, lower_y - b.y - v))
                     half_turn = min(0.5 * abs(dt * b.angular_velocity), math.pi)
@@ -74,8 +86,14 @@ def make_rectangle_pass(rotation: bool):
                 lower_y = min(lower_y, top) - bulge
                 upper_x = max(upper_x, right) + bulge
                 upper_y = max(upper_y, bottom) + bulge
-            if (fresh or p.changed or lower_x != p.lower_x or lower_y != p.lower_y or upper_x != p.upper_x
-                    or upper_y != p.upper_y):
+            if (
+                fresh
+                or p.changed
+                or lower_x != p.lower_x
+                or lower_y != p.lower_y
+                or upper_x != p.upper_x
+                or upper_y != p.upper_y
+            ):
                 p.lower_x = lower_x
                 p.lower_y = lower_y
                 p.upper_x = upper_x
@@ -84,6 +102,7 @@ def make_rectangle_pass(rotation: bool):
                 changed_out[found] = s.proxy
                 found += 1
         return found
+
     return update_rectangles
 
 

@@ -10,23 +10,44 @@ from physics.tables import DYNAMIC, STATIC
 
 
 @subkernel
-def shove(geometry, shapes, me, direction, speed, rotation, dt, slop, scratch, rows, count, characters_inout, bodies_inout):
+def shove(
+    geometry, shapes, me, direction, speed, rotation, dt, slop, scratch, rows, count, characters_inout, bodies_inout
+):
     """Push what is in the way sideways towards the speed [px/s] of a move, by no more than the character's strength allows.
 
     As a force over the coming step, not as a jolt before it: friction that is strong enough then holds a body in place.
     """
     c = characters_inout[me]
-    speed += bodies_inout[c.body_row].vx          # of what carries it
+    speed += bodies_inout[c.body_row].vx  # of what carries it
     left = c.mass * c.push * dt
     for k in range(count):
         row = -1 - rows[k]
-        if row < 0 or in_loose(geometry, bodies_inout, shapes, row, c.left + direction, c.top, c.width, c.height, direction, 0,
-                               0.0, slop, scratch) != BLOCKED:
+        if (
+            row < 0
+            or in_loose(
+                geometry,
+                bodies_inout,
+                shapes,
+                row,
+                c.left + direction,
+                c.top,
+                c.width,
+                c.height,
+                direction,
+                0,
+                0.0,
+                slop,
+                scratch,
+            )
+            != BLOCKED
+        ):
             continue
         b = bodies_inout[shapes[row].body_row]
         if b.kind != DYNAMIC or b.inverse_mass == 0.0:
             continue
-        depth, nx, ny, x, y = meet(geometry, bodies_inout, shapes, row, c.left + direction, c.top, c.width, c.height, scratch)
+        depth, nx, ny, x, y = meet(
+            geometry, bodies_inout, shapes, row, c.left + direction, c.top, c.width, c.height, scratch
+        )
         arm = (x - b.center_x) * ny - (y - b.center_y) * nx
         turning = b.inverse_inertia if rotation == 1 else 0.0
         now = b.vx * nx + b.vy * ny + dt * b.inverse_mass * (b.force_x * nx + b.force_y * ny)
@@ -67,9 +88,13 @@ def knock(shapes, me, row, direction, speed, rotation, characters_inout, bodies_
 @kernel
 def press(
     # read
-    shapes, gravity_x, gravity_y, slow,
+    shapes,
+    gravity_x,
+    gravity_y,
+    slow,
     # write
-    characters_inout, bodies_inout,
+    characters_inout,
+    bodies_inout,
 ):
     """Let characters weigh on the awake bodies that they ride, and give their bodies the velocity of what carries them.
 
@@ -105,7 +130,8 @@ def press(
 @kernel
 def tell_weight(
     # read
-    characters, weight_rate,
+    characters,
+    weight_rate,
     # write
     contacts_inout,
 ):
@@ -124,5 +150,7 @@ def tell_weight(
                 points += 1
         for k in range(len(contacts_inout)):
             d = contacts_inout[k]
-            if points > 0 and ((d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding)):
+            if points > 0 and (
+                (d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding)
+            ):
                 d.normal_impulse = c.mass * weight_rate / points

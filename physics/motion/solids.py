@@ -10,17 +10,17 @@ import math
 
 from physics.jit import subkernel
 from physics.masks.shapes import collide_mask_polygon
+from physics.math2d import turned
 from physics.narrowphase.chains import collide_link_hull, link_at
 from physics.narrowphase.circles import collide_polygon_circle
 from physics.narrowphase.hulls import collide_hulls
 from physics.narrowphase.placement import aabb_at, corners_at, raster_at, rounding, snapped
 from physics.narrowphase.sat import ALL_EDGES
-from physics.math2d import turned
 from physics.tables import CAPSULE, CHAIN, CIRCLE, DYNAMIC, EMPTY, KINEMATIC, MASK, ONE_WAY, SEGMENT, SLOPE, TILES
 
 FREE, BLOCKED, ON_SLOPE = 0, 1, 2
-FEET = 0.5             # [px] feet stand on the whole pixel nearest to a loose surface
-LEADS_DEEPER = 0.02    # cosine between a way and a normal from which the way leads into what it meets
+FEET = 0.5  # [px] feet stand on the whole pixel nearest to a loose surface
+LEADS_DEEPER = 0.02  # cosine between a way and a normal from which the way leads into what it meets
 
 
 @subkernel
@@ -98,8 +98,12 @@ def in_chain(geometry, chain, x, y, angle, min_x, min_y, max_x, max_y, falling, 
         ay = scratch.a[0, 1]
         run = scratch.a[1, 0] - ax
         rise = scratch.a[1, 1] - ay
-        if (max(ax, ax + run) < min_x or min(ax, ax + run) > max_x or max(ay, ay + rise) < min_y
-                or min(ay, ay + rise) > max_y):
+        if (
+            max(ax, ax + run) < min_x
+            or min(ax, ax + run) > max_x
+            or max(ay, ay + rise) < min_y
+            or min(ay, ay + rise) > max_y
+        ):
             continue
         carries = run > 0.0 and abs(rise) <= run
         if carries and abs(rise) <= 1e-9 * run and falling == 0:
@@ -135,8 +139,14 @@ def is_loose(bodies, shapes, row):
         return True
     if b.kind != KINEMATIC or s.kind == TILES or s.kind == CHAIN:
         return False
-    return (b.angle != 0.0 or b.angular_velocity != 0.0 or s.kind == CIRCLE or s.kind == CAPSULE or s.kind == SEGMENT
-            or s.kind == MASK)
+    return (
+        b.angle != 0.0
+        or b.angular_velocity != 0.0
+        or s.kind == CIRCLE
+        or s.kind == CAPSULE
+        or s.kind == SEGMENT
+        or s.kind == MASK
+    )
 
 
 @subkernel
@@ -147,18 +157,40 @@ def meet(geometry, bodies, shapes, row, left, top, width, height, scratch):
     box_corners(left, top, width, height, scratch.b)
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
-        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius)
+        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(
+            scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius
+        )
         return -separation if hit and separation < 0.0 else 0.0, nx, ny, x, y
     if s.kind == MASK:
         mask = raster_at(geometry, s.geometry, b.angle)
         r = geometry.rasters[mask]
         area, nx, ny, x, y, separation, first = collide_mask_polygon(
-            geometry.rasters, geometry.words, mask, snapped(b.x, r.origin_x), snapped(b.y, r.origin_y), scratch.b, 4,
-            ALL_EDGES, scratch.depths)
+            geometry.rasters,
+            geometry.words,
+            mask,
+            snapped(b.x, r.origin_x),
+            snapped(b.y, r.origin_y),
+            scratch.b,
+            4,
+            ALL_EDGES,
+            scratch.depths,
+        )
         return -separation if area > 0 else 0.0, -nx, -ny, x, y
     count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, scratch.a)
-    points = collide_hulls(scratch.b, 4, 0.0, ALL_EDGES, scratch.a, count, rounding(shapes, row), ALL_EDGES, 0.0, 0.0,
-                           math.inf, scratch.manifold)
+    points = collide_hulls(
+        scratch.b,
+        4,
+        0.0,
+        ALL_EDGES,
+        scratch.a,
+        count,
+        rounding(shapes, row),
+        ALL_EDGES,
+        0.0,
+        0.0,
+        math.inf,
+        scratch.manifold,
+    )
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     depth = -scratch.manifold[5]
@@ -195,31 +227,48 @@ def in_shape(geometry, bodies, shapes, characters, row, left, top, width, height
     other = character_of(characters, s.body_row)
     if other >= 0:
         c = characters[other]
-        hit = (left < c.left + c.width and c.left < left + width and top < c.top + c.height and c.top < top + height)
+        hit = left < c.left + c.width and c.left < left + width and top < c.top + c.height and c.top < top + height
         return BLOCKED if hit else FREE
     box_corners(left, top, width, height, scratch.b)
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
-        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius)
+        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(
+            scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius
+        )
         return BLOCKED if hit and separation < -slop else FREE
     if s.kind == MASK:
         mask = raster_at(geometry, s.geometry, b.angle)
         r = geometry.rasters[mask]
         area, nx, ny, x, y, separation, first = collide_mask_polygon(
-            geometry.rasters, geometry.words, mask, snapped(b.x, r.origin_x), snapped(b.y, r.origin_y), scratch.b, 4,
-            ALL_EDGES, scratch.depths)
+            geometry.rasters,
+            geometry.words,
+            mask,
+            snapped(b.x, r.origin_x),
+            snapped(b.y, r.origin_y),
+            scratch.b,
+            4,
+            ALL_EDGES,
+            scratch.depths,
+        )
         return BLOCKED if area > 0 else FREE
     if s.kind == CHAIN:
-        return in_chain(geometry, s.geometry, b.x, b.y, b.angle, left, top, left + width, top + height, falling, slop, scratch)
+        return in_chain(
+            geometry, s.geometry, b.x, b.y, b.angle, left, top, left + width, top + height, falling, slop, scratch
+        )
     count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, scratch.a)
     radius = rounding(shapes, row)
     if radius == 0.0 and is_upright_box(scratch.a, count):
         min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, b.x, b.y, b.angle)
-        hit = (left < round_half_up(max_x) and round_half_up(min_x) < left + width
-               and top < round_half_up(max_y) and round_half_up(min_y) < top + height)
+        hit = (
+            left < round_half_up(max_x)
+            and round_half_up(min_x) < left + width
+            and top < round_half_up(max_y)
+            and round_half_up(min_y) < top + height
+        )
         return BLOCKED if hit else FREE
-    points = collide_hulls(scratch.a, count, radius, ALL_EDGES, scratch.b, 4, 0.0, ALL_EDGES, 0.0, 0.0, math.inf,
-                           scratch.manifold)
+    points = collide_hulls(
+        scratch.a, count, radius, ALL_EDGES, scratch.b, 4, 0.0, ALL_EDGES, 0.0, 0.0, math.inf, scratch.manifold
+    )
     for k in range(points):
         if scratch.manifold[5 + 4 * k] < -slop:
             return BLOCKED
@@ -246,8 +295,15 @@ def gather_solids(geometry, bodies, shapes, characters, me, without, piles, left
     for row in range(len(shapes)):
         s = shapes[row]
         b = bodies[s.body_row]
-        if (s.sensor or s.body_row == own or s.body_row == without or (b.kind == DYNAMIC and piles == 0) or b.quarantined
-                or (s.membership & mask) == 0 or (s.mask & membership) == 0):
+        if (
+            s.sensor
+            or s.body_row == own
+            or s.body_row == without
+            or (b.kind == DYNAMIC and piles == 0)
+            or b.quarantined
+            or (s.membership & mask) == 0
+            or (s.mask & membership) == 0
+        ):
             continue
         other = character_of(characters, s.body_row)
         if other >= 0 and not characters[other].pushable:
@@ -261,8 +317,24 @@ def gather_solids(geometry, bodies, shapes, characters, me, without, piles, left
 
 
 @subkernel
-def blocked_at(geometry, bodies, shapes, characters, rows, count, left, top, width, height, way_x, way_y, falling, give, slop,
-               scratch):
+def blocked_at(
+    geometry,
+    bodies,
+    shapes,
+    characters,
+    rows,
+    count,
+    left,
+    top,
+    width,
+    height,
+    way_x,
+    way_y,
+    falling,
+    give,
+    slop,
+    scratch,
+):
     """(what is in the way of a box of pixels: FREE, BLOCKED or ON_SLOPE; the shape row that is, or -1). A wall wins.
 
     rows from gather_solids; way_x, way_y: pixels it moved to get here; falling: 1 when one-way tiles hold it; give [px]:

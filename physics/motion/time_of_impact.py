@@ -16,7 +16,7 @@ from physics.narrowphase.tiles import tile_at
 from physics.profile import TOI_CALLS
 from physics.tables import AUTO, BOUNDS, CIRCLE, DYNAMIC, EMPTY, OFF, ONE_WAY, POLYGON, RAY, STATIC, TILES, TOI
 
-MISS = 2.0                 # a fraction beyond the step
+MISS = 2.0  # a fraction beyond the step
 
 
 @subkernel
@@ -147,10 +147,13 @@ def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
     b_edges: bits of B's edges that may be touched; slack [px]: shallower overlaps do not count. Already overlapping
     by more: MISS, the contact solver lets it out.
     """
-    enter, leave, entering, nx, ny = half_planes(a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0)
+    enter, leave, entering, nx, ny = half_planes(
+        a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0
+    )
     if enter <= 1.0:
-        enter, leave, entering, nx, ny = half_planes(b, b_count, a, a_count, ALL_EDGES, -1.0, dx, dy, slack, enter, leave,
-                                                     entering, nx, ny)
+        enter, leave, entering, nx, ny = half_planes(
+            b, b_count, a, a_count, ALL_EDGES, -1.0, dx, dy, slack, enter, leave, entering, nx, ny
+        )
     if enter < 0.0 or enter > leave or enter > 1.0:
         return MISS, nx, ny
     if entering >= 0 and not (b_edges >> entering) & 1:
@@ -223,8 +226,9 @@ def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, gr
             if kind == ONE_WAY and not (one_way and dy > 0.0 and bottom <= grid_y + tile_row * g.tile_size + slack):
                 continue
             count, edges = tile_at(geometry, grid, grid_x, grid_y, tile_row, tile_column, scratch.a)
-            fraction, nx, ny = sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, scratch.a, count, edges, slack,
-                                           scratch.b)
+            fraction, nx, ny = sweep_shape(
+                geometry, shapes, row, x, y, angle, ray, dx, dy, scratch.a, count, edges, slack, scratch.b
+            )
             if fraction < best:
                 best = fraction
                 best_x = nx
@@ -260,7 +264,9 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, sc
         dx -= dt * q.vx
         dy -= dt * q.vy
     if o.kind == TILES:
-        return sweep_grid(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, o.geometry, q.x, q.y, one_way, slack, scratch)
+        return sweep_grid(
+            geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, o.geometry, q.x, q.y, one_way, slack, scratch
+        )
     if o.kind == CIRCLE:
         u, v = turned(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
         if s.kind == CIRCLE:
@@ -284,14 +290,20 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, sc
         fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, q.x + u, q.y + v, -dx, -dy, o.radius)
         return fraction, -nx, -ny
     count = corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a)
-    return sweep_shape(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, ALL_EDGES, slack, scratch.b)
+    return sweep_shape(
+        geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, ALL_EDGES, slack, scratch.b
+    )
 
 
 @subkernel
 def is_straight(shape):
     """Whether the closed forms here know a shape; what is rounded or a chain is left to the sweep with turning."""
-    return (shape.kind == CIRCLE or shape.kind == BOUNDS or shape.kind == TILES
-            or (shape.kind == POLYGON and shape.radius == 0.0))
+    return (
+        shape.kind == CIRCLE
+        or shape.kind == BOUNDS
+        or shape.kind == TILES
+        or (shape.kind == POLYGON and shape.radius == 0.0)
+    )
 
 
 @subkernel
@@ -319,12 +331,22 @@ def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
 
 def make_impact_pass(one_way: bool):
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
+
     @kernel
     def find_impacts(
         # read
-        geometry, bodies, shapes, candidates, count, dt, slack, only_straight,
+        geometry,
+        bodies,
+        shapes,
+        candidates,
+        count,
+        dt,
+        slack,
+        only_straight,
         # write
-        scratch, impacts_out, work_inout,
+        scratch,
+        impacts_out,
+        work_inout,
     ):
         """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets within dt [s].
 
@@ -351,8 +373,9 @@ def make_impact_pass(one_way: bool):
             if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
                 continue
             work_inout[TOI_CALLS] += 1
-            fraction, nx, ny = sweep_pair(geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, one_way, slack,
-                                          scratch)
+            fraction, nx, ny = sweep_pair(
+                geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, one_way, slack, scratch
+            )
             if fraction > 1.0:
                 continue
             dx = body.vx
@@ -364,6 +387,7 @@ def make_impact_pass(one_way: bool):
             stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
             found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
         return found
+
     return find_impacts
 
 
@@ -373,7 +397,10 @@ find_impacts_by_mode = {o: make_impact_pass(one_way=o) for o in (False, True)}
 @kernel
 def stop_at_impacts(
     # read
-    shapes, candidates, impacts, count,
+    shapes,
+    candidates,
+    impacts,
+    count,
     # write
     bodies_inout,
 ):

@@ -13,8 +13,21 @@ import numpy as np
 
 from physics.jit import subkernel
 from physics.math2d import length_of, turned
-from physics.motion.advance import (ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TOUCHING_BAND, TURN, AdvanceRoom,
-                                    advance, approach_at, new_advance_room, reach_of, separate_at)
+from physics.motion.advance import (
+    ANGLE,
+    CENTER_X,
+    CENTER_Y,
+    MOVE_X,
+    MOVE_Y,
+    TOUCHING_BAND,
+    TURN,
+    AdvanceRoom,
+    advance,
+    approach_at,
+    new_advance_room,
+    reach_of,
+    separate_at,
+)
 from physics.motion.time_of_impact import MISS
 from physics.narrowphase.gjk import NX, NY
 from physics.narrowphase.placement import hull_at, is_hull, rounding
@@ -23,15 +36,16 @@ from physics.narrowphase.tiles import tile_at
 from physics.profile import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 from physics.tables import BLOCK_LINKS, BOUNDS, CHAIN, DYNAMIC, EMPTY, ONE_WAY, TILES
 
-CORE = 0.25                # of a body's smallest half extent
-GRAZE = 2.0 ** -20         # of the size: motion into ground by less is a slide along it
-ON_FACE = 1.0 - 1e-12      # cosine: a normal that is a face's own
+CORE = 0.25  # of a body's smallest half extent
+GRAZE = 2.0**-20  # of the size: motion into ground by less is a slide along it
+ON_FACE = 1.0 - 1e-12  # cosine: a normal that is a face's own
 
 
 class TurningRoom(NamedTuple):
     """Room for one shape on its way."""
+
     advance: AdvanceRoom
-    mover: np.ndarray          # (16, 2) its corners from its centre of mass [px], at angle 0
+    mover: np.ndarray  # (16, 2) its corners from its centre of mass [px], at angle 0
 
 
 def new_turning_room() -> TurningRoom:
@@ -203,24 +217,27 @@ def sweep_tiles(geometry, grid, local_x, local_y, count, radius, core_radius, sl
     best_y = -1.0
     best_core = False
     for line in range(max(0, math.ceil(top / g.tile_size) - 1), min(g.rows - 1, math.floor(bottom / g.tile_size)) + 1):
-        for column in range(max(0, math.ceil(left / g.tile_size) - 1),
-                            min(g.columns - 1, math.floor(right / g.tile_size)) + 1):
+        for column in range(
+            max(0, math.ceil(left / g.tile_size) - 1), min(g.columns - 1, math.floor(right / g.tile_size)) + 1
+        ):
             kind = geometry.cells[g.offset + line * g.columns + column].kind
             if kind == EMPTY or (kind == ONE_WAY and not (one_way and falls and feet <= line * g.tile_size + slack)):
                 continue
             corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, room.advance.local_b)
             if edges == ALL_EDGES:
-                continue                 # covered all round: nothing gets there first
+                continue  # covered all round: nothing gets there first
             fraction, core = sweep_at(count, radius, corners, 0.0, core_radius, slack, room)
             if fraction <= 1.0 and not core and only_grazes(count, radius, corners, fraction, slack, room):
                 continue
             # A normal from the tile to the mover; room.advance.local_b is not turned.
-            if fraction <= 1.0 and not is_touchable(room.advance.local_b, corners, edges, -room.advance.gap.gap[NX],
-                                                    -room.advance.gap.gap[NY]):
+            if fraction <= 1.0 and not is_touchable(
+                room.advance.local_b, corners, edges, -room.advance.gap.gap[NX], -room.advance.gap.gap[NY]
+            ):
                 fraction = MISS if core or core_radius == 0.0 else sweep_core(core_radius, corners, 0.0, room)
                 core = True
-                if fraction <= 1.0 and not is_touchable(room.advance.local_b, corners, edges, -room.advance.gap.gap[NX],
-                                                        -room.advance.gap.gap[NY]):
+                if fraction <= 1.0 and not is_touchable(
+                    room.advance.local_b, corners, edges, -room.advance.gap.gap[NX], -room.advance.gap.gap[NY]
+                ):
                     fraction = MISS
             if fraction < best:
                 best = fraction
@@ -264,8 +281,11 @@ def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, 
     link = geometry.links[k]
     motion = room.advance.motion_a
     other = room.advance.motion_b
-    if half > 0.0 and (front_side(room.mover, count, motion, other, 0.0, local_x, local_y, link)
-                       - front_side(room.mover, count, motion, other, 1.0, local_x, local_y, link) <= slack):
+    if half > 0.0 and (
+        front_side(room.mover, count, motion, other, 0.0, local_x, local_y, link)
+        - front_side(room.mover, count, motion, other, 1.0, local_x, local_y, link)
+        <= slack
+    ):
         return MISS, False
     room.advance.local_b[0, 0] = link.ax - local_x
     room.advance.local_b[0, 1] = link.ay - local_y
@@ -302,8 +322,12 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, core_radius, h
     best_core = False
     for block in range(span.blocks):
         box = geometry.link_blocks[span.first_block + block]
-        if not turns and (box.min_x - local_x > right or box.max_x - local_x < left or box.min_y - local_y > bottom
-                          or box.max_y - local_y < top):
+        if not turns and (
+            box.min_x - local_x > right
+            or box.max_x - local_x < left
+            or box.min_y - local_y > bottom
+            or box.max_y - local_y < top
+        ):
             continue
         first = span.offset + block * BLOCK_LINKS
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
@@ -338,11 +362,13 @@ def sweep_turning(geometry, bodies, shapes, motions, row, other, slack, one_way,
     room.advance.totals[0] = 0.0
     room.advance.totals[1] = 0.0
     if o.kind == TILES:
-        fraction, nx, ny, core = sweep_tiles(geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius,
-                                             CORE * half, slack, one_way, room)
+        fraction, nx, ny, core = sweep_tiles(
+            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, CORE * half, slack, one_way, room
+        )
     elif o.kind == CHAIN:
-        fraction, nx, ny, core = sweep_chain(geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius,
-                                             CORE * half, half, slack, room)
+        fraction, nx, ny, core = sweep_chain(
+            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, CORE * half, half, slack, room
+        )
     else:
         n = write_local(geometry, bodies, shapes, other, room.advance.motion_b, room.advance.local_b)
         fraction, core = sweep_at(count, radius, n, rounding(shapes, other), CORE * half, slack, room)

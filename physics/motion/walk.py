@@ -35,17 +35,61 @@ def push_along(geometry, shapes, pushed, direction, piles, slop, scratch, rows_i
     """Move a pushable character one pixel sideways if nothing is in its way. Returns whether it moved."""
     c = characters_inout[pushed]
     at = c.left + direction
-    count = gather_solids(geometry, bodies_inout, shapes, characters_inout, pushed, -1, piles, float(at - 1), float(c.top - 1),
-                          float(at + c.width + 1), float(c.top + c.height + 1), rows_inout)
-    what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows_inout, count, at, c.top, c.width, c.height,
-                          direction, 0, 0, 0.0, slop, scratch)
+    count = gather_solids(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        pushed,
+        -1,
+        piles,
+        float(at - 1),
+        float(c.top - 1),
+        float(at + c.width + 1),
+        float(c.top + c.height + 1),
+        rows_inout,
+    )
+    what, by = blocked_at(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        rows_inout,
+        count,
+        at,
+        c.top,
+        c.width,
+        c.height,
+        direction,
+        0,
+        0,
+        0.0,
+        slop,
+        scratch,
+    )
     if what == FREE:
         c.left = at
         settle(pushed, characters_inout, bodies_inout)
         return True
     if what == ON_SLOPE:
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows_inout, count, at, c.top - 1, c.width,
-                              c.height, direction, -1, 0, 0.0, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows_inout,
+            count,
+            at,
+            c.top - 1,
+            c.width,
+            c.height,
+            direction,
+            -1,
+            0,
+            0.0,
+            slop,
+            scratch,
+        )
         if what == FREE:
             c.left = at
             c.top -= 1
@@ -55,35 +99,129 @@ def push_along(geometry, shapes, pushed, direction, piles, slop, scratch, rows_i
 
 
 @subkernel
-def step_sideways(geometry, shapes, me, direction, follow, piles, slop, scratch, rows, count, pushed_rows, characters_inout,
-                  bodies_inout):
+def step_sideways(
+    geometry,
+    shapes,
+    me,
+    direction,
+    follow,
+    piles,
+    slop,
+    scratch,
+    rows,
+    count,
+    pushed_rows,
+    characters_inout,
+    bodies_inout,
+):
     """One pixel along x: up a slope, down one when `follow` is 1, pushing characters that can be. Returns whether it moved."""
     c = characters_inout[me]
     at = c.left + direction
-    what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top, c.width, c.height,
-                          direction, 0, 0, 0.0, slop, scratch)
+    what, by = blocked_at(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        rows,
+        count,
+        at,
+        c.top,
+        c.width,
+        c.height,
+        direction,
+        0,
+        0,
+        0.0,
+        slop,
+        scratch,
+    )
     if what == BLOCKED:
         other = character_of(characters_inout, shapes[by].body_row)
         # Only from beside: what stands on a crate, or carries it, does not push it.
-        if other < 0 or not push_along(geometry, shapes, other, direction, piles, slop, scratch, pushed_rows, characters_inout,
-                                       bodies_inout):
+        if other < 0 or not push_along(
+            geometry, shapes, other, direction, piles, slop, scratch, pushed_rows, characters_inout, bodies_inout
+        ):
             return False
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top, c.width, c.height,
-                              direction, 0, 0, 0.0, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            at,
+            c.top,
+            c.width,
+            c.height,
+            direction,
+            0,
+            0,
+            0.0,
+            slop,
+            scratch,
+        )
         if what == BLOCKED:
             return False
     if what == ON_SLOPE:
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top - 1, c.width,
-                              c.height, direction, -1, 0, 0.0, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            at,
+            c.top - 1,
+            c.width,
+            c.height,
+            direction,
+            -1,
+            0,
+            0.0,
+            slop,
+            scratch,
+        )
         if what != FREE:
             return False
         c.top -= 1
     elif follow == 1:
-        below, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top + 1, c.width,
-                               c.height, 0, 1, 1, 0.0, slop, scratch)
+        below, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            at,
+            c.top + 1,
+            c.width,
+            c.height,
+            0,
+            1,
+            1,
+            0.0,
+            slop,
+            scratch,
+        )
         if below == FREE:
-            below, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, at, c.top + 2, c.width,
-                                   c.height, 0, 1, 1, 0.0, slop, scratch)
+            below, by = blocked_at(
+                geometry,
+                bodies_inout,
+                shapes,
+                characters_inout,
+                rows,
+                count,
+                at,
+                c.top + 2,
+                c.width,
+                c.height,
+                0,
+                1,
+                1,
+                0.0,
+                slop,
+                scratch,
+            )
             # From the last pixel of a slope it is one more down to the flat.
             if below == ON_SLOPE or (below == BLOCKED and c.slope != 0.0):
                 c.top += 1
@@ -139,8 +277,24 @@ def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bod
     """Write what the character touches: ground, slope, what carries it and how fast its surface runs, walls."""
     c = characters_inout[me]
     falling = 0 if c.drop else 1
-    what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, c.left, c.top + 1, c.width, c.height,
-                          0, 1, falling, 0.0, slop, scratch)
+    what, by = blocked_at(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        rows,
+        count,
+        c.left,
+        c.top + 1,
+        c.width,
+        c.height,
+        0,
+        1,
+        falling,
+        0.0,
+        slop,
+        scratch,
+    )
     c.grounded = what != FREE
     c.riding = -1
     c.slope = 0.0
@@ -159,8 +313,24 @@ def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bod
         c.riding = shapes[by].body
     c.wall = 0
     for side in range(-1, 2, 2):
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows, count, c.left + side, c.top, c.width,
-                              c.height, side, 0, 0, 0.0, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows,
+            count,
+            c.left + side,
+            c.top,
+            c.width,
+            c.height,
+            side,
+            0,
+            0,
+            0.0,
+            slop,
+            scratch,
+        )
         if what == BLOCKED and c.wall == 0:
             c.wall = side
 
@@ -168,9 +338,22 @@ def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bod
 @kernel
 def walk(
     # read
-    geometry, shapes, me, dx, dy, piles, rotation, dt, slop,
+    geometry,
+    shapes,
+    me,
+    dx,
+    dy,
+    piles,
+    rotation,
+    dt,
+    slop,
     # write
-    scratch, rows_out, pushed_rows_out, characters_inout, bodies_inout, moved_out,
+    scratch,
+    rows_out,
+    pushed_rows_out,
+    characters_inout,
+    bodies_inout,
+    moved_out,
 ):
     """Move a character by (dx, dy) [px], x first, and write what it touches then.
 
@@ -181,8 +364,20 @@ def walk(
     c = characters_inout[me]
     reach = 3.0 + abs(dx)
     drop = 3.0 + abs(dx) + abs(dy)
-    count = gather_solids(geometry, bodies_inout, shapes, characters_inout, me, -1, piles, c.left - reach, c.top - drop,
-                          c.left + c.width + reach, c.top + c.height + drop, rows_out)
+    count = gather_solids(
+        geometry,
+        bodies_inout,
+        shapes,
+        characters_inout,
+        me,
+        -1,
+        piles,
+        c.left - reach,
+        c.top - drop,
+        c.left + c.width + reach,
+        c.top + c.height + drop,
+        rows_out,
+    )
     start_left = c.left
     start_top = c.top
     moved_out[2] = 0
@@ -193,23 +388,65 @@ def walk(
     c.remainder_x -= left
     direction = 1 if left > 0 else -1
     for _ in range(abs(left)):
-        if not step_sideways(geometry, shapes, me, direction, follow, piles, slop, scratch, rows_out, count, pushed_rows_out,
-                             characters_inout, bodies_inout):
+        if not step_sideways(
+            geometry,
+            shapes,
+            me,
+            direction,
+            follow,
+            piles,
+            slop,
+            scratch,
+            rows_out,
+            count,
+            pushed_rows_out,
+            characters_inout,
+            bodies_inout,
+        ):
             c.remainder_x = 0.0
             moved_out[2] = 1
             break
     if piles == 1 and dt > 0.0 and dx != 0.0:
         # Also when the next pixel is not due yet: what is pushed keeps its speed between two pixels.
-        shove(geometry, shapes, me, 1 if dx > 0.0 else -1, dx / dt, rotation, dt, slop, scratch, rows_out, count,
-              characters_inout, bodies_inout)
+        shove(
+            geometry,
+            shapes,
+            me,
+            1 if dx > 0.0 else -1,
+            dx / dt,
+            rotation,
+            dt,
+            slop,
+            scratch,
+            rows_out,
+            count,
+            characters_inout,
+            bodies_inout,
+        )
     c.remainder_y += dy
     left = whole_pixels(c.remainder_y)
     c.remainder_y -= left
     direction = 1 if left > 0 else -1
     falling = 1 if direction > 0 and not c.drop else 0
     for _ in range(abs(left)):
-        what, by = blocked_at(geometry, bodies_inout, shapes, characters_inout, rows_out, count, c.left, c.top + direction,
-                              c.width, c.height, 0, direction, falling, 0.0, slop, scratch)
+        what, by = blocked_at(
+            geometry,
+            bodies_inout,
+            shapes,
+            characters_inout,
+            rows_out,
+            count,
+            c.left,
+            c.top + direction,
+            c.width,
+            c.height,
+            0,
+            direction,
+            falling,
+            0.0,
+            slop,
+            scratch,
+        )
         if what != FREE:
             if dt > 0.0 and bodies_inout[shapes[by].body_row].kind == DYNAMIC and (direction < 0 or not c.grounded):
                 knock(shapes, me, by, direction, dy / dt, rotation, characters_inout, bodies_inout)

@@ -9,8 +9,14 @@ def is_active(body):
     """Whether a body can change a contact: awake and dynamic, or moved by hand, or about to move."""
     if body.kind == DYNAMIC:
         return body.awake
-    return (body.vx != 0.0 or body.vy != 0.0 or body.angular_velocity != 0.0 or body.x != body.previous_x
-            or body.y != body.previous_y or body.angle != body.previous_angle)
+    return (
+        body.vx != 0.0
+        or body.vy != 0.0
+        or body.angular_velocity != 0.0
+        or body.x != body.previous_x
+        or body.y != body.previous_y
+        or body.angle != body.previous_angle
+    )
 
 
 @kernel

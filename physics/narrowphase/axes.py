@@ -9,10 +9,15 @@ from physics.shape_rows import rounding_of
 from physics.shapes import Bounds, Capsule, Circle, Polygon, Segment
 from physics.tables import SHAPE
 
-AXIS = np.dtype([("normal_x", np.float64), ("normal_y", np.float64),       # unit, from A to B
-                 ("separation", np.float64),       # [px] of the two shapes, radii included, along the normal
-                 ("owner", np.int64),              # 0: an edge of A, 1: of B
-                 ("edge", np.int64)])              # its first corner; -1: no edge, the way between the nearest corners
+AXIS = np.dtype(
+    [
+        ("normal_x", np.float64),
+        ("normal_y", np.float64),  # unit, from A to B
+        ("separation", np.float64),  # [px] of the two shapes, radii included, along the normal
+        ("owner", np.int64),  # 0: an edge of A, 1: of B
+        ("edge", np.int64),
+    ]
+)  # its first corner; -1: no edge, the way between the nearest corners
 HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
@@ -35,11 +40,17 @@ def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
     if away[i, j] > 0.0:
         rows.append((*(gaps[i, j] / away[i, j]), 0, -1))
     elif not rows:
-        rows.append((1.0, 0.0, 0, -1))             # two circles about one point: as collide has it
+        rows.append((1.0, 0.0, 0, -1))  # two circles about one point: as collide has it
     found = np.zeros(len(rows), AXIS)
     for row, (nx, ny, owner, edge) in zip(found, rows):
         apart = (b[0] @ (nx, ny)).min() - (a[0] @ (nx, ny)).max() - a[1] - b[1]
-        row["normal_x"], row["normal_y"], row["separation"], row["owner"], row["edge"] = nx + 0.0, ny + 0.0, apart, owner, edge
+        row["normal_x"], row["normal_y"], row["separation"], row["owner"], row["edge"] = (
+            nx + 0.0,
+            ny + 0.0,
+            apart,
+            owner,
+            edge,
+        )
     return found[np.argsort(-found["separation"], kind="stable")]
 
 

@@ -11,8 +11,7 @@ from physics.narrowphase.placement import aabb_at, hull_at, polygon_aabb, polygo
 from physics.profile import MASK_TESTS
 from physics.tables import BLOCK_LINKS, CHAIN, MASK, POLYGON
 
-
-BACKING = 2.0              # [px] how thick a link is for masks, behind its front: a line has no area to share
+BACKING = 2.0  # [px] how thick a link is for masks, behind its front: a line has no area to share
 
 
 @subkernel
@@ -35,9 +34,19 @@ def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
 @kernel
 def collide_chain_pairs(
     # read
-    geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
     # write
-    scratch, contacts_out, found, work_inout,
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
 ):
     """Contacts of all pairs of a chain and a hull or mask, appended at `found`. Returns the new count.
 
@@ -70,7 +79,9 @@ def collide_chain_pairs(
             n = 0 if o.kind == MASK else hull_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.b)
         # Some digits more than the margin: turning the box must not lose what touches.
         rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
-        min_x, min_y, max_x, max_y = box_in_body(min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine)
+        min_x, min_y, max_x, max_y = box_in_body(
+            min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
+        )
         radius = 0.0
         if o.kind == MASK:
             work_inout[MASK_TESTS] += 1
@@ -94,27 +105,72 @@ def collide_chain_pairs(
                     link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
                     if o.kind == MASK:
                         r = geometry.rasters[o.raster]
-                        if in_front(points, 0, 1, o.left + 0.5 * (r.set_left + r.set_right),
-                                    o.top + 0.5 * (r.set_top + r.set_bottom)) < 0.0:
+                        if (
+                            in_front(
+                                points,
+                                0,
+                                1,
+                                o.left + 0.5 * (r.set_left + r.set_right),
+                                o.top + 0.5 * (r.set_top + r.set_bottom),
+                            )
+                            < 0.0
+                        ):
                             continue
                         thick_line(points, 0.0, BACKING, scratch.b)
                         area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                            geometry.rasters, geometry.words, o.raster, o.left, o.top, scratch.b, 4, 1, scratch.depths)
+                            geometry.rasters, geometry.words, o.raster, o.left, o.top, scratch.b, 4, 1, scratch.depths
+                        )
                         if area > 0:
-                            found = write_contact(shapes, candidates, i, found, -sign * nx, -sign * ny, x, y, separation,
-                                                  float(area), 4096 * k, contacts_out)
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                -sign * nx,
+                                -sign * ny,
+                                x,
+                                y,
+                                separation,
+                                float(area),
+                                4096 * k,
+                                contacts_out,
+                            )
                     elif n == 1:
-                        hit, nx, ny, x, y, separation, which = collide_link_circle(link, points, scratch.b[0, 0],
-                                                                                   scratch.b[0, 1], radius)
+                        hit, nx, ny, x, y, separation, which = collide_link_circle(
+                            link, points, scratch.b[0, 0], scratch.b[0, 1], radius
+                        )
                         if hit and separation <= margin:
-                            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, 0.0,
-                                                  4096 * k + which, contacts_out)
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                sign * nx,
+                                sign * ny,
+                                x,
+                                y,
+                                separation,
+                                0.0,
+                                4096 * k + which,
+                                contacts_out,
+                            )
                     else:
                         near += 1
                         met = collide_link_hull(link, points, scratch.b, n, radius, reach, bias, attempt == 1, manifold)
                         for point in range(met):
                             at = 3 + 4 * point
-                            found = write_contact(shapes, candidates, i, found, sign * manifold[1], sign * manifold[2],
-                                                  manifold[at], manifold[at + 1], manifold[at + 2], 0.0,
-                                                  4096 * k + int(manifold[at + 3]), contacts_out)
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                sign * manifold[1],
+                                sign * manifold[2],
+                                manifold[at],
+                                manifold[at + 1],
+                                manifold[at + 2],
+                                0.0,
+                                4096 * k + int(manifold[at + 3]),
+                                contacts_out,
+                            )
     return found

@@ -16,9 +16,9 @@ from physics.math2d import length_of, turned, unit
 from physics.narrowphase.hulls import corner_manifold, least_separation, nearest_corners, segments_gap, slack_of
 from physics.narrowphase.sat import ALL_EDGES, best_edge, clip_edges, support_manifold
 
-STRAIGHT = 1e-9            # sine of a bend between two links that counts as none
-OPEN_END = 3000            # feature: the face across an open end, + 0 at a or 1 at b
-ADMIT, SNAP, SKIP = 0, 1, 2    # a normal that a link may have; that of the link instead; a neighbour's
+STRAIGHT = 1e-9  # sine of a bend between two links that counts as none
+OPEN_END = 3000  # feature: the face across an open end, + 0 at a or 1 at b
+ADMIT, SNAP, SKIP = 0, 1, 2  # a normal that a link may have; that of the link instead; a neighbour's
 
 
 @subkernel
@@ -36,7 +36,9 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 @subkernel
 def along(points, i, j, x, y, origin):
     """The component [px2] of (x, y), seen from point `origin`, along the line from point i to j."""
-    return ((points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (y - points[origin, 1]))
+    return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
+        y - points[origin, 1]
+    )
 
 
 @subkernel
@@ -76,11 +78,19 @@ def is_behind(link, points, x, y):
     """
     if in_front(points, 0, 1, x, y) >= 0.0:
         return False
-    if (link.has_before and is_gentle_hollow(points, 2, 0, 1) and in_front(points, 2, 0, x, y) >= 0.0
-            and along(points, 2, 0, x, y, 0) >= 0.0):
+    if (
+        link.has_before
+        and is_gentle_hollow(points, 2, 0, 1)
+        and in_front(points, 2, 0, x, y) >= 0.0
+        and along(points, 2, 0, x, y, 0) >= 0.0
+    ):
         return False
-    if (link.has_after and is_gentle_hollow(points, 0, 1, 3) and in_front(points, 1, 3, x, y) >= 0.0
-            and along(points, 1, 3, x, y, 1) <= 0.0):
+    if (
+        link.has_after
+        and is_gentle_hollow(points, 0, 1, 3)
+        and in_front(points, 1, 3, x, y) >= 0.0
+        and along(points, 1, 3, x, y, 1) <= 0.0
+    ):
         return False
     return True
 
@@ -176,7 +186,7 @@ def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_o
     manifold_out[0] = 0.0
     best = face
     for end in range(2):
-        if (link.has_before if end == 0 else link.has_after):
+        if link.has_before if end == 0 else link.has_after:
             continue
         sign = -1.0 if end == 0 else 1.0
         nearest = 0
@@ -241,11 +251,16 @@ def collide_link_hull(link, points, hull, count, radius, margin, bias, alone, ma
     apart = max(face, other) > 0.0 or (count == 2 and segments_gap(points, hull) > 0.0)
     verdict = SNAP
     own = clip_edges(points, 2, 0.0, 0, hull, count, radius, margin, False, manifold_out)
-    stands = own > 0 and least_separation(own, manifold_out) <= face - radius + max(bias if radius == 0.0 else 0.0,
-                                                                                 slack_of(points, 2, 0))
+    stands = own > 0 and least_separation(own, manifold_out) <= face - radius + max(
+        bias if radius == 0.0 else 0.0, slack_of(points, 2, 0)
+    )
     if other > face + bias or (apart and not stands):
-        nx, ny = unit(hull[edge, 1] - hull[edge + 1 if edge + 1 < count else 0, 1],
-                      hull[edge + 1 if edge + 1 < count else 0, 0] - hull[edge, 0], 0.0, -1.0)
+        nx, ny = unit(
+            hull[edge, 1] - hull[edge + 1 if edge + 1 < count else 0, 1],
+            hull[edge + 1 if edge + 1 < count else 0, 0] - hull[edge, 0],
+            0.0,
+            -1.0,
+        )
         verdict = judge_normal(link, points, nx, ny)
         if alone and verdict == SKIP:
             verdict = ADMIT

@@ -65,7 +65,15 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
             nx, ny = unit(dx, dy, nx, ny)
             separation = distance - radius
             along = 0.5 * separation
-            return True, nx, ny, corners[corner, 0] + along * nx, corners[corner, 1] + along * ny, separation, 32 + corner
+            return (
+                True,
+                nx,
+                ny,
+                corners[corner, 0] + along * nx,
+                corners[corner, 1] + along * ny,
+                separation,
+                32 + corner,
+            )
         if not (edges >> best) & 1:
             return False, 0.0, -1.0, x, y, 0.0, 0
     separation = best_separation - radius

@@ -17,25 +17,41 @@ CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, C
 
 class Scratch(NamedTuple):
     """Room for one pair in flight."""
-    a: np.ndarray              # (16, 2) corners [px]
+
+    a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
-    manifold: np.ndarray       # (11,), see sat.MANIFOLD
-    depths: np.ndarray         # (16,)
-    previous: np.ndarray       # CONTACT rows of the step before, and where those of each candidate with a grid stand
-    memory: np.ndarray         # (candidates, 2) first row, number
+    manifold: np.ndarray  # (11,), see sat.MANIFOLD
+    depths: np.ndarray  # (16,)
+    previous: np.ndarray  # CONTACT rows of the step before, and where those of each candidate with a grid stand
+    memory: np.ndarray  # (candidates, 2) first row, number
 
 
 def new_scratch() -> Scratch:
-    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(MANIFOLD), np.zeros(16),
-                   np.zeros(0, CONTACT), np.zeros((0, 2), np.int64))
+    return Scratch(
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros(MANIFOLD),
+        np.zeros(16),
+        np.zeros(0, CONTACT),
+        np.zeros((0, 2), np.int64),
+    )
 
 
 @subkernel
 def write_contact(
     # read
-    shapes, candidates,
+    shapes,
+    candidates,
     # scalars
-    pair, found, nx, ny, x, y, separation, area, feature,
+    pair,
+    found,
+    nx,
+    ny,
+    x,
+    y,
+    separation,
+    area,
+    feature,
     # write
     contacts_out,
 ):
@@ -55,7 +71,7 @@ def write_contact(
         c.shape_b = b.id
         c.point_x = x
         c.point_y = y
-        c.normal_x = nx + 0.0          # -0.0 would show in what is printed and compared
+        c.normal_x = nx + 0.0  # -0.0 would show in what is printed and compared
         c.normal_y = ny + 0.0
         c.separation = separation
         c.normal_impulse = 0.0
@@ -146,9 +162,12 @@ def copy_contact(contacts, source, target, contacts_out):
 @kernel
 def place_in_order(
     # read
-    contacts, count, candidate_count,
+    contacts,
+    count,
+    candidate_count,
     # write
-    starts_out, contacts_out,
+    starts_out,
+    contacts_out,
 ):
     """Copy contacts to the order of their candidates; those of one candidate keep theirs.
 
@@ -170,7 +189,13 @@ def place_in_order(
 @kernel
 def write_impacts(
     # read
-    bodies, shapes, candidates, impacts, count, dt, response,
+    bodies,
+    shapes,
+    candidates,
+    impacts,
+    count,
+    dt,
+    response,
     # write
     contacts_out,
 ):

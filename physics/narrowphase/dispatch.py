@@ -3,20 +3,34 @@
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.narrowphase.activity import is_active
-from physics.narrowphase.contacts import (CHAIN_ANY, CIRCLES, GRID_ANY, MASK_CIRCLE, MASK_POLYGON, MASKS, NOTHING, POLYGON_CIRCLE,
-                                          POLYGONS, new_scratch, place_in_order)
-from physics.narrowphase.chain_pass import collide_chain_pairs
-from physics.narrowphase.grid_pass import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.masks.passes import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
-from physics.narrowphase.passes import (collide_boxes, collide_circle_pairs, collide_polygon_circle_pairs,
-                                        collide_polygon_pairs)
+from physics.narrowphase.activity import is_active
+from physics.narrowphase.chain_pass import collide_chain_pairs
+from physics.narrowphase.contacts import (
+    CHAIN_ANY,
+    CIRCLES,
+    GRID_ANY,
+    MASK_CIRCLE,
+    MASK_POLYGON,
+    MASKS,
+    NOTHING,
+    POLYGON_CIRCLE,
+    POLYGONS,
+    new_scratch,
+    place_in_order,
+)
+from physics.narrowphase.grid_pass import collide_grid_pairs_closed, collide_grid_pairs_one_way
+from physics.narrowphase.passes import (
+    collide_boxes,
+    collide_circle_pairs,
+    collide_polygon_circle_pairs,
+    collide_polygon_pairs,
+)
 from physics.narrowphase.persist import recycle_contacts, remember_grids
 from physics.profile import NARROW_TESTS, SENSOR_TESTS
 from physics.tables import CHAIN, CIRCLE, CONTACT, MASK, TILES
 
-
-ALL, SOLIDS, SENSORS = 0, 1, 2             # which candidates a narrow phase looks at
+ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
 
 
 @subkernel
@@ -39,9 +53,16 @@ def kind_of_pair(low, high):
 @kernel
 def classify(
     # read
-    bodies, shapes, candidates, count, margin, which,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    margin,
+    which,
     # write
-    kind_out, counts_out, work_inout,
+    kind_out,
+    counts_out,
+    work_inout,
 ):
     """Write the kind of every candidate pair, and how many there are of each. O(candidates).
 
@@ -58,8 +79,12 @@ def classify(
         if which == ALL or sensor == (which == SENSORS):
             kind = kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind))
         if kind != NOTHING and which != ALL:
-            if (a.min_x - margin > b.max_x or b.min_x - margin > a.max_x or a.min_y - margin > b.max_y
-                    or b.min_y - margin > a.max_y):
+            if (
+                a.min_x - margin > b.max_x
+                or b.min_x - margin > a.max_x
+                or a.min_y - margin > b.max_y
+                or b.min_y - margin > a.max_y
+            ):
                 kind = NOTHING
             elif which == SOLIDS and not (is_active(bodies[a.body_row]) or is_active(bodies[b.body_row])):
                 kind = NOTHING
@@ -81,17 +106,24 @@ class NarrowPhase:
         self.boxes_only, self.one_way = boxes_only, one_way
         masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
-        self.passes = (((CIRCLES,), collide_circle_pairs), ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
-                       ((POLYGONS,), collide_polygon_pairs), ((MASKS,), masks),
-                       ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs), ((GRID_ANY,), grids), ((CHAIN_ANY,), collide_chain_pairs))
+        self.passes = (
+            ((CIRCLES,), collide_circle_pairs),
+            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
+            ((POLYGONS,), collide_polygon_pairs),
+            ((MASKS,), masks),
+            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
+            ((GRID_ANY,), grids),
+            ((CHAIN_ANY,), collide_chain_pairs),
+        )
         self.scratch = new_scratch()
         self.kinds = np.zeros(64, np.int64)
         self.counts = np.zeros(NOTHING + 1, np.int64)
         self.raw, self.ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
         self.last_raw, self.last_ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
 
-    def collide(self, geometry, bodies, shapes, candidates, count, margin, bias, work, which=ALL, previous=None,
-                recycle=0.0) -> np.ndarray:
+    def collide(
+        self, geometry, bodies, shapes, candidates, count, margin, bias, work, which=ALL, previous=None, recycle=0.0
+    ) -> np.ndarray:
         """Contacts of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
         candidates (capacity, 2) int64 shape rows, `count` of them used; margin [px]: pairs apart by at most that are
@@ -101,7 +133,9 @@ class NarrowPhase:
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         if self.boxes_only:
-            found = self._with_room(work, lambda: collide_boxes(geometry, bodies, shapes, candidates, count, self.raw, work))
+            found = self._with_room(
+                work, lambda: collide_boxes(geometry, bodies, shapes, candidates, count, self.raw, work)
+            )
             return self.raw[:found]
         if len(self.kinds) < count + 1:
             self.kinds = np.zeros(2 * count + 1, np.int64)
@@ -110,7 +144,9 @@ class NarrowPhase:
             self.raw = np.zeros(2 * len(previous), CONTACT)
         again = 0
         if previous is not None and len(previous):
-            again = recycle_contacts(bodies, shapes, candidates, count, previous, recycle, self.kinds, self.counts, self.raw)
+            again = recycle_contacts(
+                bodies, shapes, candidates, count, previous, recycle, self.kinds, self.counts, self.raw
+            )
         scratch = self.scratch
         if self.one_way and previous is not None and self.counts[GRID_ANY]:
             if len(scratch.memory) < count:
@@ -122,9 +158,22 @@ class NarrowPhase:
         def run_all():
             found = again
             for run in used:
-                found = run(geometry, bodies, shapes, candidates, self.kinds, count, margin, bias, scratch, self.raw,
-                            found, work)
+                found = run(
+                    geometry,
+                    bodies,
+                    shapes,
+                    candidates,
+                    self.kinds,
+                    count,
+                    margin,
+                    bias,
+                    scratch,
+                    self.raw,
+                    found,
+                    work,
+                )
             return found
+
         found = self._with_room(work, run_all)
         if len(used) + (again > 0) < 2:
             return self.raw[:found]
@@ -139,7 +188,7 @@ class NarrowPhase:
         if found > len(self.raw):
             kept = self.raw
             self.raw = np.zeros(2 * found, CONTACT)
-            self.raw[:len(kept)] = kept            # the recycled ones stand at the beginning
+            self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
             work[:] = before
             found = run()
         return found

@@ -10,7 +10,7 @@ from physics.jit import subkernel
 from physics.math2d import unit
 from physics.narrowphase.gjk import CAPPED, ROUNDING, ROUNDS, difference_edge, support, write_edge_gap
 
-EPA_CAP = 60               # rounds, below the room of the polytope
+EPA_CAP = 60  # rounds, below the room of the polytope
 
 
 @subkernel
@@ -105,8 +105,17 @@ def write_depth(a, b, count, polytope, gap_out):
         return
     k = shallowest_edge(polytope, count)
     n = k + 1 if k + 1 < count else 0
-    write_edge_gap(a, b, int(polytope[k, 0]), int(polytope[k, 1]), int(polytope[n, 0]), int(polytope[n, 1]),
-                   polytope[k, 2], polytope[k, 3], gap_out)
+    write_edge_gap(
+        a,
+        b,
+        int(polytope[k, 0]),
+        int(polytope[k, 1]),
+        int(polytope[n, 0]),
+        int(polytope[n, 1]),
+        polytope[k, 2],
+        polytope[k, 3],
+        gap_out,
+    )
 
 
 @subkernel

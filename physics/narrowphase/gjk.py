@@ -16,18 +16,19 @@ from physics.jit import subkernel
 from physics.math2d import length_of, unit
 
 SEARCHING, APART, TOUCHING = 0, 1, 2
-GJK_CAP = 48               # rounds: a difference of two hulls of 16 corners has at most 32 corners
-ROUNDING = 2.0 ** -50      # four units in the last place: what a scalar product of differences may be off by
-COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)         # of a walk's state
-SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)     # of a gap
+GJK_CAP = 48  # rounds: a difference of two hulls of 16 corners has at most 32 corners
+ROUNDING = 2.0**-50  # four units in the last place: what a scalar product of differences may be off by
+COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # of a walk's state
+SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # of a gap
 
 
 class GapRoom(NamedTuple):
     """Room for one pair in flight."""
-    state: np.ndarray          # (5,) corners kept, direction of the search, rounds, rounds that hit the cap
-    simplex: np.ndarray        # (3, 4) corner of A, corner of B, their difference [px]
-    polytope: np.ndarray       # (64, 5) corner of A, corner of B; normal and depth of the edge that starts there
-    gap: np.ndarray            # (11,) separation, normal, nearest points, corners they lie between
+
+    state: np.ndarray  # (5,) corners kept, direction of the search, rounds, rounds that hit the cap
+    simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
+    polytope: np.ndarray  # (64, 5) corner of A, corner of B; normal and depth of the edge that starts there
+    gap: np.ndarray  # (11,) separation, normal, nearest points, corners they lie between
 
 
 def new_gap_room() -> GapRoom:

@@ -27,12 +27,23 @@ def stood_on(scratch, pair, run):
 
 def make_grid_pass(one_way: bool):
     """The pass over pairs of a tile grid and anything else; one-way tiles only where the effect is declared."""
+
     @kernel
     def collide_grid_pairs(
         # read
-        geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+        geometry,
+        bodies,
+        shapes,
+        candidates,
+        kinds,
+        count,
+        margin,
+        bias,
         # write
-        scratch, contacts_out, found, work_inout,
+        scratch,
+        contacts_out,
+        found,
+        work_inout,
     ):
         """Contacts of all pairs with a tile grid, run by run, appended at `found`. Returns the new count."""
         grids = geometry.grids
@@ -101,41 +112,104 @@ def make_grid_pass(one_way: bool):
                         if kind == EMPTY or (kind == ONE_WAY and not one_way):
                             continue
                         # Open from below: only what came from above the tile, or stood on it, stands on it.
-                        if kind == ONE_WAY and (attempt == 1 or (
+                        if kind == ONE_WAY and (
+                            attempt == 1
+                            or (
                                 was_above > p.y + tile_row * g.tile_size + margin
-                                and not stood_on(scratch, i, tile_row * g.columns + cell.first))):
+                                and not stood_on(scratch, i, tile_row * g.columns + cell.first)
+                            )
+                        ):
                             continue
                         if kind == SLOPE:
                             corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, scratch.a)
                         else:
-                            corners, edges = run_at(grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high,
-                                                    scratch.a)
+                            corners, edges = run_at(
+                                grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, scratch.a
+                            )
                         seen += 1
                         edges = edges if attempt == 0 else ALL_EDGES
                         feature = (tile_row * g.columns + cell.first) * 4096
                         if o.kind == MASK:
                             area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                                geometry.rasters, geometry.words, mask, left, top, scratch.a, corners, edges, scratch.depths)
+                                geometry.rasters,
+                                geometry.words,
+                                mask,
+                                left,
+                                top,
+                                scratch.a,
+                                corners,
+                                edges,
+                                scratch.depths,
+                            )
                             if area > 0:
-                                found = write_contact(shapes, candidates, i, found, -sign * nx, -sign * ny, x, y,
-                                                      separation, float(area), feature, contacts_out)
+                                found = write_contact(
+                                    shapes,
+                                    candidates,
+                                    i,
+                                    found,
+                                    -sign * nx,
+                                    -sign * ny,
+                                    x,
+                                    y,
+                                    separation,
+                                    float(area),
+                                    feature,
+                                    contacts_out,
+                                )
                         elif o.kind == CIRCLE:
-                            hit, nx, ny, x, y, separation, which = collide_hull_circle(scratch.a, corners, edges, 0.0, cx, cy,
-                                                                                       radius)
+                            hit, nx, ny, x, y, separation, which = collide_hull_circle(
+                                scratch.a, corners, edges, 0.0, cx, cy, radius
+                            )
                             if hit and separation <= margin:
-                                found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, x, y,
-                                                      separation, 0.0, feature + which, contacts_out)
+                                found = write_contact(
+                                    shapes,
+                                    candidates,
+                                    i,
+                                    found,
+                                    sign * nx,
+                                    sign * ny,
+                                    x,
+                                    y,
+                                    separation,
+                                    0.0,
+                                    feature + which,
+                                    contacts_out,
+                                )
                         else:
                             manifold = scratch.manifold
                             facing = edges_facing(scratch.b, n, edges) if corners == 4 else ALL_EDGES
-                            points = collide_hulls(scratch.a, corners, 0.0, edges, scratch.b, n, radius, facing, margin, bias,
-                                                   deepest, manifold)
+                            points = collide_hulls(
+                                scratch.a,
+                                corners,
+                                0.0,
+                                edges,
+                                scratch.b,
+                                n,
+                                radius,
+                                facing,
+                                margin,
+                                bias,
+                                deepest,
+                                manifold,
+                            )
                             for k in range(points):
                                 at = 3 + 4 * k
-                                found = write_contact(shapes, candidates, i, found, sign * manifold[1],
-                                                      sign * manifold[2], manifold[at], manifold[at + 1], manifold[at + 2],
-                                                      0.0, feature + int(manifold[at + 3]), contacts_out)
+                                found = write_contact(
+                                    shapes,
+                                    candidates,
+                                    i,
+                                    found,
+                                    sign * manifold[1],
+                                    sign * manifold[2],
+                                    manifold[at],
+                                    manifold[at + 1],
+                                    manifold[at + 2],
+                                    0.0,
+                                    feature + int(manifold[at + 3]),
+                                    contacts_out,
+                                )
         return found
+
     return collide_grid_pairs
 
 

@@ -15,8 +15,7 @@ from physics.math2d import length_of, unit
 from physics.narrowphase.circles import collide_polygon_circle
 from physics.narrowphase.sat import best_edge, clip_edges, support_manifold
 
-
-CORNERS = 2048             # features from here on: two corners
+CORNERS = 2048  # features from here on: two corners
 
 
 @subkernel
@@ -55,10 +54,17 @@ def segments_gap(a, b):
     """Distance [px] of two hulls of two corners, 0 when they cross: their normals do not part them along their line."""
     if sides_of(a, b) < 0.0 and sides_of(b, a) < 0.0:
         return 0.0
-    gap = min(edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[0, 0], b[0, 1]),
-              edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[1, 0], b[1, 1]))
-    return min(gap, min(edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[0, 0], a[0, 1]),
-                        edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[1, 0], a[1, 1])))
+    gap = min(
+        edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[0, 0], b[0, 1]),
+        edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[1, 0], b[1, 1]),
+    )
+    return min(
+        gap,
+        min(
+            edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[0, 0], a[0, 1]),
+            edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[1, 0], a[1, 1]),
+        ),
+    )
 
 
 @subkernel
@@ -179,7 +185,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
             slack = slack_of(a, a_count, a_edge)
         least = least_separation(count, manifold_out)
         if apart and own < -slack:
-            continue                   # parted by a face that may not be touched: nothing stands over this one
+            continue  # parted by a face that may not be touched: nothing stands over this one
         if not apart:
             if least > -rounding:
                 if flipped:
@@ -215,7 +221,14 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
     if 0.0 < t < 1.0:
         # Along the line's normal, so that rounding in the nearest point does not turn it.
         sign = -1.0 if height < 0.0 else 1.0
-        return sign * side_x, sign * side_y, x - height * side_x, y - height * side_y, abs(height) - radius, 1 if height < 0.0 else 0
+        return (
+            sign * side_x,
+            sign * side_y,
+            x - height * side_x,
+            y - height * side_y,
+            abs(height) - radius,
+            1 if height < 0.0 else 0,
+        )
     nx, ny = unit(x - px, y - py, side_x, side_y)
     return nx, ny, px, py, length_of(x - px, y - py) - radius, 32 if t == 0.0 else 33
 
@@ -225,8 +238,9 @@ def collide_hull_circle(corners, count, edges, hull_radius, x, y, radius):
     """A hull of two or more corners against a disc [px]: (found, normal from the hull to the disc, point midway,
     separation, feature). See circles.collide_polygon_circle for the edges and for what lies inside."""
     if count == 2:
-        nx, ny, px, py, separation, feature = collide_line_circle(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1],
-                                                                  x, y, hull_radius + radius)
+        nx, ny, px, py, separation, feature = collide_line_circle(
+            corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y, hull_radius + radius
+        )
         along = hull_radius + 0.5 * separation
         return True, nx, ny, px + along * nx, py + along * ny, separation, feature
     hit, nx, ny, px, py, separation, feature = collide_polygon_circle(corners, count, edges, x, y, hull_radius + radius)

@@ -27,9 +27,13 @@ def copy_part(corners, part, count, corners_out):
 @kernel
 def separate_parts(
     # read
-    a, b,
+    a,
+    b,
     # write
-    corners_a_out, corners_b_out, room, totals_out,
+    corners_a_out,
+    corners_b_out,
+    room,
+    totals_out,
 ):
     """Write separation, normal and points of the nearest two parts to room.gap. Returns the separation [px].
 
@@ -48,7 +52,9 @@ def separate_parts(
             if best_i >= 0 and box_gap(a.boxes, i, b.boxes, j) > max(best, 0.0):
                 continue
             copy_part(b.corners, j, b.counts[j], corners_b_out)
-            separation = separate(corners_a_out, a.counts[i], a.radius, corners_b_out, b.counts[j], b.radius, 0, 0, room)
+            separation = separate(
+                corners_a_out, a.counts[i], a.radius, corners_b_out, b.counts[j], b.radius, 0, 0, room
+            )
             totals_out[0] += room.state[ROUNDS]
             totals_out[1] += room.state[CAPPED]
             if separation < best:

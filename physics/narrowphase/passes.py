@@ -26,9 +26,19 @@ def closing(p, q, ax, ay, bx, by):
 @kernel
 def collide_circle_pairs(
     # read
-    geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
     # write
-    scratch, contacts_out, found, work_inout,
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
 ):
     """Contacts of all pairs of circles, appended at `found`. Returns the new count."""
     for i in range(count):
@@ -38,7 +48,9 @@ def collide_circle_pairs(
         bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
         nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
         if 0.0 < separation <= margin:
-            vx, vy = closing(bodies[shapes[candidates[i, 0]].body_row], bodies[shapes[candidates[i, 1]].body_row], ax, ay, bx, by)
+            vx, vy = closing(
+                bodies[shapes[candidates[i, 0]].body_row], bodies[shapes[candidates[i, 1]].body_row], ax, ay, bx, by
+            )
             scratch.a[0, 0] = ax
             scratch.a[0, 1] = ay
             scratch.b[0, 0] = bx
@@ -53,9 +65,19 @@ def collide_circle_pairs(
 @kernel
 def collide_polygon_circle_pairs(
     # read
-    geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
     # write
-    scratch, contacts_out, found, work_inout,
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
 ):
     """Contacts of all pairs of a hull of two or more corners and a circle, appended at `found`. Returns the new count."""
     polygons = geometry.polygons
@@ -73,8 +95,9 @@ def collide_polygon_circle_pairs(
         else:
             n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), scratch.a)
         x, y, radius = circle_at(bodies, shapes, circle)
-        hit, nx, ny, px, py, separation, feature = collide_hull_circle(scratch.a, n, ALL_EDGES, rounding(shapes, polygon),
-                                                                       x, y, radius)
+        hit, nx, ny, px, py, separation, feature = collide_hull_circle(
+            scratch.a, n, ALL_EDGES, rounding(shapes, polygon), x, y, radius
+        )
         if hit and 0.0 < separation <= margin and feature >= 32:
             q = bodies[shapes[circle].body_row]
             vx, vy = closing(p, q, px, py, x, y)
@@ -83,17 +106,28 @@ def collide_polygon_circle_pairs(
             if passes_by(scratch.a, n, scratch.b, 1, rounding(shapes, polygon) + radius, vx, vy):
                 continue
         if hit and separation <= margin:
-            found = write_contact(shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0,
-                                  feature, contacts_out)
+            found = write_contact(
+                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, contacts_out
+            )
     return found
 
 
 @kernel
 def collide_polygon_pairs(
     # read
-    geometry, bodies, shapes, candidates, kinds, count, margin, bias,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
     # write
-    scratch, contacts_out, found, work_inout,
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
 ):
     """Contacts of all pairs of hulls of two or more corners, appended at `found`. Returns the new count."""
     manifold = scratch.manifold
@@ -123,17 +157,34 @@ def collide_polygon_pairs(
                 continue
         for k in range(points):
             at = 3 + 4 * k
-            found = write_contact(shapes, candidates, i, found, manifold[1], manifold[2], manifold[at],
-                                  manifold[at + 1], manifold[at + 2], 0.0, int(manifold[at + 3]), contacts_out)
+            found = write_contact(
+                shapes,
+                candidates,
+                i,
+                found,
+                manifold[1],
+                manifold[2],
+                manifold[at],
+                manifold[at + 1],
+                manifold[at + 2],
+                0.0,
+                int(manifold[at + 3]),
+                contacts_out,
+            )
     return found
 
 
 @kernel
 def collide_boxes(
     # read
-    geometry, bodies, shapes, candidates, count,
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
     # write
-    contacts_out, work_inout,
+    contacts_out,
+    work_inout,
 ):
     """Contacts of all candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
 

@@ -12,7 +12,7 @@ from physics.narrowphase.contacts import GRID_ANY, NOTHING, copy_contact
 from physics.narrowphase.placement import is_hull
 from physics.tables import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 
-WITH_A, WITH_B, CORES = 0, 1, 2              # what a contact's normal turns with
+WITH_A, WITH_B, CORES = 0, 1, 2  # what a contact's normal turns with
 
 
 @subkernel
@@ -65,13 +65,17 @@ def anchor(bodies, shapes, contact_inout):
     cosine = math.cos(a.angle)
     sine = math.sin(a.angle)
     inside = half + c.radius_a
-    c.local_ax, c.local_ay = turned(c.point_x - inside * c.normal_x - a.x, c.point_y - inside * c.normal_y - a.y, cosine, -sine)
+    c.local_ax, c.local_ay = turned(
+        c.point_x - inside * c.normal_x - a.x, c.point_y - inside * c.normal_y - a.y, cosine, -sine
+    )
     inside = half + c.radius_b
     if c.frame == WITH_A:
         c.local_nx, c.local_ny = turned(c.normal_x, c.normal_y, cosine, -sine)
     cosine = math.cos(b.angle)
     sine = math.sin(b.angle)
-    c.local_bx, c.local_by = turned(c.point_x + inside * c.normal_x - b.x, c.point_y + inside * c.normal_y - b.y, cosine, -sine)
+    c.local_bx, c.local_by = turned(
+        c.point_x + inside * c.normal_x - b.x, c.point_y + inside * c.normal_y - b.y, cosine, -sine
+    )
     if c.frame == WITH_B:
         c.local_nx, c.local_ny = turned(c.normal_x, c.normal_y, cosine, -sine)
     c.turn = b.angle - a.angle
@@ -81,9 +85,16 @@ def anchor(bodies, shapes, contact_inout):
 @kernel
 def recycle_contacts(
     # read
-    bodies, shapes, candidates, count, previous, distance,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    previous,
+    distance,
     # write
-    kinds_inout, counts_inout, contacts_out,
+    kinds_inout,
+    counts_inout,
+    contacts_out,
 ):
     """Use the manifolds of the last step again where no point moved by more than `distance` [px] against its partner.
 
@@ -97,7 +108,9 @@ def recycle_contacts(
             continue
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        while j < len(previous) and (previous[j].shape_a < a.id or (previous[j].shape_a == a.id and previous[j].shape_b < b.id)):
+        while j < len(previous) and (
+            previous[j].shape_a < a.id or (previous[j].shape_a == a.id and previous[j].shape_b < b.id)
+        ):
             j += 1
         if j >= len(previous):
             return found
@@ -144,7 +157,11 @@ def recycle_contacts(
 @kernel
 def remember_grids(
     # read
-    shapes, candidates, count, kinds, previous,
+    shapes,
+    candidates,
+    count,
+    kinds,
+    previous,
     # write
     memory_out,
 ):
@@ -172,7 +189,9 @@ def remember_grids(
 @kernel
 def carry_over(
     # read
-    bodies, shapes, previous,
+    bodies,
+    shapes,
+    previous,
     # write
     contacts_inout,
 ):
@@ -189,8 +208,9 @@ def carry_over(
         if c.persisted:
             continue
         anchor(bodies, shapes, c)
-        while j < len(previous) and (previous[j].shape_a < c.shape_a
-                                     or (previous[j].shape_a == c.shape_a and previous[j].shape_b < c.shape_b)):
+        while j < len(previous) and (
+            previous[j].shape_a < c.shape_a or (previous[j].shape_a == c.shape_a and previous[j].shape_b < c.shape_b)
+        ):
             j += 1
         k = j
         while k < len(previous) and previous[k].shape_a == c.shape_a and previous[k].shape_b == c.shape_b:
@@ -237,7 +257,8 @@ def follow_bodies(
 @kernel
 def mix_materials(
     # read
-    geometry, shapes,
+    geometry,
+    shapes,
     # write
     contacts_inout,
 ):

@@ -126,7 +126,9 @@ def aabb_at(geometry, shapes, row, x, y, angle):
         u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
         return x + u - s.radius, y + v - s.radius, x + u + s.radius, y + v + s.radius
     if kind == POLYGON or kind == CAPSULE or kind == SEGMENT:
-        return polygon_aabb(geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, math.cos(angle), math.sin(angle))
+        return polygon_aabb(
+            geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, math.cos(angle), math.sin(angle)
+        )
     if kind == CHAIN:
         min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, math.cos(angle), math.sin(angle))
         return x + min_x, y + min_y, x + max_x, y + max_y
@@ -158,7 +160,16 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
     Returns their number.
     """
     if shapes[row].kind != BOUNDS:
-        return polygon_at(geometry.polygons, geometry.corners, shapes[row].geometry, x, y, math.cos(angle), math.sin(angle), corners_out)
+        return polygon_at(
+            geometry.polygons,
+            geometry.corners,
+            shapes[row].geometry,
+            x,
+            y,
+            math.cos(angle),
+            math.sin(angle),
+            corners_out,
+        )
     min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
@@ -180,7 +191,10 @@ def write_hull(geometry, shapes, x, y, angle, corners_out):
 @kernel
 def missing_rasters(
     # read
-    bodies, shapes, raster_of, dt,
+    bodies,
+    shapes,
+    raster_of,
+    dt,
     # write
     missing_out,
 ):
@@ -196,7 +210,7 @@ def missing_rasters(
             continue
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
-            continue                  # as it was added
+            continue  # as it was added
         for k in range(2):
             bucket = bucket_at(b.angle + k * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
@@ -210,7 +224,8 @@ def missing_rasters(
 @kernel
 def refresh_aabbs(
     # read
-    geometry, bodies,
+    geometry,
+    bodies,
     # write
     shapes_inout,
 ):
@@ -221,8 +236,9 @@ def refresh_aabbs(
         s = shapes_inout[row]
         b = bodies[s.body_row]
         if s.kind == POLYGON:
-            s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(polygons, table, s.geometry, s.radius, b.x, b.y,
-                                                              math.cos(b.angle), math.sin(b.angle))
+            s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
+                polygons, table, s.geometry, s.radius, b.x, b.y, math.cos(b.angle), math.sin(b.angle)
+            )
             continue
         if s.kind == MASK:
             s.raster = raster_at(geometry, s.geometry, b.angle)

@@ -17,7 +17,7 @@ from physics.jit import subkernel
 
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
 MANIFOLD = 11
-ALL_EDGES = 0xFFFFFFFF       # low 16 bits: edges that may be touched; high 16: edges whose corners may be
+ALL_EDGES = 0xFFFFFFFF  # low 16 bits: edges that may be touched; high 16: edges whose corners may be
 
 
 @subkernel
@@ -55,8 +55,18 @@ def best_edge(corners, count, allowed, other, other_count):
 
 
 @subkernel
-def clip_edges(reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, limit, flipped,
-               manifold_out):
+def clip_edges(
+    reference,
+    reference_count,
+    reference_radius,
+    edge,
+    incident,
+    incident_count,
+    incident_radius,
+    limit,
+    flipped,
+    manifold_out,
+):
     """Manifold of a reference face and the edge of the other polygon that faces it most, each grown by a radius [px].
 
     limit [px]: points further apart are dropped; flipped: the reference belongs to B, so the normal is turned round.
@@ -106,8 +116,9 @@ def clip_edges(reference, reference_count, reference_radius, edge, incident, inc
             manifold_out[at] = x - down * nx
             manifold_out[at + 1] = y - down * ny
             manifold_out[at + 2] = separation
-            manifold_out[at + 3] = float(((edge * 16 + (far if side == 0 else facing)) * 2 + side) * 2
-                                         + (1 if flipped else 0))
+            manifold_out[at + 3] = float(
+                ((edge * 16 + (far if side == 0 else facing)) * 2 + side) * 2 + (1 if flipped else 0)
+            )
             count += 1
     manifold_out[0] = float(count)
     manifold_out[1] = sign * nx
@@ -116,8 +127,9 @@ def clip_edges(reference, reference_count, reference_radius, edge, incident, inc
 
 
 @subkernel
-def support_manifold(reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, flipped,
-                     manifold_out):
+def support_manifold(
+    reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, flipped, manifold_out
+):
     """One point: the corner of the other polygon deepest under the reference face, radii [px]. Always finds it."""
     nx, ny = edge_normal(reference, reference_count, edge)
     deepest = 0

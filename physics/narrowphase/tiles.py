@@ -21,7 +21,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
     if cell.kind != SLOPE:
         return False
     if row < from_row:
-        return True                   # a slope stands on its whole bottom
+        return True  # a slope stands on its whole bottom
     mine = cells[g.offset + from_row * g.columns + from_column]
     if column < from_column:
         return cell.right >= (mine.left if mine.kind == SLOPE else 1.0)
@@ -148,7 +148,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
         elif turns_away(grids, cells, grid, row, column, -1):
             corners |= 1 << n
     else:
-        edges |= 1 << n               # the edge back to the first corner is the surface
+        edges |= 1 << n  # the edge back to the first corner is the surface
     n += 1
     if edges == 0:
         return n, ALL_EDGES
@@ -163,7 +163,7 @@ def edges_facing(corners, count, tile_edges):
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
-    edges = 0xFFFF0000               # its corners can touch whatever sticks out of the tile
+    edges = 0xFFFF0000  # its corners can touch whatever sticks out of the tile
     for k in range(count):
         nx, ny = edge_normal(corners, count, k)
         # The edge's normal points into the tile; the tile is left on the opposite side.

@@ -3,8 +3,25 @@
 import numpy as np
 
 from physics.narrowphase.epa import EPA_CAP, grow_polytope, start_polytope, write_depth
-from physics.narrowphase.gjk import (APART, AX, BY, COUNT, GJK_CAP, NORMAL_X, NORMAL_Y, NX, NY, SEARCHING, SEPARATION, TOUCHING,
-                                     new_gap_room, reduce_simplex, start_walk, walk_on, write_nearest)
+from physics.narrowphase.gjk import (
+    APART,
+    AX,
+    BY,
+    COUNT,
+    GJK_CAP,
+    NORMAL_X,
+    NORMAL_Y,
+    NX,
+    NY,
+    SEARCHING,
+    SEPARATION,
+    TOUCHING,
+    new_gap_room,
+    reduce_simplex,
+    start_walk,
+    walk_on,
+    write_nearest,
+)
 
 
 def steps_of(a, b) -> list[dict]:
@@ -18,7 +35,7 @@ def steps_of(a, b) -> list[dict]:
     found, status = [], SEARCHING
     start_walk(a, b, 0, 0, room.state, room.simplex)
     for _ in range(GJK_CAP):
-        before = room.simplex[:int(room.state[COUNT]), 2:].copy()
+        before = room.simplex[: int(room.state[COUNT]), 2:].copy()
         status = walk_on(a, len(a), b, len(b), room.state, room.simplex)
         if status == TOUCHING:
             found.append(_step("gjk", before, room, 0.0))
@@ -56,6 +73,11 @@ def _depth_steps(a, b, room):
 
 
 def _step(phase, simplex, room, distance):
-    ax, ay, bx, by = room.gap[AX:BY + 1].tolist()
-    return {"phase": phase, "simplex": simplex, "witness": ((ax, ay), (bx, by)),
-            "direction": (float(room.state[NORMAL_X]), float(room.state[NORMAL_Y])), "distance": float(distance)}
+    ax, ay, bx, by = room.gap[AX : BY + 1].tolist()
+    return {
+        "phase": phase,
+        "simplex": simplex,
+        "witness": ((ax, ay), (bx, by)),
+        "direction": (float(room.state[NORMAL_X]), float(room.state[NORMAL_Y])),
+        "distance": float(distance),
+    }

@@ -14,7 +14,9 @@ from physics.tables import DYNAMIC
 @kernel
 def stay_behind(
     # write
-    bodies_inout, contacts_inout, work_inout,
+    bodies_inout,
+    contacts_inout,
+    work_inout,
 ):
     """Put the dynamic bodies of every overlap that moved back to their old poses.
 

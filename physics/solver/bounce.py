@@ -73,9 +73,13 @@ def bounce_together(c, d, r, a_inout, b_inout):
 @kernel
 def restore_bounces(
     # read
-    contacts, threshold, count,
+    contacts,
+    threshold,
+    count,
     # write
-    motions_inout, constraints_inout, work_inout,
+    motions_inout,
+    constraints_inout,
+    work_inout,
 ):
     """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
 
@@ -98,11 +102,13 @@ def restore_bounces(
         if first and second:
             solved, change_1, change_2 = bounce_together(c, d, r, a, b)
         if first and not solved:
-            change_1 = bounce_once(c, r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1,
-                                   r.normal_impulse_1, a, b)
+            change_1 = bounce_once(
+                c, r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
+            )
         if second and not solved:
-            change_2 = bounce_once(d, r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2,
-                                   r.normal_impulse_2, a, b)
+            change_2 = bounce_once(
+                d, r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
+            )
         r.normal_impulse_1 += change_1
         r.normal_total_1 += change_1
         r.normal_impulse_2 += change_2

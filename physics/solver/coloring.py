@@ -12,7 +12,8 @@ from physics.settings import COLORS
 @kernel
 def group_contacts(
     # read
-    motions, contacts,
+    motions,
+    contacts,
     # write
     groups_out,
 ):
@@ -27,15 +28,23 @@ def group_contacts(
         c = contacts[i]
         a = motions[c.body_row_a]
         b = motions[c.body_row_b]
-        if (c.sensor or a.inverse_mass + b.inverse_mass == 0.0 or (a.walks and c.normal_y > abs(c.normal_x))
-                or (b.walks and -c.normal_y > abs(c.normal_x))):
+        if (
+            c.sensor
+            or a.inverse_mass + b.inverse_mass == 0.0
+            or (a.walks and c.normal_y > abs(c.normal_x))
+            or (b.walks and -c.normal_y > abs(c.normal_x))
+        ):
             i += 1
             continue
         count = 1
         if i + 1 < len(contacts):
             d = contacts[i + 1]
-            if (d.shape_a == c.shape_a and d.shape_b == c.shape_b and d.normal_x == c.normal_x
-                    and d.normal_y == c.normal_y):
+            if (
+                d.shape_a == c.shape_a
+                and d.shape_b == c.shape_b
+                and d.normal_x == c.normal_x
+                and d.normal_y == c.normal_y
+            ):
                 count = 2
         groups_out[found, 0] = i
         groups_out[found, 1] = count
@@ -57,9 +66,15 @@ def free_color(taken, last_first):
 @kernel
 def color_groups(
     # read
-    motions, contacts, groups, count,
+    motions,
+    contacts,
+    groups,
+    count,
     # write
-    taken_out, degrees_out, colors_out, starts_out,
+    taken_out,
+    degrees_out,
+    colors_out,
+    starts_out,
 ):
     """Give every manifold, in order, the first colour that neither of its pushable bodies has yet.
 
@@ -99,9 +114,13 @@ def color_groups(
 @kernel
 def order_groups(
     # read
-    groups, count, colors, starts,
+    groups,
+    count,
+    colors,
+    starts,
     # write
-    cursors_out, ordered_out,
+    cursors_out,
+    ordered_out,
 ):
     """Sort the manifolds by colour, keeping their order within one. cursors_out: scratch as long as starts. O(count)."""
     for i in range(len(starts)):

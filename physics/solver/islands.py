@@ -25,7 +25,8 @@ def root_of(row, parents_inout):
 @kernel
 def link_islands(
     # read
-    bodies, contacts,
+    bodies,
+    contacts,
     # write
     parents_out,
 ):
@@ -60,9 +61,14 @@ def link_islands(
 @kernel
 def fall_asleep(
     # read
-    contacts, parents, dt, slow, patience,
+    contacts,
+    parents,
+    dt,
+    slow,
+    patience,
     # write
-    least_out, bodies_inout,
+    least_out,
+    bodies_inout,
 ):
     """Put the islands to sleep of which every body has been slow [px/s] for `patience` [s]. Returns the bodies that slept in.
 
@@ -102,7 +108,7 @@ def fall_asleep(
             b.vx = 0.0
             b.vy = 0.0
             b.angular_velocity = 0.0
-            b.previous_x = b.x           # or it would seem to have been moved, and wake
+            b.previous_x = b.x  # or it would seem to have been moved, and wake
             b.previous_y = b.y
             b.previous_angle = b.angle
             slept += 1
@@ -112,7 +118,10 @@ def fall_asleep(
 @kernel
 def find_sleepers_to_wake(
     # read
-    bodies, contacts, parked, dt,
+    bodies,
+    contacts,
+    parked,
+    dt,
     # write
     wake_out,
 ):
@@ -125,9 +134,22 @@ def find_sleepers_to_wake(
     for i in range(len(bodies)):
         b = bodies[i]
         wake_out[i] = False
-        if b.kind == DYNAMIC and not b.awake and not b.quarantined and (
-                b.vx != 0.0 or b.vy != 0.0 or b.angular_velocity != 0.0 or b.force_x != 0.0 or b.force_y != 0.0
-                or b.torque != 0.0 or b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle):
+        if (
+            b.kind == DYNAMIC
+            and not b.awake
+            and not b.quarantined
+            and (
+                b.vx != 0.0
+                or b.vy != 0.0
+                or b.angular_velocity != 0.0
+                or b.force_x != 0.0
+                or b.force_y != 0.0
+                or b.torque != 0.0
+                or b.x != b.previous_x
+                or b.y != b.previous_y
+                or b.angle != b.previous_angle
+            )
+        ):
             wake_out[i] = True
             found += 1
     for i in range(len(parked)):

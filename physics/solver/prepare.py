@@ -15,12 +15,19 @@ from physics.tables import DYNAMIC, STATIC
 
 def make_gather(gravity: bool, wind: bool, rotation: bool):
     """The pass from bodies to motions for a world with these effects."""
+
     @kernel
     def gather_motions(
         # read
-        bodies, gravity_x, gravity_y, drag_rate, wind_x, wind_y,
+        bodies,
+        gravity_x,
+        gravity_y,
+        drag_rate,
+        wind_x,
+        wind_y,
         # write
-        motions_out, work_inout,
+        motions_out,
+        work_inout,
     ):
         """Write what the substeps need of every body; what is asleep, static or kinematic cannot be pushed. O(bodies)."""
         for i in range(len(bodies)):
@@ -58,15 +65,18 @@ def make_gather(gravity: bool, wind: bool, rotation: bool):
             if wind:
                 m.acceleration_x += drag_rate * wind_x
                 m.acceleration_y += drag_rate * wind_y
+
     return gather_motions
 
 
 def make_substep_velocities(drag: bool, rotation: bool):
     """The pass that speeds bodies up at the start of each substep."""
+
     @kernel
     def integrate_substep_velocities(
         # read, scalars
-        h, drag_rate,
+        h,
+        drag_rate,
         # write
         motions_inout,
     ):
@@ -85,11 +95,13 @@ def make_substep_velocities(drag: bool, rotation: bool):
                 m.vy = keep * m.vy
                 if rotation:
                     m.angular_velocity = keep * m.angular_velocity
+
     return integrate_substep_velocities
 
 
 def make_substep_positions(rotation: bool):
     """The pass that moves bodies at the end of each substep."""
+
     @kernel
     def integrate_substep_positions(
         # read, scalars
@@ -108,6 +120,7 @@ def make_substep_positions(rotation: bool):
                 m.turn += h * m.angular_velocity
                 m.cosine = math.cos(m.turn)
                 m.sine = math.sin(m.turn)
+
     return integrate_substep_positions
 
 
@@ -157,12 +170,20 @@ def effective_mass(a, b, ax, ay, bx, by, x, y):
 
 def make_prepare(friction: bool, conveyor: bool):
     """The pass from contacts to constraint rows for a world with these effects."""
+
     @kernel
     def prepare_constraints(
         # read
-        bodies, motions, degrees, ordered, count, h,
+        bodies,
+        motions,
+        degrees,
+        ordered,
+        count,
+        h,
         # write
-        contacts_inout, constraints_out, work_inout,
+        contacts_inout,
+        constraints_out,
+        work_inout,
     ):
         """Fill the constraint rows in their order, with the impulses that the last step found for a substep of h [s].
 
@@ -185,14 +206,17 @@ def make_prepare(friction: bool, conveyor: bool):
             r.normal_y = ny
             r.friction = c.friction if friction else 0.0
             r.surface_speed = c.surface_speed if conveyor else 0.0
-            crowd = max(degrees[c.body_row_a] if a.inverse_mass > 0.0 else 0, degrees[c.body_row_b] if b.inverse_mass > 0.0 else 0)
+            crowd = max(
+                degrees[c.body_row_a] if a.inverse_mass > 0.0 else 0,
+                degrees[c.body_row_b] if b.inverse_mass > 0.0 else 0,
+            )
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
             r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
             r.rolling_limit = c.rolling_resistance if friction else 0.0
             turning = a.inverse_inertia + b.inverse_inertia
             r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
             r.rolling_impulse = h * c.rolling_force
-            r.normal_impulse_2 = 0.0         # the rows are used again: a manifold of one point has no second
+            r.normal_impulse_2 = 0.0  # the rows are used again: a manifold of one point has no second
             r.tangent_impulse_2 = 0.0
             r.normal_total_2 = 0.0
             r.radius_a = c.radius_a
@@ -221,15 +245,18 @@ def make_prepare(friction: bool, conveyor: bool):
                     r.normal_mass_2, r.tangent_mass_2 = normal_mass, tangent_mass
                     r.normal_impulse_2, r.tangent_impulse_2 = h * d.normal_force, h * d.tangent_force
                     r.normal_total_2, r.tangent_total_2 = 0.0, 0.0
+
     return prepare_constraints
 
 
 def make_warm_start(rotation: bool):
     """The pass that applies the impulses a substep starts from."""
+
     @kernel
     def warm_start(
         # read
-        constraints, count,
+        constraints,
+        count,
         # write
         motions_inout,
     ):
@@ -262,13 +289,16 @@ def make_warm_start(rotation: bool):
             if rotation:
                 a.angular_velocity -= a.inverse_inertia * a_turn
                 b.angular_velocity += b.inverse_inertia * b_turn
+
     return warm_start
 
 
 @kernel
 def store_impulses(
     # read
-    constraints, count, inverse_h,
+    constraints,
+    count,
+    inverse_h,
     # write
     contacts_inout,
 ):

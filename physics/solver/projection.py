@@ -20,12 +20,16 @@ def push(body, x, y, anchor_x, anchor_y, rotation):
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
     """One pass over the contacts of a world with these effects."""
+
     @kernel
     def project(
         # read, scalars
-        bounce_speed, first,
+        bounce_speed,
+        first,
         # write
-        bodies_inout, contacts_inout, work_inout,
+        bodies_inout,
+        contacts_inout,
+        work_inout,
     ):
         """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
 
@@ -41,8 +45,11 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                 continue
             nx = c.normal_x
             ny = c.normal_y
-            separation = c.separation + nx * ((b.center_x - a.center_x) - c.anchor_x) + ny * (
-                (b.center_y - a.center_y) - c.anchor_y)
+            separation = (
+                c.separation
+                + nx * ((b.center_x - a.center_x) - c.anchor_x)
+                + ny * ((b.center_y - a.center_y) - c.anchor_y)
+            )
             if separation > 0.0 and not c.swept and c.normal_impulse == 0.0:
                 continue
             work_inout[SOLVER_ROWS] += 1
@@ -97,4 +104,5 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                 b.y += b.inverse_mass * y
                 b.center_x += b.inverse_mass * x
                 b.center_y += b.inverse_mass * y
+
     return project

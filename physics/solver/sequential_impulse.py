@@ -23,12 +23,18 @@ def bias_of(separation, inverse_h, slop, baumgarte, push_speed):
 
 def make_sequential_pass(rotation: bool, friction: bool):
     """One pass over the constraints of a world with these effects; the two points of a manifold are solved together."""
+
     @kernel
     def solve_sequential(
         # read, scalars
-        count, inverse_h, push_speed, slop, baumgarte,
+        count,
+        inverse_h,
+        push_speed,
+        slop,
+        baumgarte,
         # write
-        motions_inout, constraints_inout,
+        motions_inout,
+        constraints_inout,
     ):
         """Solve every constraint once, friction first, in the order of the rows. O(count).
 
@@ -97,12 +103,14 @@ def make_sequential_pass(rotation: bool, friction: bool):
                 wanted_2 = -speed_2 - bias_of(gap, inverse_h, slop, baumgarte, push_speed * r.push_share)
                 k_12 = masses
                 if rotation:
-                    k_12 += (a.inverse_inertia * (r.ax_1 * ny - r.ay_1 * nx) * (r.ax_2 * ny - r.ay_2 * nx)
-                             + b.inverse_inertia * (r.bx_1 * ny - r.by_1 * nx) * (r.bx_2 * ny - r.by_2 * nx))
+                    k_12 += a.inverse_inertia * (r.ax_1 * ny - r.ay_1 * nx) * (
+                        r.ax_2 * ny - r.ay_2 * nx
+                    ) + b.inverse_inertia * (r.bx_1 * ny - r.by_1 * nx) * (r.bx_2 * ny - r.by_2 * nx)
                 solved = False
                 if r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
-                    solved, both_1, both_2 = solve_two(1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2, wanted_1,
-                                                       wanted_2, old_1, old_2)
+                    solved, both_1, both_2 = solve_two(
+                        1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2, wanted_1, wanted_2, old_1, old_2
+                    )
                 if solved:
                     impulse_1 = both_1
                     impulse_2 = both_2
@@ -115,10 +123,14 @@ def make_sequential_pass(rotation: bool, friction: bool):
             x += change * nx
             y += change * ny
             if rotation:
-                wa -= a.inverse_inertia * ((impulse_1 - old_1) * (r.ax_1 * ny - r.ay_1 * nx)
-                                           + (impulse_2 - old_2) * (r.ax_2 * ny - r.ay_2 * nx))
-                wb += b.inverse_inertia * ((impulse_1 - old_1) * (r.bx_1 * ny - r.by_1 * nx)
-                                           + (impulse_2 - old_2) * (r.bx_2 * ny - r.by_2 * nx))
+                wa -= a.inverse_inertia * (
+                    (impulse_1 - old_1) * (r.ax_1 * ny - r.ay_1 * nx)
+                    + (impulse_2 - old_2) * (r.ax_2 * ny - r.ay_2 * nx)
+                )
+                wb += b.inverse_inertia * (
+                    (impulse_1 - old_1) * (r.bx_1 * ny - r.by_1 * nx)
+                    + (impulse_2 - old_2) * (r.bx_2 * ny - r.by_2 * nx)
+                )
             a.vx -= a.inverse_mass * x
             a.vy -= a.inverse_mass * y
             b.vx += b.inverse_mass * x
@@ -126,6 +138,7 @@ def make_sequential_pass(rotation: bool, friction: bool):
             if rotation:
                 a.angular_velocity = wa
                 b.angular_velocity = wb
+
     return solve_sequential
 
 

@@ -16,6 +16,7 @@ from physics.solver.two_points import solve_two
 
 class Softness(NamedTuple):
     """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass, leak of the impulse."""
+
     bias_rate: float
     mass_scale: float
     impulse_scale: float
@@ -31,7 +32,9 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
 
 
 @subkernel
-def normal_change(speed, separation, mass, impulse, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed):
+def normal_change(
+    speed, separation, mass, impulse, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed
+):
     """The new accumulated impulse of one point.
 
     Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, a spring that pushes out at no
@@ -55,12 +58,18 @@ def turned_along(a, b, ax, ay, bx, by, nx, ny):
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool):
     """One pass over the constraints: with bias (and no friction), or relaxing (with friction where declared)."""
+
     @kernel
     def solve_soft(
         # read, scalars
-        count, inverse_h, push_speed, soft, soft_still,
+        count,
+        inverse_h,
+        push_speed,
+        soft,
+        soft_still,
         # write
-        motions_inout, constraints_inout,
+        motions_inout,
+        constraints_inout,
     ):
         """Solve every constraint once, in the order of the rows. O(count).
 
@@ -98,8 +107,18 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
             old_2 = r.normal_impulse_2
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
             soft_now = biased and (old_1 + old_2 > 0.0 or (speed_1 >= 0.0 and (r.count == 1 or speed_2 >= 0.0)))
-            impulse_1 = normal_change(speed_1, gap_1, r.normal_mass_1, old_1, inverse_h, soft_now, bias_rate, mass_scale,
-                                      impulse_scale, push_speed * r.push_share)
+            impulse_1 = normal_change(
+                speed_1,
+                gap_1,
+                r.normal_mass_1,
+                old_1,
+                inverse_h,
+                soft_now,
+                bias_rate,
+                mass_scale,
+                impulse_scale,
+                push_speed * r.push_share,
+            )
             impulse_2 = old_2
             if r.count == 2:
                 gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
@@ -109,23 +128,39 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
                 solved = False
                 # Hard points are solved together, or the first would spin the body; springs one by one resist tilting more.
                 if not soft_now and r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
-                    solved, both_1, both_2 = solve_two(1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2,
-                                                       -speed_1 - max(gap_1, 0.0) * inverse_h,
-                                                       -speed_2 - max(gap_2, 0.0) * inverse_h, old_1, old_2)
+                    solved, both_1, both_2 = solve_two(
+                        1.0 / r.normal_mass_1,
+                        k_12,
+                        1.0 / r.normal_mass_2,
+                        -speed_1 - max(gap_1, 0.0) * inverse_h,
+                        -speed_2 - max(gap_2, 0.0) * inverse_h,
+                        old_1,
+                        old_2,
+                    )
                 if solved:
                     impulse_1 = both_1
                     impulse_2 = both_2
                 else:
                     speed_2 += k_12 * (impulse_1 - old_1)
-                    impulse_2 = normal_change(speed_2, gap_2, r.normal_mass_2, old_2, inverse_h, soft_now, bias_rate,
-                                              mass_scale, impulse_scale, push_speed * r.push_share)
+                    impulse_2 = normal_change(
+                        speed_2,
+                        gap_2,
+                        r.normal_mass_2,
+                        old_2,
+                        inverse_h,
+                        soft_now,
+                        bias_rate,
+                        mass_scale,
+                        impulse_scale,
+                        push_speed * r.push_share,
+                    )
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if not biased:
                 r.normal_total_1 += impulse_1
                 r.normal_total_2 += impulse_2
             change = impulse_1 - old_1 + impulse_2 - old_2
-            x = change * nx              # sums of the impulses on B
+            x = change * nx  # sums of the impulses on B
             y = change * ny
             vx += masses * x
             vy += masses * y
@@ -176,6 +211,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
             if rotation:
                 a.angular_velocity = wa
                 b.angular_velocity = wb
+
     return solve_soft
 
 

@@ -6,7 +6,7 @@ Solving Constraints, GDC 2007 (block solver).
 
 from physics.jit import subkernel
 
-FLAT = 1e-3                # share of k_11 · k_22 below which the two points are one: nothing tells them apart
+FLAT = 1e-3  # share of k_11 · k_22 below which the two points are one: nothing tells them apart
 
 
 @subkernel

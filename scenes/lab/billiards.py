@@ -21,22 +21,22 @@ from physics import Circle, Effects, Material, Polygon
 from scenes.lab.piles import kinetic_energy
 from scenes.lab.yard import draw_head, plate
 
-CLOTH = pygame.Rect(24, 44, 344, 168)          # [px] between the cushions; the canvas and the world are the same
-TABLE = (4, 24)                                # [canvas px] where the picture of the table goes
-BALL, MOUTH = 5.0, 5.0                         # [px] radius of a ball and of the sensor in a pocket
+CLOTH = pygame.Rect(24, 44, 344, 168)  # [px] between the cushions; the canvas and the world are the same
+TABLE = (4, 24)  # [canvas px] where the picture of the table goes
+BALL, MOUTH = 5.0, 5.0  # [px] radius of a ball and of the sensor in a pocket
 HOLES = tuple((x, y) for x in (CLOTH.left, CLOTH.centerx, CLOTH.right) for y in (CLOTH.top, CLOTH.bottom))
-CORNER_GAP, SIDE_GAP, JAW, DEEP = 14, 12, 6, 12        # [px] of the cushions: cut at corner and side, slant, depth
+CORNER_GAP, SIDE_GAP, JAW, DEEP = 14, 12, 6, 12  # [px] of the cushions: cut at corner and side, slant, depth
 HEAD_SPOT = (CLOTH.left + CLOTH.width / 4, CLOTH.centery)
 FOOT_SPOT = (CLOTH.left + CLOTH.width * 0.72, CLOTH.centery)
-RACK_GAP = 0.4                                 # [px] between racked balls
+RACK_GAP = 0.4  # [px] between racked balls
 RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
-FASTEST = 1300.0                               # [px/s] of a cue ball hit with full power
-RESTS = 4.0                                    # [px/s] when none is faster, all stop
-DRAG = 0.5                                     # [1/s]
-PIXELS_PER_METER = 4.0                         # so that balls still bounce at 4 px/s: this table is 86 m of slow motion
-SWING = 70                                     # steps from no power to full while the mouse is held
-CALM = 30                                      # steps the bot waits
-SIDE = 396                                     # [canvas px] left of the score
+FASTEST = 1300.0  # [px/s] of a cue ball hit with full power
+RESTS = 4.0  # [px/s] when none is faster, all stop
+DRAG = 0.5  # [1/s]
+PIXELS_PER_METER = 4.0  # so that balls still bounce at 4 px/s: this table is 86 m of slow motion
+SWING = 70  # steps from no power to full while the mouse is held
+CALM = 30  # steps the bot waits
+SIDE = 396  # [canvas px] left of the score
 
 
 class Billiards(Scene):
@@ -57,13 +57,13 @@ class Billiards(Scene):
         """Table, cushions, pockets, balls."""
         atlas = load_atlas("lab")
         self.table, self.cast = atlas["table"], Cast(atlas)
-        self.ball_names = {}           # body id -> number
+        self.ball_names = {}  # body id -> number
         self.potted = []
         self.shots = self.scratches = self.calm = 0
         self.aim, self.power, self.held, self.last_pointer = 0.0, 0.9, -1, (0, 0)
-        self.budget = None             # what a break is measured by: momentum, steps, while no cushion was met
-        self.kept = 0.0                # worst error of momentum, as a share
-        self.grown = self.grown_by_three = 0.0     # most that energy grew in a step, as a share; where three met
+        self.budget = None  # what a break is measured by: momentum, steps, while no cushion was met
+        self.kept = 0.0  # worst error of momentum, as a share
+        self.grown = self.grown_by_three = 0.0  # most that energy grew in a step, as a share; where three met
         self.compared = 0
         self.energy = 0.0
         self.fill()
@@ -174,7 +174,7 @@ class Billiards(Scene):
         if met & self.cushions or len(self.world.events.sensor_begin):
             self.budget = None
             return
-        left = keep ** steps
+        left = keep**steps
         now_x, now_y = (float((bodies["mass"] * bodies[name]).sum()) for name in ("vx", "vy"))
         off = hypot(now_x - px * left, now_y - py * left)
         self.kept = max(self.kept, off / (hypot(px, py) * left))
@@ -192,7 +192,7 @@ class Billiards(Scene):
         for first, second in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
             ball = first if first in self.ball_names else second
             if ball not in self.ball_names:
-                continue               # it reached two pockets' sensors in one step
+                continue  # it reached two pockets' sensors in one step
             if ball == self.cue.id:
                 self.scratches += 1
                 self.cue.velocity = (0.0, 0.0)
@@ -207,8 +207,10 @@ class Billiards(Scene):
         """The head spot, or the next place beside it that no ball holds."""
         for shift in range(0, CLOTH.height // 2 - 8, 2):
             for y in (HEAD_SPOT[1] + shift, HEAD_SPOT[1] - shift):
-                if all(body.id not in self.ball_names or body == self.cue
-                       for body in self.world.overlap(Circle(BALL + 1.0), (HEAD_SPOT[0], y, 0.0))):
+                if all(
+                    body.id not in self.ball_names or body == self.cue
+                    for body in self.world.overlap(Circle(BALL + 1.0), (HEAD_SPOT[0], y, 0.0))
+                ):
                     return HEAD_SPOT[0], y
         return HEAD_SPOT
 
@@ -224,7 +226,7 @@ class Billiards(Scene):
         canvas.surface.blit(self.table, TABLE)
         for identity in self.ball_names:
             x, y = self.world.body(identity).position
-            canvas.surface.fill((0, 62, 72), (round(x) - 3, round(y) + 4, 8, 2))       # a shadow on the cloth
+            canvas.surface.fill((0, 62, 72), (round(x) - 3, round(y) + 4, 8, 2))  # a shadow on the cloth
         self.cast.draw(canvas, self.camera, self.world, alpha)
         if self.resting:
             self._draw_stick(canvas.surface)
@@ -234,8 +236,12 @@ class Billiards(Scene):
         x, y = self.cue.position
         c, s = cos(self.aim), sin(self.aim)
         near = BALL + 4.0 + 26.0 * self.power
-        parts = ((0, 110, (20, 16, 32), 5), (0, 109, (198, 148, 92), 3), (70, 109, (110, 44, 40), 3),
-                 (0, 4, (150, 200, 236), 3))           # its outline, the shaft, the grip, the chalked tip
+        parts = (
+            (0, 110, (20, 16, 32), 5),
+            (0, 109, (198, 148, 92), 3),
+            (70, 109, (110, 44, 40), 3),
+            (0, 4, (150, 200, 236), 3),
+        )  # its outline, the shaft, the grip, the chalked tip
         for start, end, color, width in ((near + part[0], near + part[1], *part[2:]) for part in parts):
             pygame.draw.line(surface, color, (x - c * start, y - s * start), (x - c * end, y - s * end), width)
 
@@ -252,10 +258,13 @@ class Billiards(Scene):
         canvas.surface.fill((20, 16, 32), (SIDE, 94, 78, 6))
         canvas.surface.fill(GOLD, (SIDE + 1, 95, round(76 * self.power), 4))
         held = self.compared > 0 and self.kept < 1e-9
-        rows = (("shots", f"{self.shots}", PAPER), ("scratches", f"{self.scratches}", PAPER),
-                ("energy", f"{self.energy / 1e6:.2f}", PAPER),
-                ("momentum", "kept" if held else "-", GREEN if held else FOG),
-                ("  off by", f"{self.kept:.0e}", PAPER if self.kept < 1e-9 else RED))
+        rows = (
+            ("shots", f"{self.shots}", PAPER),
+            ("scratches", f"{self.scratches}", PAPER),
+            ("energy", f"{self.energy / 1e6:.2f}", PAPER),
+            ("momentum", "kept" if held else "-", GREEN if held else FOG),
+            ("  off by", f"{self.kept:.0e}", PAPER if self.kept < 1e-9 else RED),
+        )
         for number, (word, value, color) in enumerate(rows):
             canvas.text(word, SIDE, 106 + number * 9, FOG, SMALL)
             canvas.text(value, 474, 106 + number * 9, color, SMALL, align="right")
@@ -283,8 +292,14 @@ class Billiards(Scene):
     def _first_in_the_way(self, x, y, c, s):
         """How far the cue ball would run before it meets a ball or a cushion's line, and that ball's place or None."""
         room = CLOTH.inflate(-2 * BALL, -2 * BALL)
-        ends = [(edge - place) / heading for edge, place, heading in
-                ((room.right if c > 0 else room.left, x, c), (room.bottom if s > 0 else room.top, y, s)) if heading]
+        ends = [
+            (edge - place) / heading
+            for edge, place, heading in (
+                (room.right if c > 0 else room.left, x, c),
+                (room.bottom if s > 0 else room.top, y, s),
+            )
+            if heading
+        ]
         way, struck = max(0.0, min(ends)), None
         for identity in self.ball_names:
             place = self.world.body(identity).position
@@ -298,14 +313,24 @@ class Billiards(Scene):
     def check(self):
         """Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls fall in."""
         places = {identity: self.world.body(identity).position for identity in self.ball_names}
-        moved = len(self.potted) + sum(hypot(x - self.racked[ball][0], y - self.racked[ball][1]) > BALL
-                                       for ball, (x, y) in places.items())
+        moved = len(self.potted) + sum(
+            hypot(x - self.racked[ball][0], y - self.racked[ball][1]) > BALL for ball, (x, y) in places.items()
+        )
         there = all(CLOTH.inflate(30, 30).collidepoint(place) for place in places.values())
         return [
-            Goal("momentum stays until the first cushion", 120, self.compared >= 10 and self.kept < 1e-9,
-                 f"off by {self.kept:.2e} in {self.compared} steps"),
+            Goal(
+                "momentum stays until the first cushion",
+                120,
+                self.compared >= 10 and self.kept < 1e-9,
+                f"off by {self.kept:.2e} in {self.compared} steps",
+            ),
             Goal("no collision of two adds energy", 300, self.shots > 0 and self.grown < 1e-9, f"{self.grown:+.2e}"),
-            Goal("none of three adds more than a twentieth", 300, self.grown_by_three < 0.05, f"{self.grown_by_three:+.2e}"),
+            Goal(
+                "none of three adds more than a twentieth",
+                300,
+                self.grown_by_three < 0.05,
+                f"{self.grown_by_three:+.2e}",
+            ),
             Goal("the break moves nearly every ball", 300, moved >= 14, f"{moved} of 16"),
             Goal("no ball leaves the table", 300, there),
             Goal("a pocket counts a ball", 3600, len(self.potted) > 0, f"{len(self.potted)} in {self.shots} shots"),
@@ -338,8 +363,22 @@ class Billiards(Scene):
     def state(self):
         """The score and the books; the world holds the balls."""
         budget = self.budget or (0.0, 0.0, -1)
-        return (self.frame, *self.values.values(), self.shots, self.scratches, self.calm, self.aim, self.power,
-                self.held, *self.potted, self.kept, self.grown, self.grown_by_three, self.compared, *budget)
+        return (
+            self.frame,
+            *self.values.values(),
+            self.shots,
+            self.scratches,
+            self.calm,
+            self.aim,
+            self.power,
+            self.held,
+            *self.potted,
+            self.kept,
+            self.grown,
+            self.grown_by_three,
+            self.compared,
+            *budget,
+        )
 
 
 def cushions():
@@ -353,9 +392,11 @@ def cushions():
         a, b = top + CORNER_GAP, bottom - CORNER_GAP
         shapes.append(Polygon([(x, a), (x, b), (x + way * DEEP, b + JAW), (x + way * DEEP, a - JAW)]))
     wide, high, deep = CLOTH.width + 2 * DEEP, CLOTH.height + 2 * DEEP, 40
-    for x, y, width, height in ((CLOTH.centerx, top - DEEP - deep / 2, wide + 2 * deep, deep),
-                                (CLOTH.centerx, bottom + DEEP + deep / 2, wide + 2 * deep, deep),
-                                (left - DEEP - deep / 2, CLOTH.centery, deep, high),
-                                (right + DEEP + deep / 2, CLOTH.centery, deep, high)):
+    for x, y, width, height in (
+        (CLOTH.centerx, top - DEEP - deep / 2, wide + 2 * deep, deep),
+        (CLOTH.centerx, bottom + DEEP + deep / 2, wide + 2 * deep, deep),
+        (left - DEEP - deep / 2, CLOTH.centery, deep, high),
+        (right + DEEP + deep / 2, CLOTH.centery, deep, high),
+    ):
         shapes.append(Polygon.box(width, height, (x, y)))
     return shapes

@@ -25,12 +25,12 @@ ABOUT = {
     "still": "few movers among many still ones",
     "giant": "one giant among many small ones",
 }
-VIEW_WIDTH, VIEW_HEIGHT, ZOOM = 158, 108, 0.1       # [canvas px] of each picture
-WIDTH, HEIGHT = VIEW_WIDTH / ZOOM, VIEW_HEIGHT / ZOOM       # [px] of the world
+VIEW_WIDTH, VIEW_HEIGHT, ZOOM = 158, 108, 0.1  # [canvas px] of each picture
+WIDTH, HEIGHT = VIEW_WIDTH / ZOOM, VIEW_HEIGHT / ZOOM  # [px] of the world
 CORNERS = ((4, 30), (166, 30), (4, 153), (166, 153))
 RADIUS, GIANT = 7.0, 260.0
-FAST, SLOW = 90.0, 20.0       # [px/s]
-MOVING_SHARE = 0.05           # of the bodies in the "still" layout
+FAST, SLOW = 90.0, 20.0  # [px/s]
+MOVING_SHARE = 0.05  # of the bodies in the "still" layout
 PLOTS = (("candidate pairs", 30), ("pairs tested [log]", 103), ("microseconds [log]", 176))
 PLOT_X, PLOT_WIDTH, PLOT_HEIGHT = 330, 146, 70
 
@@ -43,8 +43,11 @@ class Broadphases(Scene):
     about = "The same bodies in four worlds: what does each strategy pay to find the same pairs?"
     effects = Effects(narrowphase=False)
     pieces = ("circles", "boxes")
-    features = ("brute force, sweep and prune, spatial hash, dynamic tree", "live curves of pairs, tests and time",
-                "four layouts, 10 to 5,000 bodies")
+    features = (
+        "brute force, sweep and prune, spatial hash, dynamic tree",
+        "live curves of pairs, tests and time",
+        "four layouts, 10 to 5,000 bodies",
+    )
     sliders = (Slider("bodies", 10, 5000, 600, step=10), Slider("layout", 0, 3, 0, choices=LAYOUTS))
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
@@ -54,8 +57,9 @@ class Broadphases(Scene):
     def build(self):
         """Pictures, curves and tallies; fill() makes the four worlds."""
         self.cameras = [Camera((*corner, VIEW_WIDTH, VIEW_HEIGHT), ZOOM) for corner in CORNERS]
-        self.curves = [Curves(title, {"all four": PAPER} if i == 0 else BROADPHASE_COLORS)
-                       for i, (title, _) in enumerate(PLOTS)]
+        self.curves = [
+            Curves(title, {"all four": PAPER} if i == 0 else BROADPHASE_COLORS) for i, (title, _) in enumerate(PLOTS)
+        ]
         self.compared = self.disagreements = self.most_pairs = 0
         self.tests = dict.fromkeys(STRATEGIES, 0)
         self.shown = set()
@@ -147,8 +151,12 @@ class Broadphases(Scene):
         """The same pairs from all, and fewer tests than brute force from the three others."""
         cheaper = all(self.tests[name] < self.tests["brute"] for name in STRATEGIES[1:])
         return [
-            Goal("all four list the same pairs", 60, self.compared > 0 and self.disagreements == 0,
-                 f"{self.disagreements} of {self.compared} steps differ"),
+            Goal(
+                "all four list the same pairs",
+                60,
+                self.compared > 0 and self.disagreements == 0,
+                f"{self.disagreements} of {self.compared} steps differ",
+            ),
             Goal("pairs are found", 60, self.most_pairs > 0, f"at most {self.most_pairs} in a step"),
             Goal("three strategies test fewer pairs than brute force", 60, cheaper, f"{self.tests}"),
             Goal("every layout is shown", 480, len(self.shown) == len(LAYOUTS), ", ".join(sorted(self.shown))),
@@ -161,8 +169,14 @@ class Broadphases(Scene):
 
     def state(self):
         """What was chosen and what was found; the worlds hold the rest."""
-        return (self.frame, self.values["bodies"], self.values["layout"], self.compared, self.disagreements,
-                self.most_pairs)
+        return (
+            self.frame,
+            self.values["bodies"],
+            self.values["layout"],
+            self.compared,
+            self.disagreements,
+            self.most_pairs,
+        )
 
 
 def bounce(world):
@@ -190,7 +204,7 @@ def draw_dots(surface, world, camera, color):
     pixels = pygame.surfarray.pixels2d(surface)
     for chosen, dot in ((seen & ~hot, color), (seen & hot, RED if color != RED else PAPER)):
         pixels[x[chosen], y[chosen]] = surface.map_rgb(dot)
-    del pixels      # unlocks the surface
+    del pixels  # unlocks the surface
     for row in np.flatnonzero(bodies["mass"] > 100.0 * RADIUS * RADIUS * np.pi).tolist():
         surface.set_clip(view)
         pygame.draw.circle(surface, SLATE, (int(x[row]), int(y[row])), int(GIANT * camera.zoom), 1)

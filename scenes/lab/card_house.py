@@ -19,22 +19,22 @@ from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.yard import Yard, plate
 
-LENGTH, RADIUS = 48.0, 2.0          # [px] between the centres of a card's round ends, and their radius
-LEAN = radians(25.0)                # from the vertical
+LENGTH, RADIUS = 48.0, 2.0  # [px] between the centres of a card's round ends, and their radius
+LEAN = radians(25.0)  # from the vertical
 REACH, RISE = LENGTH * sin(LEAN), LENGTH * cos(LEAN)
-APART = 2.0 * (REACH + 2.0 * RADIUS) + 1.0      # [px] between neighbouring pairs
-PLANK = 4.0                         # [px] thick
+APART = 2.0 * (REACH + 2.0 * RADIUS) + 1.0  # [px] between neighbouring pairs
+PLANK = 4.0  # [px] thick
 STOREY = RISE + 2.0 * RADIUS + PLANK
 # Moments about a foot: the push at the top, at the height RISE + RADIUS, holds the weight at half the REACH.
 NEEDED = REACH / (2.0 * (RISE + RADIUS))
 LESS, MORE = 0.95 * NEEDED, 1.05 * NEEDED
-FLOOR = 238                         # [canvas px]
+FLOOR = 238  # [canvas px]
 HOUSE_X = 140.0
-PAIRS = ((328.0, LESS, SKY), (436.0, MORE, GREEN))       # x, friction, colour of the cloth
-CLOTH = 62.0                        # [px] wide
-COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0      # [px] radius, [px/s], times a card's
-JUDGED_AT = 600                     # step: ten seconds
-SLIPPERY_AT, SLIPPERY = 604, 20     # the bot's step, and the friction it then chooses [1/100]
+PAIRS = ((328.0, LESS, SKY), (436.0, MORE, GREEN))  # x, friction, colour of the cloth
+CLOTH = 62.0  # [px] wide
+COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0  # [px] radius, [px/s], times a card's
+JUDGED_AT = 600  # step: ten seconds
+SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and the friction it then chooses [1/100]
 
 
 class CardHouse(Scene):
@@ -54,8 +54,8 @@ class CardHouse(Scene):
     def build(self):
         """The table; fill() builds the house."""
         self.yard = Yard(FLOOR, 60, table=True)
-        self.held = None              # [px] how far its cards moved in the ten seconds that it stood, or None
-        self.slipped = False          # the house fell once at a friction that is too low
+        self.held = None  # [px] how far its cards moved in the ten seconds that it stood, or None
+        self.slipped = False  # the house fell once at a friction that is too low
         self.fill()
 
     def fill(self):
@@ -76,12 +76,16 @@ class CardHouse(Scene):
         self.start = {card.id: card.center for card in (*self.cards, *self.pairs[0], *self.pairs[1])}
         self.coins = []
         self.since = 0
-        self.stood = 0                # steps that the house stood
-        self.wandered = 0.0           # [px] of the card that moved furthest while it stood
+        self.stood = 0  # steps that the house stood
+        self.wandered = 0.0  # [px] of the card that moved furthest while it stood
 
     def _table(self, left, right, friction):
-        self.world.add_body(Polygon.box(right - left, 40), position=((left + right) / 2, FLOOR + 20.0), kind="static",
-                            material=Material(friction=friction))
+        self.world.add_body(
+            Polygon.box(right - left, 40),
+            position=((left + right) / 2, FLOOR + 20.0),
+            kind="static",
+            material=Material(friction=friction),
+        )
 
     def _pair(self, x, floor, material):
         """Two cards that lean on each other over x, their feet on `floor`."""
@@ -131,8 +135,12 @@ class CardHouse(Scene):
             self.slipped = True
 
     def _throw(self):
-        coin = self.world.add_body(Circle(COIN), position=(8.0, FLOOR - 90.0), velocity=(COIN_SPEED, -60.0),
-                                   material=Material(density=COIN_DENSITY))
+        coin = self.world.add_body(
+            Circle(COIN),
+            position=(8.0, FLOOR - 90.0),
+            velocity=(COIN_SPEED, -60.0),
+            material=Material(density=COIN_DENSITY),
+        )
         self.coins = [*self.coins, self.cast.add(coin, "disc_gold")][-6:]
         self.play("coin")
 
@@ -158,8 +166,12 @@ class CardHouse(Scene):
         plate(canvas, (342, 22, 134, 60))
         stands = self.stands(self.cards)
         canvas.text("the house stands" if stands else "it fell", 348, 26, GREEN if stands else RED)
-        rows = (("cards", f"{len(self.cards)}"), ("friction", f"{self.values['friction'] / 100:.2f}"),
-                ("for", f"{self.stood / 60:.1f} s"), ("a pair needs", f"{NEEDED:.3f}"))
+        rows = (
+            ("cards", f"{len(self.cards)}"),
+            ("friction", f"{self.values['friction'] / 100:.2f}"),
+            ("for", f"{self.stood / 60:.1f} s"),
+            ("a pair needs", f"{NEEDED:.3f}"),
+        )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 348, 40 + number * 10, FOG, SMALL)
             canvas.text(value, 470, 40 + number * 10, PAPER, SMALL, align="right")
@@ -167,7 +179,9 @@ class CardHouse(Scene):
     def _draw_pair_words(self, canvas, x, friction, color, stands):
         plate(canvas, (round(x) - 31, FLOOR - 96, 62, 24))
         canvas.text(f"{friction:.3f}", x, FLOOR - 92, color, align="center")
-        canvas.text("stands" if stands else "slid apart", x, FLOOR - 82, PAPER if stands else ORANGE, SMALL, align="center")
+        canvas.text(
+            "stands" if stands else "slid apart", x, FLOOR - 82, PAPER if stands else ORANGE, SMALL, align="center"
+        )
 
     def draw_on_frame(self, frame):
         """A ring at each card's middle that moved: where the house gives."""
@@ -183,8 +197,12 @@ class CardHouse(Scene):
         moved = self.wandered if self.held is None else self.held
         return [
             Goal("the house stands for ten seconds", JUDGED_AT, self.held is not None, f"{self.stood} steps"),
-            Goal("its cards stay within a twentieth of their length", JUDGED_AT, moved < LENGTH / 20, f"{moved:.2f} px"),
-            Goal("a pair with a twentieth less friction than theory asks slides", 540, not slid, f"friction {LESS:.4f}"),
+            Goal(
+                "its cards stay within a twentieth of their length", JUDGED_AT, moved < LENGTH / 20, f"{moved:.2f} px"
+            ),
+            Goal(
+                "a pair with a twentieth less friction than theory asks slides", 540, not slid, f"friction {LESS:.4f}"
+            ),
             Goal("a pair with a twentieth more stands", 540, stood, f"friction {MORE:.4f}"),
             Goal("the house falls at a friction of 0.2", 800, self.slipped, f"at {self.values['friction'] / 100:.2f}"),
         ]
@@ -196,5 +214,13 @@ class CardHouse(Scene):
 
     def state(self):
         """What was seen; the world holds the cards."""
-        return (self.frame, self.since, *self.values.values(), self.stood, self.wandered, self.held, self.slipped,
-                len(self.coins))
+        return (
+            self.frame,
+            self.since,
+            *self.values.values(),
+            self.stood,
+            self.wandered,
+            self.held,
+            self.slipped,
+            len(self.coins),
+        )

@@ -19,28 +19,30 @@ from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.pieces import piece
 
-BELT_RADIUS = 6.0            # [px] of a belt's rollers
-BELTS = {                    # from, to: centres of the rollers in a view [px]
-    "level": ((42.0, 84.0), (140.0, 84.0)), "up": ((153.0, 84.0), (253.0, 66.0)),
-    "top": ((266.0, 66.0), (346.0, 66.0)), "down": ((359.0, 66.0), (443.0, 81.0)),
+BELT_RADIUS = 6.0  # [px] of a belt's rollers
+BELTS = {  # from, to: centres of the rollers in a view [px]
+    "level": ((42.0, 84.0), (140.0, 84.0)),
+    "up": ((153.0, 84.0), (253.0, 66.0)),
+    "top": ((266.0, 66.0), (346.0, 66.0)),
+    "down": ((359.0, 66.0), (443.0, 81.0)),
 }
 LABEL_AT = {"level": (91, 94), "up": (211, 88), "top": (306, 77), "down": (394, 88)}
-STILL_X = (50.0, 72.0, 98.0, 123.0, 300.0)       # [px] where each kind falls in the still world
+STILL_X = (50.0, 72.0, 98.0, 123.0, 300.0)  # [px] where each kind falls in the still world
 GRIP = Material(friction=0.5)
-BRAKED = Material(friction=0.5, rolling_resistance=0.6)     # more than the slope's rise: a wheel rides, it does not roll
-KINDS = {                    # name: (shape, colours, material)
+BRAKED = Material(friction=0.5, rolling_resistance=0.6)  # more than the slope's rise: a wheel rides, it does not roll
+KINDS = {  # name: (shape, colours, material)
     "box": (Polygon.box(16, 16), "wood", GRIP),
     "hexagon": (Polygon([(10, 0), (6, 7), (-6, 7), (-10, 0), (-6, -7), (6, -7)]), "violet", GRIP),
     "capsule": (Capsule((-7, 0), (7, 0), 6.0), "teal", GRIP),
     "rounded": (Polygon(Polygon.box(12, 6).points, radius=4.0), "coral", GRIP),
     "wheel": (Circle(8.0), "gold", BRAKED),
 }
-DROP = (58.0, 63.0)          # [px] where crates appear
-APART = 84.0                 # [px] between crates on the belt
-OUT_X = 462.0                # [px] where they leave
-WINDOW = (0.70, 0.86)        # of a belt's length: where a crate's speed is taken
-SETTLE = 60                  # steps after a change of speed in which nothing is taken
-ALLOWED = 0.02               # of the belt's speed
+DROP = (58.0, 63.0)  # [px] where crates appear
+APART = 84.0  # [px] between crates on the belt
+OUT_X = 462.0  # [px] where they leave
+WINDOW = (0.70, 0.86)  # of a belt's length: where a crate's speed is taken
+SETTLE = 60  # steps after a change of speed in which nothing is taken
+ALLOWED = 0.02  # of the belt's speed
 VIEWS = ((4, 30, 472, 108), (4, 154, 472, 108))
 TITLES = ("conveyor declared", "not declared: the same belts, the same crates")
 DUST = ((250, 230, 190), (190, 150, 120), (110, 90, 100))
@@ -54,8 +56,11 @@ class Conveyor(Scene):
     about = "Belts carry crates of every shape up, along and down; without the effect the same crates lie still."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, conveyor=True)
     pieces = ("boxes", "circles", "capsules", "queries")
-    features = ("surface speed, in the friction of every contact", "rolling resistance brakes a wheel",
-                "the same world without the effect")
+    features = (
+        "surface speed, in the friction of every contact",
+        "rolling resistance brakes a wheel",
+        "the same world without the effect",
+    )
     sliders = (Slider("speed", 20, 120, 60, "px/s", step=10),)
     actions = (("left right", "speed"),)
     overlays = ()
@@ -72,19 +77,19 @@ class Conveyor(Scene):
         pictures = {kind: piece(shape, ramp) for kind, (shape, ramp, _) in KINDS.items()}
         pictures["box"] = self.things["crate"]
         self.casts = [Cast(pictures) for _ in self.worlds]
-        self.kinds = [{} for _ in self.worlds]       # body id -> kind
+        self.kinds = [{} for _ in self.worlds]  # body id -> kind
         self.dropped = [0 for _ in self.worlds]
         self.belts = [{} for _ in self.worlds]
-        self.way = 0.0                               # [px] the belts have run, only seen
+        self.way = 0.0  # [px] the belts have run, only seen
         self.changed = -SETTLE
         self.taken = dict.fromkeys(BELTS, 0)
         self.worst = dict.fromkeys(BELTS, 0.0)
         self.last = dict.fromkeys(BELTS, 0.0)
         self.seen = {kind: set() for kind in KINDS}  # belts on which it was measured
-        self.inside = {}                             # (body id, belt) -> speed when last in the window
+        self.inside = {}  # (body id, belt) -> speed when last in the window
         self.delivered = 0
         self.strayed = 0.0
-        self.fallen = {}                             # body id of the still world -> where it came to rest
+        self.fallen = {}  # body id of the still world -> where it came to rest
         self._lay_belts()
 
     def _lay_belts(self):
@@ -183,8 +188,17 @@ class Conveyor(Scene):
                 world.remove_body(body)
                 if index == 0 and x >= OUT_X:
                     self.delivered += 1
-                    self.particles.burst(x, min(y, 92.0), 16, DUST, speed=(20, 90), life=(0.2, 0.5), angle=-pi / 2,
-                                         spread=2.6, gravity=140.0)
+                    self.particles.burst(
+                        x,
+                        min(y, 92.0),
+                        16,
+                        DUST,
+                        speed=(20, 90),
+                        life=(0.2, 0.5),
+                        angle=-pi / 2,
+                        spread=2.6,
+                        gravity=140.0,
+                    )
                     self.play("coin", x, 0.25)
 
     def views(self):
@@ -225,20 +239,33 @@ class Conveyor(Scene):
                 text = f"{name} {self.last[name]:.1f}" if self.taken[name] else name
                 canvas.text(text, view.x + x, view.y + y, color, SMALL, align="center", outline=True)
         else:
-            canvas.text(f"moved by {self.strayed:.2f} px", view.x + 92, view.y + 98, PAPER, SMALL, align="center",
-                        outline=True)
+            canvas.text(
+                f"moved by {self.strayed:.2f} px", view.x + 92, view.y + 98, PAPER, SMALL, align="center", outline=True
+            )
 
     def check(self):
         """All shapes reach the speed of every belt; without the effect nothing moves."""
         worst = max(self.worst.values())
         everywhere = all(len(belts) == len(BELTS) for belts in self.seen.values())
         return [
-            Goal("crates have the belt's speed within 2 %", 600, min(self.taken.values()) > 0 and worst <= ALLOWED,
-                 f"off by {worst:.2%} at most, {sum(self.taken.values())} taken"),
-            Goal("each shape was measured on each belt", 1100, everywhere,
-                 ", ".join(f"{kind} {len(belts)}" for kind, belts in self.seen.items())),
-            Goal("without the effect they lie still", 600, len(self.fallen) == len(KINDS) and self.strayed < 1.0,
-                 f"{len(self.fallen)} crates moved {self.strayed:.3f} px"),
+            Goal(
+                "crates have the belt's speed within 2 %",
+                600,
+                min(self.taken.values()) > 0 and worst <= ALLOWED,
+                f"off by {worst:.2%} at most, {sum(self.taken.values())} taken",
+            ),
+            Goal(
+                "each shape was measured on each belt",
+                1100,
+                everywhere,
+                ", ".join(f"{kind} {len(belts)}" for kind, belts in self.seen.items()),
+            ),
+            Goal(
+                "without the effect they lie still",
+                600,
+                len(self.fallen) == len(KINDS) and self.strayed < 1.0,
+                f"{len(self.fallen)} crates moved {self.strayed:.3f} px",
+            ),
         ]
 
     def bot(self):
@@ -247,8 +274,15 @@ class Conveyor(Scene):
 
     def state(self):
         """What was measured."""
-        return (self.frame, self.values["speed"], *self.dropped, self.delivered, *self.taken.values(), *self.worst.values(),
-                self.strayed)
+        return (
+            self.frame,
+            self.values["speed"],
+            *self.dropped,
+            self.delivered,
+            *self.taken.values(),
+            *self.worst.values(),
+            self.strayed,
+        )
 
 
 def direction(start, end):
@@ -273,8 +307,12 @@ def draw_belt(surface, view, start, end, way, running):
     length = hypot(bx - ax, by - ay)
     rubber, rib = ((64, 58, 84), (150, 140, 170)) if running else ((48, 44, 62), (84, 80, 100))
     for radius, color in ((BELT_RADIUS, INK), (BELT_RADIUS - 1, rubber), (BELT_RADIUS - 3, (30, 26, 44))):
-        corners = [(ax + ty * radius, ay - tx * radius), (bx + ty * radius, by - tx * radius),
-                   (bx - ty * radius, by + tx * radius), (ax - ty * radius, ay + tx * radius)]
+        corners = [
+            (ax + ty * radius, ay - tx * radius),
+            (bx + ty * radius, by - tx * radius),
+            (bx - ty * radius, by + tx * radius),
+            (ax - ty * radius, ay + tx * radius),
+        ]
         pygame.draw.polygon(surface, color, corners)
         for x, y in ((ax, ay), (bx, by)):
             pygame.draw.circle(surface, color, (x, y), radius)

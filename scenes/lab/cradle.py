@@ -20,17 +20,17 @@ from scenes.lab.piles import SOLVER_WORDS, SOLVERS, kinetic_energy
 from scenes.lab.yard import Yard, plate
 
 COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
-ZOOM, RADIUS = 0.5, 28.0            # [px] drawn 28 px large
-LANES = (16, 100, 184)              # [canvas px] top of each view
+ZOOM, RADIUS = 0.5, 28.0  # [px] drawn 28 px large
+LANES = (16, 100, 184)  # [canvas px] top of each view
 LANE_HEIGHT = 84
-ROW = 5                             # balls that rest
-MIDDLE, LINE = 500.0, 72.0          # [px] middle of the row, height of the channel's axis
-LEFT, RIGHT = 14.0, 946.0           # [px] faces of the end walls
-FIRST = 60.0                        # [px] of the first striker
-SPEED = 300.0                       # [px/s] 5 px a step, less than the gap: one collision at a time
-ASIDE = 60.0                        # [px] the last ball has left when it is this far from its place
-CLEAN = 1e-9                        # of the striker's speed, momentum or energy
-SWITCH_AT = 300                     # the bot's step for two strikers
+ROW = 5  # balls that rest
+MIDDLE, LINE = 500.0, 72.0  # [px] middle of the row, height of the channel's axis
+LEFT, RIGHT = 14.0, 946.0  # [px] faces of the end walls
+FIRST = 60.0  # [px] of the first striker
+SPEED = 300.0  # [px/s] 5 px a step, less than the gap: one collision at a time
+ASIDE = 60.0  # [px] the last ball has left when it is this far from its place
+CLEAN = 1e-9  # of the striker's speed, momentum or energy
+SWITCH_AT = 300  # the bot's step for two strikers
 
 
 class Cradle(Scene):
@@ -52,8 +52,8 @@ class Cradle(Scene):
         """The channels; fill() lays the balls in."""
         self.yard = Yard((), 90)
         self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
-        self.results = {}            # (solver, strikers, gap) -> what the first pass gave
-        self.drift = {}              # the same -> the most that the energy was off, as a share
+        self.results = {}  # (solver, strikers, gap) -> what the first pass gave
+        self.drift = {}  # the same -> the most that the energy was off, as a share
         self.fill()
 
     def fill(self):
@@ -67,8 +67,9 @@ class Cradle(Scene):
                 world.add_body(Polygon.box(80, 60), position=(x, LINE), kind="static", material=ball)
             row = []
             for number in range(strikers):
-                body = world.add_body(Circle(RADIUS), position=(FIRST + number * pitch, LINE), velocity=(SPEED, 0.0),
-                                      material=ball)
+                body = world.add_body(
+                    Circle(RADIUS), position=(FIRST + number * pitch, LINE), velocity=(SPEED, 0.0), material=ball
+                )
                 row.append(cast.add(body, "striker_ball"))
             for number in range(ROW):
                 x = MIDDLE + (number - (ROW - 1) / 2) * pitch
@@ -78,7 +79,7 @@ class Cradle(Scene):
         self.goes_from = self.balls[0][-1].position[0]
         self.energy = [kinetic_energy(world) for world in self.worlds]
         self.momentum = [float((world.bodies["mass"] * world.bodies["vx"]).sum()) for world in self.worlds]
-        self.touched = False         # someone drags: the books are closed
+        self.touched = False  # someone drags: the books are closed
 
     def change_slider(self, name, value):
         """Lay in anew."""
@@ -151,8 +152,14 @@ class Cradle(Scene):
         canvas.text(f"{energy:.4f} %", 226, y, PAPER, SMALL, align="right")
         if key in self.results:
             clean = self.results[key][0] < 1e-6
-            canvas.text("as many leave as came" if clean else f"others move too, by {100 * self.results[key][0]:.1f} %",
-                        470, y, GREEN if clean else RED, SMALL, align="right")
+            canvas.text(
+                "as many leave as came" if clean else f"others move too, by {100 * self.results[key][0]:.1f} %",
+                470,
+                y,
+                GREEN if clean else RED,
+                SMALL,
+                align="right",
+            )
         else:
             canvas.text("not struck yet", 470, y, FOG, SMALL, align="right")
 
@@ -168,8 +175,11 @@ class Cradle(Scene):
                     end = x + way * 18 * frame.scale
                     tip = 3 * frame.scale * (1 if way > 0 else -1)
                     pygame.draw.line(frame.surface, faded(COLORS[SOLVERS[index]], 0.0), (x, y), (end, y), frame.scale)
-                    pygame.draw.polygon(frame.surface, COLORS[SOLVERS[index]],
-                                        [(end + tip, y), (end, y - abs(tip)), (end, y + abs(tip))])
+                    pygame.draw.polygon(
+                        frame.surface,
+                        COLORS[SOLVERS[index]],
+                        [(end + tip, y), (end, y - abs(tip)), (end, y + abs(tip))],
+                    )
 
     def check(self):
         """One in, one out; two in, two out; nothing lost."""
@@ -178,11 +188,23 @@ class Cradle(Scene):
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
                 wrong, momentum, energy = self.results.get((name, strikers, 8), (1.0, 1.0, 1.0))
                 goals.append(Goal(f"{name}: {strikers} in, {strikers} out", due, wrong < CLEAN, f"off by {wrong:.2e}"))
-                goals.append(Goal(f"{name}, {strikers}: momentum and energy stay", due, max(momentum, energy) < CLEAN,
-                                  f"{momentum:.2e}, {energy:.2e}"))
+                goals.append(
+                    Goal(
+                        f"{name}, {strikers}: momentum and energy stay",
+                        due,
+                        max(momentum, energy) < CLEAN,
+                        f"{momentum:.2e}, {energy:.2e}",
+                    )
+                )
             drift = self.drift.get((name, 1, 8), 1.0)
-            goals.append(Goal(f"{name}: with one striker energy stays for good, walls and all", SWITCH_AT, drift < CLEAN,
-                              f"{drift:.2e}"))
+            goals.append(
+                Goal(
+                    f"{name}: with one striker energy stays for good, walls and all",
+                    SWITCH_AT,
+                    drift < CLEAN,
+                    f"{drift:.2e}",
+                )
+            )
         return goals
 
     def bot(self):

@@ -8,7 +8,7 @@ import pygame
 from game.drawing.colors import FOG, INK, SLATE
 from game.drawing.draw import SMALL
 
-HISTORY = 150          # steps kept: 2.5 seconds
+HISTORY = 150  # steps kept: 2.5 seconds
 
 
 class Curves:
@@ -46,10 +46,12 @@ class Curves:
                 continue
             step = plot.width / (HISTORY - 1)
             x = plot.right - step * (len(values) - 1)
-            points = [(x + i * step, plot.bottom - plot.height * log10(value + 1.0) / decades)
-                      for i, value in enumerate(values)]
+            points = [
+                (x + i * step, plot.bottom - plot.height * log10(value + 1.0) / decades)
+                for i, value in enumerate(values)
+            ]
             pygame.draw.lines(surface, color, False, points, max(1, frame.scale - 1))
-        for decade in range(1, int(decades) + 1):            # over the curves
+        for decade in range(1, int(decades) + 1):  # over the curves
             y = plot.bottom - plot.height * decade / decades
             if y + 7 * scale <= rect.bottom:
                 frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)

@@ -20,21 +20,21 @@ from physics import Effects, Material, Polygon
 from scenes.lab.piles import SOLVERS
 from scenes.lab.yard import Yard, plate
 
-KEEPING = SOLVERS[1:]                # those that can hold a row of dominoes up
-SCALES = (1.0, 4.0)                  # of the two rows
-HEIGHT, THICK = 32.0, 6.0            # [px] of a domino of the first row
-DRAWN = 48.0                         # [canvas px] of every domino
+KEEPING = SOLVERS[1:]  # those that can hold a row of dominoes up
+SCALES = (1.0, 4.0)  # of the two rows
+HEIGHT, THICK = 32.0, 6.0  # [px] of a domino of the first row
+DRAWN = 48.0  # [canvas px] of every domino
 COLORS = (SKY, ORANGE)
-FLOORS = (104, 222)                  # [canvas px]
+FLOORS = (104, 222)  # [canvas px]
 VIEWS = ((0, 16, 480, 104), (0, 136, 480, 102))
-FIRST_X = 16.0                       # [canvas px] of the first domino
-ROOM = 424.0                         # [canvas px] for the row
-PUSH = 1.0                           # [sqrt(g h)] speed given to the first one's top
-PUSHED_AT = 30                       # the bot's step
+FIRST_X = 16.0  # [canvas px] of the first domino
+ROOM = 424.0  # [canvas px] for the row
+PUSH = 1.0  # [sqrt(g h)] speed given to the first one's top
+PUSHED_AT = 30  # the bot's step
 FELL = radians(60.0)
-PASSES = radians(12.0)               # the wave has reached a domino that leans this far
-SMOOTH, FLOOR = 0.05, 12.8           # friction of polished bone; of the table, so that feet grip it: sqrt(a * b) = 0.8
-STEADY = 4                           # the first dominoes and the last two are not timed: the wave has to find its speed
+PASSES = radians(12.0)  # the wave has reached a domino that leans this far
+SMOOTH, FLOOR = 0.05, 12.8  # friction of polished bone; of the table, so that feet grip it: sqrt(a * b) = 0.8
+STEADY = 4  # the first dominoes and the last two are not timed: the wave has to find its speed
 
 
 class Dominoes(Scene):
@@ -47,8 +47,11 @@ class Dominoes(Scene):
     pieces = ("boxes",)
     features = ("Froude's scaling measured: size x 4, speed x 2", "thin boxes that topple and come to rest leaning")
     solvers = KEEPING
-    sliders = (Slider("spacing", 45, 80, 60, "% of height", step=5), Slider("substeps", 1, 8, 4),
-               Slider("solver", 0, 1, 1, choices=KEEPING))
+    sliders = (
+        Slider("spacing", 45, 80, 60, "% of height", step=5),
+        Slider("substeps", 1, 8, 4),
+        Slider("solver", 0, 1, 1, choices=KEEPING),
+    )
     actions = (("Space", "push"), ("left right", "spacing"), ("up down", "substeps"))
     draggable = True
     legend_at = (190, 20)
@@ -56,7 +59,7 @@ class Dominoes(Scene):
     def build(self):
         """Two tables; fill() sets the rows up."""
         self.yard = Yard(FLOORS, 50, table=True)
-        if self.solver in KEEPING:          # named on the command line, or chosen before a restart
+        if self.solver in KEEPING:  # named on the command line, or chosen before a restart
             self.values["solver"] = KEEPING.index(self.solver)
         self.fill()
 
@@ -68,20 +71,30 @@ class Dominoes(Scene):
         count, zoom = int(ROOM / spacing * HEIGHT / DRAWN) + 1, DRAWN / HEIGHT
         for scale, view, floor in zip(SCALES, VIEWS, FLOORS, strict=True):
             world, cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
-            world.add_body(Polygon.box(600 * scale, 64 * scale), position=(120 * scale, 32 * scale), kind="static",
-                           material=Material(friction=FLOOR))
+            world.add_body(
+                Polygon.box(600 * scale, 64 * scale),
+                position=(120 * scale, 32 * scale),
+                kind="static",
+                material=Material(friction=FLOOR),
+            )
             shape = Polygon.box(THICK * scale, HEIGHT * scale)
-            row = [world.add_body(shape, position=((FIRST_X / zoom + n * spacing) * scale, -HEIGHT * scale / 2),
-                                  material=Material(friction=SMOOTH)) for n in range(count)]
+            row = [
+                world.add_body(
+                    shape,
+                    position=((FIRST_X / zoom + n * spacing) * scale, -HEIGHT * scale / 2),
+                    material=Material(friction=SMOOTH),
+                )
+                for n in range(count)
+            ]
             for number, body in enumerate(row):
                 cast.add(body, f"domino_{number * 7 % 4}")
             self.cameras.append(Camera(view, zoom / scale, y=-(floor - view[1]) * scale / zoom))
             self.casts.append(cast)
             self.rows.append(row)
         self.since = 0
-        self.pushed = None                             # step of the push
+        self.pushed = None  # step of the push
         self.leaned = [[0.0] * count for _ in SCALES]  # angles a step ago [rad]
-        self.passed = [[None] * count for _ in SCALES] # [steps] when the wave came by, between steps
+        self.passed = [[None] * count for _ in SCALES]  # [steps] when the wave came by, between steps
 
     def change_slider(self, name, value):
         """Set up anew."""
@@ -191,11 +204,19 @@ class Dominoes(Scene):
         angles = [[body.angle for body in row] for row in self.rows]
         least = min(min(row) for row in angles)
         return [
-            Goal("none falls before the push", PUSHED_AT, self.pushed is not None or least > -0.01,
-                 f"{degrees(least):.2f} deg"),
+            Goal(
+                "none falls before the push",
+                PUSHED_AT,
+                self.pushed is not None or least > -0.01,
+                f"{degrees(least):.2f} deg",
+            ),
             Goal("all are down by more than 60 degrees", 540, least > FELL, f"the least {degrees(least):.1f} deg"),
-            Goal("four times the size, twice the speed, within 2 %", 540, ratio is not None and abs(ratio - 2.0) < 0.04,
-                 f"{ratio:.4f}" if ratio else "not there yet"),
+            Goal(
+                "four times the size, twice the speed, within 2 %",
+                540,
+                ratio is not None and abs(ratio - 2.0) < 0.04,
+                f"{ratio:.4f}" if ratio else "not there yet",
+            ),
         ]
 
     def bot(self):

@@ -17,21 +17,21 @@ from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter
 
 KINDS = ("player", "enemy", "shot", "enemy shot", "wall", "pick-up")
-MEETS = {               # whom each kind says yes to, at the start
+MEETS = {  # whom each kind says yes to, at the start
     "player": ("enemy", "enemy shot", "wall", "pick-up"),
     "enemy": ("player", "shot", "wall"),
     "shot": ("enemy", "wall"),
     "enemy shot": ("player", "wall"),
-    "wall": ("player", "enemy", "shot", "enemy shot", "pick-up"),       # one-sided: pick-ups ignore walls
+    "wall": ("player", "enemy", "shot", "enemy shot", "pick-up"),  # one-sided: pick-ups ignore walls
     "pick-up": ("player",),
 }
 LEFT, TOP, CELL_WIDTH, CELL_HEIGHT = 72, 42, 40, 36
 RADIUS = 6.0
-APART, SWING = 15.0, 7.0       # [px] between the discs' centres: 8 to 22, touching at 12
-SLOP = 0.2                     # [px] a pair that touched may go on touching up to the physics' slop of 0.16 px
+APART, SWING = 15.0, 7.0  # [px] between the discs' centres: 8 to 22, touching at 12
+SLOP = 0.2  # [px] a pair that touched may go on touching up to the physics' slop of 0.16 px
 SIDE_X = 322
 CELLS = [(row, column) for row in range(len(KINDS)) for column in range(len(KINDS))]
-BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}        # frame: cell
+BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
 class Filters(Scene):
@@ -159,12 +159,19 @@ class Filters(Scene):
         row, column = self.marked
         own, other = self.says_yes(row, column), self.says_yes(column, row)
         lines = [
-            (KINDS[row], SERIES[row], TEXT), (f"member {bits(1 << row)}", FOG, SMALL),
-            (f"mask   {bits(self.masks[row])}", PAPER, SMALL), ("", FOG, SMALL),
-            (KINDS[column], SERIES[column], TEXT), (f"member {bits(1 << column)}", FOG, SMALL),
-            (f"mask   {bits(self.masks[column])}", PAPER, SMALL), ("", FOG, SMALL),
-            ("they meet" if own and other else "one yes is not enough" if own or other else "they pass",
-             GREEN if own and other else YELLOW if own or other else RED, TEXT),
+            (KINDS[row], SERIES[row], TEXT),
+            (f"member {bits(1 << row)}", FOG, SMALL),
+            (f"mask   {bits(self.masks[row])}", PAPER, SMALL),
+            ("", FOG, SMALL),
+            (KINDS[column], SERIES[column], TEXT),
+            (f"member {bits(1 << column)}", FOG, SMALL),
+            (f"mask   {bits(self.masks[column])}", PAPER, SMALL),
+            ("", FOG, SMALL),
+            (
+                "they meet" if own and other else "one yes is not enough" if own or other else "they pass",
+                GREEN if own and other else YELLOW if own or other else RED,
+                TEXT,
+            ),
         ]
         y = TOP
         for text, color, font in lines:
@@ -172,8 +179,11 @@ class Filters(Scene):
                 canvas.text(text, SIDE_X, y, color, font)
             y += 13 if font == TEXT else 9
         counters = self.world.profile.counters
-        for name, value in (("filtered", counters["filtered"]), ("candidates", counters["candidates"]),
-                            ("touching", int(self.touching.sum()))):
+        for name, value in (
+            ("filtered", counters["filtered"]),
+            ("candidates", counters["candidates"]),
+            ("touching", int(self.touching.sum())),
+        ):
             y += 11
             canvas.text(name, SIDE_X, y, FOG, SMALL)
             canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
@@ -181,8 +191,12 @@ class Filters(Scene):
     def check(self):
         """Nobody touches whom it may not, and a click changes who may."""
         return [
-            Goal("contacts are those both sides allow", 120, self.steps > 0 and self.wrong == 0,
-                 f"{self.wrong} wrong in {self.steps} steps"),
+            Goal(
+                "contacts are those both sides allow",
+                120,
+                self.steps > 0 and self.wrong == 0,
+                f"{self.wrong} wrong in {self.steps} steps",
+            ),
             Goal("pairs are filtered", 120, self.filtered > 0, f"{self.filtered}"),
             Goal("allowed pairs touch", 120, self.met > 0, f"{self.met}"),
             Goal("a click changes a mask", 240, self.clicks >= 3, f"{self.clicks} clicks"),

@@ -22,21 +22,24 @@ from scenes.lab.pieces import piece
 FLOORS = ("boxes", "tiles", "chain")
 TITLES = {"boxes": "separate boxes", "tiles": "one grid of tiles", "chain": "one chain"}
 COLORS = {"boxes": RED, "tiles": SKY, "chain": GREEN}
-TILE, LENGTH = 16, 260               # [px] of a tile; tiles of a floor
-FLOOR_Y = 54.0                       # [px] the floor's surface in a view
-KINDS = {"box": (Polygon.box(14, 14), "wood", 7.0), "disc": (Circle(7.0), "gold", 7.0),
-         "capsule": (Capsule((-7, 0), (7, 0), 5.0), "teal", 5.0)}      # shape, colours, height of the middle
-START_X = {"box": 210.0, "disc": 130.0, "capsule": 50.0}       # [px]: side by side they would hide each other
+TILE, LENGTH = 16, 260  # [px] of a tile; tiles of a floor
+FLOOR_Y = 54.0  # [px] the floor's surface in a view
+KINDS = {
+    "box": (Polygon.box(14, 14), "wood", 7.0),
+    "disc": (Circle(7.0), "gold", 7.0),
+    "capsule": (Capsule((-7, 0), (7, 0), 5.0), "teal", 5.0),
+}  # shape, colours, height of the middle
+START_X = {"box": 210.0, "disc": 130.0, "capsule": 50.0}  # [px]: side by side they would hide each other
 GROUND = Filter(membership=1)
 VIEWS = tuple((4, 32 + 80 * lane, 308, 70) for lane in range(len(FLOORS)))
-LOST = 40.0                          # [px] a slider this far from its place is set back to it
-WANTED = 200                         # tiles to slide over before the floors are judged
-KEEPS = 1e-9                         # of the speed: what merged floors may cost
-FELT = 1e-3                          # of the speed: a seam that can be felt
-HISTORY = 200                        # steps in the curves
-LEAST = 1e-16                        # errors below are drawn at the bottom
+LOST = 40.0  # [px] a slider this far from its place is set back to it
+WANTED = 200  # tiles to slide over before the floors are judged
+KEEPS = 1e-9  # of the speed: what merged floors may cost
+FELT = 1e-3  # of the speed: a seam that can be felt
+HISTORY = 200  # steps in the curves
+LEAST = 1e-16  # errors below are drawn at the bottom
 PLOTS = (("speed error [log]", (318, 24, 158, 104)), ("height off the floor [px]", (318, 134, 158, 80)))
-HEIGHT_TOP = 4.0                     # [px] top of the lower curve
+HEIGHT_TOP = 4.0  # [px] top of the lower curve
 
 
 class GhostBumps(Scene):
@@ -63,7 +66,7 @@ class GhostBumps(Scene):
         self.tiles = load_atlas("tiles")
         pictures = {kind: piece(shape, ramp) for kind, (shape, ramp, _) in KINDS.items()}
         self.casts = [Cast(pictures) for _ in FLOORS]
-        self.curves = {floor: deque(maxlen=HISTORY) for floor in FLOORS}     # (speed error, height), only seen
+        self.curves = {floor: deque(maxlen=HISTORY) for floor in FLOORS}  # (speed error, height), only seen
         self.sliding = [{} for _ in FLOORS]
         for index, world in enumerate(self.worlds):
             for number, (kind, (shape, _, _)) in enumerate(KINDS.items()):
@@ -75,13 +78,13 @@ class GhostBumps(Scene):
     def launch(self):
         """All sliders at their starts, and the tallies at nothing."""
         keys = [(floor, kind) for floor in FLOORS for kind in KINDS]
-        self.slowed = dict.fromkeys(keys, 0.0)       # largest speed error, as a share
-        self.raised = dict.fromkeys(keys, 0.0)       # largest height off the floor [px]
-        self.aloft = dict.fromkeys(keys, 0)          # steps without a contact
+        self.slowed = dict.fromkeys(keys, 0.0)  # largest speed error, as a share
+        self.raised = dict.fromkeys(keys, 0.0)  # largest height off the floor [px]
+        self.aloft = dict.fromkeys(keys, 0)  # steps without a contact
         self.set_back = dict.fromkeys(keys, 0)
-        self.free = dict.fromkeys(keys, False)       # dragged: no longer judged in this run
+        self.free = dict.fromkeys(keys, False)  # dragged: no longer judged in this run
         self.run = 0
-        self.nominal = 0.0                           # [px] that a slider should have come
+        self.nominal = 0.0  # [px] that a slider should have come
         for index in range(len(FLOORS)):
             for kind in KINDS:
                 self._put(index, kind)
@@ -218,26 +221,42 @@ class GhostBumps(Scene):
                 if len(values) > 1:
                     step = plot.width / (HISTORY - 1)
                     x = plot.right - step * (len(values) - 1)
-                    points = [(x + i * step, plot.bottom - 1 - (plot.height - 2) * share(number, value))
-                              for i, value in enumerate(values)]
+                    points = [
+                        (x + i * step, plot.bottom - 1 - (plot.height - 2) * share(number, value))
+                        for i, value in enumerate(values)
+                    ]
                     pygame.draw.lines(frame.surface, COLORS[floor], False, points, max(1, frame.scale - 1))
-            for value, text in marks:            # over the curves
+            for value, text in marks:  # over the curves
                 y = plot.bottom - plot.height * share(number, value)
                 frame.text_if_free(text, plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
 
     def check(self):
         """Seams are felt where nobody merges them, and nowhere else."""
         felt = max(self.slowed["boxes", kind] for kind in KINDS)
-        goals = [Goal("the seams of separate boxes are felt", 300, felt > FELT,
-                      ", ".join(f"{kind} {self.slowed['boxes', kind]:.1e}" for kind in KINDS))]
+        goals = [
+            Goal(
+                "the seams of separate boxes are felt",
+                300,
+                felt > FELT,
+                ", ".join(f"{kind} {self.slowed['boxes', kind]:.1e}" for kind in KINDS),
+            )
+        ]
         for floor in FLOORS[1:]:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
             aloft, raised = (max(tally[floor, kind] for kind in KINDS) for tally in (self.aloft, self.raised))
             goals += [
-                Goal(f"no speed is lost on the {floor}", 590, self.run >= WANTED and worst <= KEEPS,
-                     f"{worst:.1e} after {self.run} tiles"),
-                Goal(f"nothing leaves the {floor}", 590, self.run >= WANTED and aloft == 0 and raised < 0.1,
-                     f"{aloft} steps aloft, {raised:.3f} px high"),
+                Goal(
+                    f"no speed is lost on the {floor}",
+                    590,
+                    self.run >= WANTED and worst <= KEEPS,
+                    f"{worst:.1e} after {self.run} tiles",
+                ),
+                Goal(
+                    f"nothing leaves the {floor}",
+                    590,
+                    self.run >= WANTED and aloft == 0 and raised < 0.1,
+                    f"{aloft} steps aloft, {raised:.3f} px high",
+                ),
             ]
         return goals
 
@@ -248,7 +267,13 @@ class GhostBumps(Scene):
     def state(self):
         """The tallies; the worlds hold the sliders."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
-        return (self.frame, self.values["speed"], self.run, self.nominal, *(v for tally in tallies for v in tally.values()))
+        return (
+            self.frame,
+            self.values["speed"],
+            self.run,
+            self.nominal,
+            *(v for tally in tallies for v in tally.values()),
+        )
 
 
 def lay_floor(world, floor):

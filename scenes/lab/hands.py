@@ -2,9 +2,9 @@
 
 from math import pi
 
-TURN_NOTCH = 2 * pi / 64       # [rad] per wheel notch
-TURN_SPEED = 1.2               # [rad/s] with the keys
-MOVE_SPEED = 70.0              # [px/s] with the keys
+TURN_NOTCH = 2 * pi / 64  # [rad] per wheel notch
+TURN_SPEED = 1.2  # [rad/s] with the keys
+MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:

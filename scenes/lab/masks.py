@@ -20,9 +20,9 @@ from scenes.lab.hands import Hands
 SPRITES = ("large_plane_a", "large_plane_b")
 ARENA = pygame.Rect(0, 16, 316, 254)
 START = ((90.0, 150.0, 0.0), (226.0, 150.0, 0.6))
-MARGIN = 20                    # [px] that a plane's middle keeps from the arena's edge
-COPIES = 24                    # pairs off screen per tier: one pair alone would measure the call, not the test
-SPREAD = 1000.0                # [px] between copies: far beyond the reach of a plane
+MARGIN = 20  # [px] that a plane's middle keeps from the arena's edge
+COPIES = 24  # pairs off screen per tier: one pair alone would measure the call, not the test
+SPREAD = 1000.0  # [px] between copies: far beyond the reach of a plane
 COLORS = {"circle": ORANGE, "aabb": GREEN, "obb": SKY, "pixels": YELLOW}
 NAMES = {"circle": "circle", "aabb": "box", "obb": "turned box", "pixels": "pixels"}
 ROWS = ("circle", "aabb", "obb", "pixels")
@@ -30,7 +30,7 @@ TABLE_X, TABLE_Y, ROW_HEIGHT, BAR_WIDTH = 324, 34, 40, 148
 WORDS = ("Drag a plane, turn it with the wheel.", "Cheap shapes say hit where sky", "is all that meets.")
 WORDS_Y = 240
 BOT_PATH = ((90, 150), (90, 60), (150, 84), (226, 150), (150, 216), (90, 150))
-BOT_LEG = 50                   # steps per leg of the bot's path
+BOT_LEG = 50  # steps per leg of the bot's path
 
 
 class Masks(Scene):
@@ -39,12 +39,20 @@ class Masks(Scene):
     name = "lab/masks"
     title = "Masks"
     about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
-    effects = Effects(response=True)       # for area, normal and depth; kinematic planes are pushed by nobody
+    effects = Effects(response=True)  # for area, normal and depth; kinematic planes are pushed by nobody
     pieces = ("masks", "boxes", "circles")
-    features = ("pixel masks by bitwise AND, as drawn, at any angle", "bounds, circle and turned box beside them",
-                "what each verdict costs")
-    actions = (("mouse", "drag"), ("wheel", "turn"), ("arrows", "move"), ("Shift+arrows", "turn"),
-               ("Space", "other plane"))
+    features = (
+        "pixel masks by bitwise AND, as drawn, at any angle",
+        "bounds, circle and turned box beside them",
+        "what each verdict costs",
+    )
+    actions = (
+        ("mouse", "drag"),
+        ("wheel", "turn"),
+        ("arrows", "move"),
+        ("Shift+arrows", "turn"),
+        ("Space", "other plane"),
+    )
     overlays = ("masks", "contacts")
     legend_at = (324, 196)
     hides_pointer = False
@@ -62,7 +70,7 @@ class Masks(Scene):
             self.timed[tier] = self._world(tier, COPIES)
         self.cost = dict.fromkeys(ROWS, 0.0)
         self.verdicts = dict.fromkeys(ROWS, False)
-        self.lies = dict.fromkeys(ROWS, 0)       # steps in which a tier said hit and the pixels did not
+        self.lies = dict.fromkeys(ROWS, 0)  # steps in which a tier said hit and the pixels did not
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def _world(self, tier, pairs):
@@ -141,8 +149,9 @@ class Masks(Scene):
         canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
         canvas.surface.fill(color, (box.x, box.y, 2, box.height))
         canvas.text(NAMES[tier], TABLE_X + 2, y, color)
-        canvas.text("HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center",
-                    outline=verdict)
+        canvas.text(
+            "HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center", outline=verdict
+        )
         cost = self.cost[tier]
         canvas.text(f"{cost:.2f} us" if cost < 100 else f"{cost:,.0f} us", 474, y, PAPER, align="right")
         canvas.text(self._remark(tier), TABLE_X + 2, y + 13, PAPER, SMALL)
@@ -182,12 +191,23 @@ class Masks(Scene):
     def check(self):
         """The pixels are right in every step, and each cheap shape was caught lying."""
         return [
-            Goal("the pixel verdict equals a slow count", 60, self.steps > 0 and self.wrong == 0,
-                 f"{self.wrong} of {self.steps} steps differ"),
+            Goal(
+                "the pixel verdict equals a slow count",
+                60,
+                self.steps > 0 and self.wrong == 0,
+                f"{self.wrong} of {self.steps} steps differ",
+            ),
             Goal("planes seen apart", 240, self.apart > 0, f"{self.apart} steps"),
             Goal("planes seen hitting", 240, self.hits > 0, f"{self.hits} steps"),
-            *(Goal(f"the {NAMES[tier]} says hit where no pixel is shared", 300, self.lies[tier] > 0,
-                   f"{self.lies[tier]} steps") for tier in ("circle", "aabb", "obb")),
+            *(
+                Goal(
+                    f"the {NAMES[tier]} says hit where no pixel is shared",
+                    300,
+                    self.lies[tier] > 0,
+                    f"{self.lies[tier]} steps",
+                )
+                for tier in ("circle", "aabb", "obb")
+            ),
         ]
 
     def bot(self):

@@ -20,27 +20,43 @@ from physics import Character, Circle, Effects, Material, Polygon, TileGrid
 from scenes.lab.pieces import piece
 
 TILE, COLUMNS, ROWS = 16, 30, 17
-FLOOR = 15                                       # row of the floor
-PLANKS = {                                       # name: (row, first column, last column)
-    "low": (11, 1, 5), "middle": (8, 3, 8), "high": (5, 1, 7), "tower": (11, 11, 18), "roof": (7, 12, 17),
+FLOOR = 15  # row of the floor
+PLANKS = {  # name: (row, first column, last column)
+    "low": (11, 1, 5),
+    "middle": (8, 3, 8),
+    "high": (5, 1, 7),
+    "tower": (11, 11, 18),
+    "roof": (7, 12, 17),
 }
-SPRINGS = (192.0, 240.0, 288.0)                  # [px] where bodies are thrown from
-KINDS = {"crate": (Polygon.box(16, 16), None), "ball": (Circle(7.0), "gold"),
-         "nut": (Polygon([(8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6)]), "violet")}
-BRAKED = Material(rolling_resistance=0.1)         # balls come to rest on a plank
-THROWS = (238.0, 306.0)                          # [px/s] up to the first plank, and up to the roof
-MOST = 9                                         # bodies at once; the oldest leaves
-REST_SPEED, REST_STEPS = 8.0, 20                 # slower than this for so long counts as landed
-HERO_BOX = (10, 20)                              # [px]
+SPRINGS = (192.0, 240.0, 288.0)  # [px] where bodies are thrown from
+KINDS = {
+    "crate": (Polygon.box(16, 16), None),
+    "ball": (Circle(7.0), "gold"),
+    "nut": (Polygon([(8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6)]), "violet"),
+}
+BRAKED = Material(rolling_resistance=0.1)  # balls come to rest on a plank
+THROWS = (238.0, 306.0)  # [px/s] up to the first plank, and up to the roof
+MOST = 9  # bodies at once; the oldest leaves
+REST_SPEED, REST_STEPS = 8.0, 20  # slower than this for so long counts as landed
+HERO_BOX = (10, 20)  # [px]
 WALKER_BOX = (16, 13)
-RUN, JUMP, HERO_GRAVITY, FALL = 110.0, 380.0, 900.0, 360.0     # [px/s], [px/s2]
+RUN, JUMP, HERO_GRAVITY, FALL = 110.0, 380.0, 900.0, 360.0  # [px/s], [px/s2]
 LIFT_AT, LIFT_SIZE = (396.0, 178.0), (56, 16)
-LIFT_WAY = (34.0, 34.0)                          # [px] swing along x and y
-RIDERS = (-15.0, 15.0)                           # [px] crate and walker from the lift's middle
-SETTLED = 60                                     # steps until riders count as riding
+LIFT_WAY = (34.0, 34.0)  # [px] swing along x and y
+RIDERS = (-15.0, 15.0)  # [px] crate and walker from the lift's middle
+SETTLED = 60  # steps until riders count as riding
 DUST = ((240, 226, 210), (180, 160, 150), (110, 96, 110))
-BOT = ((20, 44, "jump"), (60, 84, "jump right"), (84, 110, "right"), (140, 150, "jump left"), (150, 172, "left jump"),
-       (215, 218, "down jump"), (260, 262, "down jump"), (300, 330, "right"), (330, 352, "jump left"))
+BOT = (
+    (20, 44, "jump"),
+    (60, 84, "jump right"),
+    (84, 110, "right"),
+    (140, 150, "jump left"),
+    (150, 172, "left jump"),
+    (215, 218, "down jump"),
+    (260, 262, "down jump"),
+    (300, 330, "right"),
+    (330, 352, "jump left"),
+)
 
 
 class OneWay(Scene):
@@ -51,8 +67,11 @@ class OneWay(Scene):
     about = "Crates and the hero pass the same planks from below, land on them, and ride the same lift."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, one_way=True)
     pieces = ("tiles", "boxes", "circles", "queries", "characters")
-    features = ("one-way tiles for solver bodies and characters", "a kinematic lift carries both",
-                "the hero pushes crates and stands on them")
+    features = (
+        "one-way tiles for solver bodies and characters",
+        "a kinematic lift carries both",
+        "the hero pushes crates and stands on them",
+    )
     sliders = (Slider("throw every", 20, 120, 35, "steps", step=5), Slider("lift", 0.0, 2.0, 1.0, step=0.25))
     actions = (("left right", "run"), ("Space", "jump"), ("down+Space", "drop"))
     draggable = True
@@ -69,23 +88,25 @@ class OneWay(Scene):
         self.world.add_body(level(), kind="static")
         self.hero = Character(self.world, Polygon.box(*HERO_BOX), (48.0, FLOOR * TILE - HERO_BOX[1] / 2), user="hero")
         self.vy, self.grounded, self.facing, self.run = 0.0, True, 1, 0.0
-        self.clock = 0.0                             # [steps] of the lift
+        self.clock = 0.0  # [steps] of the lift
         self.lift = self.world.add_body(Polygon.box(*LIFT_SIZE), position=lift_at(0.0), kind="kinematic")
         x, y = lift_at(0.0)
         top = y - LIFT_SIZE[1] / 2
         self.rider = self.world.add_body(KINDS["crate"][0], position=(x + RIDERS[0], top - 8.0))
         self.cast.add(self.rider, "crate")
-        self.walker = Character(self.world, Polygon.box(*WALKER_BOX), (x + RIDERS[1], top - WALKER_BOX[1] / 2), user="walker")
+        self.walker = Character(
+            self.world, Polygon.box(*WALKER_BOX), (x + RIDERS[1], top - WALKER_BOX[1] / 2), user="walker"
+        )
         self.walker_vy = 0.0
-        self.thrown = {}                             # body id -> [was below, steps at rest, planks landed on]
+        self.thrown = {}  # body id -> [was below, steps at rest, planks landed on]
         self.throws = 0
         self.passed = {"body": 0, "hero": 0}
         self.landed = {"body": 0, "hero": 0}
-        self.hero_through = None                     # the plank he came through and did not land on yet
-        self.offsets = None                          # where the riders stood when they had settled
+        self.hero_through = None  # the plank he came through and did not land on yet
+        self.offsets = None  # where the riders stood when they had settled
         self.slip = {"crate": 0.0, "walker": 0.0}
-        self.carried = 0.0                           # [px] way of the lift since then
-        self.disturbed = False                       # a rider was dragged
+        self.carried = 0.0  # [px] way of the lift since then
+        self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
         """Another swing of the lift: its riders settle again."""
@@ -113,10 +134,13 @@ class OneWay(Scene):
         self.throws += 1
         found = self.world.query_aabb((x - 12.0, FLOOR * TILE - 28.0), (x + 12.0, FLOOR * TILE - 2.0))
         if any(body.kind == "dynamic" for body in found):
-            return                                   # something lies on the spring
+            return  # something lies on the spring
         body = self.world.add_body(
-            KINDS[kind][0], position=(x, FLOOR * TILE - 14.0), velocity=(self.random.uniform(-9.0, 9.0), -speed),
-            angular_velocity=self.random.uniform(-1.5, 1.5), material=BRAKED,
+            KINDS[kind][0],
+            position=(x, FLOOR * TILE - 14.0),
+            velocity=(self.random.uniform(-9.0, 9.0), -speed),
+            angular_velocity=self.random.uniform(-1.5, 1.5),
+            material=BRAKED,
         )
         self.cast.add(body, kind)
         self.thrown[body.id] = [dict.fromkeys(PLANKS, True), 0, set()]
@@ -259,7 +283,9 @@ class OneWay(Scene):
         px, py = self.walker.previous
         x, y = self.walker.position
         image = self.things.animation("walker").images[0]
-        canvas.surface.blit(image, (whole(x) - image.get_width() // 2, whole(y + WALKER_BOX[1] / 2) - image.get_height()))
+        canvas.surface.blit(
+            image, (whole(x) - image.get_width() // 2, whole(y + WALKER_BOX[1] / 2) - image.get_height())
+        )
 
     def _runs(self):
         return abs(self.hero.position[0] - self.hero.previous[0]) > 0.4
@@ -270,9 +296,11 @@ class OneWay(Scene):
         canvas.text("ONE-WAY PLATFORMS", 4, 4, GOLD)
         x = 474
         good = max(self.slip.values()) < 2.0
-        for text, color in ((f"lift slips {max(self.slip.values()):.1f} px", GREEN if good else RED),
-                            (f"hero {self.passed['hero']} up {self.landed['hero']} landed", PAPER),
-                            (f"bodies {self.passed['body']} up {self.landed['body']} landed", FOG)):
+        for text, color in (
+            (f"lift slips {max(self.slip.values()):.1f} px", GREEN if good else RED),
+            (f"hero {self.passed['hero']} up {self.landed['hero']} landed", PAPER),
+            (f"bodies {self.passed['body']} up {self.landed['body']} landed", FOG),
+        ):
             x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
 
     def check(self):
@@ -282,8 +310,12 @@ class OneWay(Scene):
             Goal("bodies land on planks", 600, self.landed["body"] >= 3, f"{self.landed['body']} times"),
             Goal("the hero comes through from below", 240, self.passed["hero"] >= 3, f"{self.passed['hero']} times"),
             Goal("the hero lands on planks", 240, self.landed["hero"] >= 3, f"{self.landed['hero']} times"),
-            Goal("the lift carries crate and walker", 400, self.carried > 200.0 and max(self.slip.values()) < 2.0,
-                 f"{self.slip['crate']:.2f} px and {self.slip['walker']:.2f} px in {self.carried:.0f} px"),
+            Goal(
+                "the lift carries crate and walker",
+                400,
+                self.carried > 200.0 and max(self.slip.values()) < 2.0,
+                f"{self.slip['crate']:.2f} px and {self.slip['walker']:.2f} px in {self.carried:.0f} px",
+            ),
         ]
 
     def bot(self):
@@ -294,8 +326,19 @@ class OneWay(Scene):
 
     def state(self):
         """The hero and the tallies; the world holds the rest."""
-        return (self.frame, *self.values.values(), self.vy, self.grounded, self.walker_vy, self.clock, self.throws,
-                *self.passed.values(), *self.landed.values(), *self.slip.values(), self.carried)
+        return (
+            self.frame,
+            *self.values.values(),
+            self.vy,
+            self.grounded,
+            self.walker_vy,
+            self.clock,
+            self.throws,
+            *self.passed.values(),
+            *self.landed.values(),
+            *self.slip.values(),
+            self.carried,
+        )
 
 
 def level():

@@ -13,7 +13,7 @@ from game.drawing.colors import INK
 from game.drawing.turned import TurnedPicture
 from physics import Capsule, Circle
 
-OUTLINE, RIM = 1.0, 2.6         # [px] inwards from the edge
+OUTLINE, RIM = 1.0, 2.6  # [px] inwards from the edge
 # rim, inside, inside where dithered, mark
 RAMPS = {
     "wood": ((246, 196, 120), (196, 128, 74), (168, 102, 66), (122, 70, 54)),
@@ -53,7 +53,7 @@ def piece(shape, ramp, marked=True):
     pygame.surfarray.blit_array(image, colors)
     alpha = pygame.surfarray.pixels_alpha(image)
     alpha[:] = np.where(depth > 0.0, 255, 0)
-    del alpha                   # unlocks the surface
+    del alpha  # unlocks the surface
     return image
 
 

@@ -16,8 +16,9 @@ def kinetic_energy(world):
     """Of all moving bodies, turning included [mass px2/s2]."""
     bodies = world.bodies
     inertia = bodies["inertia"] if world.effects.rotation else 0.0
-    return 0.5 * float(np.sum(bodies["mass"] * (bodies["vx"] ** 2 + bodies["vy"] ** 2)
-                              + inertia * bodies["angular_velocity"] ** 2))
+    return 0.5 * float(
+        np.sum(bodies["mass"] * (bodies["vx"] ** 2 + bodies["vy"] ** 2) + inertia * bodies["angular_velocity"] ** 2)
+    )
 
 
 def height_energy(world):

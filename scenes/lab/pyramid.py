@@ -18,17 +18,17 @@ from scenes.lab.curves import Curves
 from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds
 from scenes.lab.yard import Yard, plate
 
-SIZE = 32.0                         # [px] a crate of one metre
-LOOKS = ((9, 24), (14, 16), (20, 11))       # up to so many rows, crates are drawn that large [canvas px]
-FLOOR = 248                         # [canvas px]
-MIDDLE = 300                        # [canvas px] the pyramid's axis
-GAP = 0.02                          # of a crate, between neighbours in a row
-BALL = 20                           # [canvas px] radius of the ball's picture
-BALL_FROM = (160, 26)                # [canvas px] in the view
+SIZE = 32.0  # [px] a crate of one metre
+LOOKS = ((9, 24), (14, 16), (20, 11))  # up to so many rows, crates are drawn that large [canvas px]
+FLOOR = 248  # [canvas px]
+MIDDLE = 300  # [canvas px] the pyramid's axis
+GAP = 0.02  # of a crate, between neighbours in a row
+BALL = 20  # [canvas px] radius of the ball's picture
+BALL_FROM = (160, 26)  # [canvas px] in the view
 BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] at which it is thrown
-DROP_AT = 330                       # the bot's step
-JUDGED_AT = 300                     # step at which the pyramid has to have stood still
-ENERGY_SLACK = 0.001                # of the height energy
+DROP_AT = 330  # the bot's step
+JUDGED_AT = 300  # step at which the pyramid has to have stood still
+ENERGY_SLACK = 0.001  # of the height energy
 PLOTS = (("microseconds a step [log]", 108), ("overlap, 1/1000 crate [log]", 160))
 
 
@@ -40,8 +40,11 @@ class Pyramid(Scene):
     about = "Up to 210 crates in a pyramid: overlap, speed, energy and milliseconds, and a ball to knock it down."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes", "circles")
-    features = ("soft step with substeps, against the other solvers", "overlap, energy and cost measured live",
-                "a heavy ball to knock it down")
+    features = (
+        "soft step with substeps, against the other solvers",
+        "overlap, energy and cost measured live",
+        "a heavy ball to knock it down",
+    )
     solvers = SOLVERS
     sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 2, choices=SOLVERS))
     actions = (("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
@@ -52,7 +55,7 @@ class Pyramid(Scene):
         """The yard and the curves; fill() raises the pyramid."""
         self.yard = Yard(FLOOR)
         self.curves = [Curves(title, {title: color}) for (title, _), color in zip(PLOTS, (SKY, GOLD), strict=True)]
-        if self.solver in SOLVERS:          # named on the command line, or chosen before a restart
+        if self.solver in SOLVERS:  # named on the command line, or chosen before a restart
             self.values["solver"] = SOLVERS.index(self.solver)
         self.balls = 0
         self.fill()
@@ -76,9 +79,9 @@ class Pyramid(Scene):
         self.crates = rows * (rows + 1) // 2
         self.since = 0
         self.thrown = None
-        self.quiet = 0.0             # fastest crate in the second before it is judged [px/s]
-        self.still = None            # where the top stood when it was judged, or None
-        self.deepest = 0.0           # overlap in that second [px]
+        self.quiet = 0.0  # fastest crate in the second before it is judged [px/s]
+        self.still = None  # where the top stood when it was judged, or None
+        self.deepest = 0.0  # overlap in that second [px]
         self.energy = self.start_energy = height_energy(world)
         self.most_energy = self.energy
 
@@ -117,8 +120,9 @@ class Pyramid(Scene):
         radius = BALL / self.camera.zoom
         start = (self.camera.x + BALL_FROM[0] / self.camera.zoom, self.camera.y + BALL_FROM[1] / self.camera.zoom)
         material = Material(density=BALL_DENSITY, friction=0.6)
-        self.thrown = self.world.add_body(Circle(radius), position=start, material=material,
-                                          velocity=(BALL_SPEED * SIZE, 0.0))
+        self.thrown = self.world.add_body(
+            Circle(radius), position=start, material=material, velocity=(BALL_SPEED * SIZE, 0.0)
+        )
         self.cast.add(self.thrown, "iron_ball")
         self.balls += 1
         self.play("land")
@@ -145,10 +149,15 @@ class Pyramid(Scene):
         canvas.text(f"{self.crates} crates", 10, 26, GOLD)
         spent = self.curves[0].smooth.get(PLOTS[0][0], 0.0) / 1000.0
         change = 100.0 * (self.energy - self.start_energy) / abs(self.start_energy)
-        rows = (("solver", SOLVER_WORDS[solver]), ("substeps", f"{self.values['substeps']}"),
-                ("a step", f"{spent:.2f} ms"), ("contacts", f"{len(self.world.contacts)}"),
-                ("overlap", f"{100 * deepest(self.world) / SIZE:.2f} %"),
-                ("fastest", f"{fastest(self.world) / SIZE:.3f} m/s"), ("energy", f"{change:+.3f} %"))
+        rows = (
+            ("solver", SOLVER_WORDS[solver]),
+            ("substeps", f"{self.values['substeps']}"),
+            ("a step", f"{spent:.2f} ms"),
+            ("contacts", f"{len(self.world.contacts)}"),
+            ("overlap", f"{100 * deepest(self.world) / SIZE:.2f} %"),
+            ("fastest", f"{fastest(self.world) / SIZE:.3f} m/s"),
+            ("energy", f"{change:+.3f} %"),
+        )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 38 + number * 9, FOG, SMALL)
             canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
@@ -172,15 +181,31 @@ class Pyramid(Scene):
         gained = (self.most_energy - self.start_energy) / abs(self.start_energy)
         moved = self.top.position[1] + (rows - 0.5) * SIZE if self.thrown else 0.0
         return [
-            Goal("nothing moves by more than a twentieth of a crate a second", JUDGED_AT,
-                 self.still is not None and self.quiet < SIZE / 20, f"{self.quiet / SIZE:.4f} crates/s"),
-            Goal("the top is where it was built", JUDGED_AT, sunk < 0.05 and aside < 0.05,
-                 f"{sunk:.4f} crates lower, {aside:.4f} aside"),
-            Goal("no overlap beyond a fiftieth of a crate", JUDGED_AT,
-                 self.still is not None and self.deepest < SIZE / 50, f"{self.deepest / SIZE:.4f} crates"),
+            Goal(
+                "nothing moves by more than a twentieth of a crate a second",
+                JUDGED_AT,
+                self.still is not None and self.quiet < SIZE / 20,
+                f"{self.quiet / SIZE:.4f} crates/s",
+            ),
+            Goal(
+                "the top is where it was built",
+                JUDGED_AT,
+                sunk < 0.05 and aside < 0.05,
+                f"{sunk:.4f} crates lower, {aside:.4f} aside",
+            ),
+            Goal(
+                "no overlap beyond a fiftieth of a crate",
+                JUDGED_AT,
+                self.still is not None and self.deepest < SIZE / 50,
+                f"{self.deepest / SIZE:.4f} crates",
+            ),
             Goal("standing adds no energy", JUDGED_AT, gained < ENERGY_SLACK, f"{gained:+.6f}"),
-            Goal("the ball knocks the top down", 560, self.thrown is not None and moved > 2 * SIZE,
-                 f"{moved / SIZE:.1f} crates"),
+            Goal(
+                "the ball knocks the top down",
+                560,
+                self.thrown is not None and moved > 2 * SIZE,
+                f"{moved / SIZE:.1f} crates",
+            ),
         ]
 
     def bot(self):
@@ -190,5 +215,15 @@ class Pyramid(Scene):
     def state(self):
         """The measurements; the world holds the rest."""
         x, y = self.still or (0.0, 0.0)
-        return (self.frame, self.since, *self.values.values(), self.balls, self.quiet, self.deepest, self.energy,
-                self.most_energy, x, y)
+        return (
+            self.frame,
+            self.since,
+            *self.values.values(),
+            self.balls,
+            self.quiet,
+            self.deepest,
+            self.energy,
+            self.most_energy,
+            x,
+            y,
+        )

@@ -18,24 +18,26 @@ from game.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter, Polygon
 
-ZONES = {                                  # name: (width, height) [px], middle at the start, colour
-    "field": ((64.0, 118.0), (92.0, 94.0), SKY), "drifter": ((44.0, 56.0), (214.0, 94.0), GREEN),
-    "beam": ((1.0, 118.0), (318.0, 94.0), YELLOW), "scanner": ((2.0, 62.0), (60.0, 213.0), PINK),
+ZONES = {  # name: (width, height) [px], middle at the start, colour
+    "field": ((64.0, 118.0), (92.0, 94.0), SKY),
+    "drifter": ((44.0, 56.0), (214.0, 94.0), GREEN),
+    "beam": ((1.0, 118.0), (318.0, 94.0), YELLOW),
+    "scanner": ((2.0, 62.0), (60.0, 213.0), PINK),
 }
-HIGH = pygame.Rect(4, 30, 400, 128)        # where saucers fly
-LOW = pygame.Rect(4, 176, 400, 74)         # where mines rest
+HIGH = pygame.Rect(4, 30, 400, 128)  # where saucers fly
+LOW = pygame.Rect(4, 176, 400, 74)  # where mines rest
 SIDE_X = 412
-SAUCER, MINE = 12.0, 7.0                   # [px] radii
-EVERY = 26                                 # steps between saucers
-DRIFT = (34.0, 150.0)                      # [px] swing of the drifting field and its steps per round
-SCAN = (60.0, 348.0)                       # [px] between which the scanner runs
-REST = 8                                   # steps the scanner rests at each end
+SAUCER, MINE = 12.0, 7.0  # [px] radii
+EVERY = 26  # steps between saucers
+DRIFT = (34.0, 150.0)  # [px] swing of the drifting field and its steps per round
+SCAN = (60.0, 348.0)  # [px] between which the scanner runs
+REST = 8  # steps the scanner rests at each end
 MINES = tuple((96.0 + 36.0 * i, 195.0 + 36.0 * (i % 2)) for i in range(7))
-CLEAR = 0.25                               # [px] crossings this close to a graze count for neither side
-NEAR = 2.0                                 # [px] a crossing is over when they are further apart
-SAMPLE = 0.125                             # [px] of relative motion between two looks of the slow truth
-GLOW = 14                                  # steps a zone or a body lights up
-SHIP, ZONE = 1, 2                          # filter bits
+CLEAR = 0.25  # [px] crossings this close to a graze count for neither side
+NEAR = 2.0  # [px] a crossing is over when they are further apart
+SAMPLE = 0.125  # [px] of relative motion between two looks of the slow truth
+GLOW = 14  # steps a zone or a body lights up
+SHIP, ZONE = 1, 2  # filter bits
 
 
 class Sensors(Scene):
@@ -62,21 +64,29 @@ class Sensors(Scene):
         self.zones, self.zone_of = {}, {}
         for name, (size, middle, _) in ZONES.items():
             kind = "static" if name in ("field", "beam") else "kinematic"
-            body = self.world.add_body(Polygon.box(*size), position=middle, kind=kind, sensor=True, continuous="swept",
-                                       filter=Filter(ZONE, SHIP))
+            body = self.world.add_body(
+                Polygon.box(*size),
+                position=middle,
+                kind=kind,
+                sensor=True,
+                continuous="swept",
+                filter=Filter(ZONE, SHIP),
+            )
             self.zones[name], self.zone_of[body.id] = body, name
-        self.mines = [self.world.add_body(Circle(MINE), position=place, filter=Filter(SHIP, ZONE)).id for place in MINES]
-        self.flying = {}                   # body id -> speed
-        self.inside = {}                   # (zone, body id) -> entries without exit
+        self.mines = [
+            self.world.add_body(Circle(MINE), position=place, filter=Filter(SHIP, ZONE)).id for place in MINES
+        ]
+        self.flying = {}  # body id -> speed
+        self.inside = {}  # (zone, body id) -> entries without exit
         self.entered, self.left = dict.fromkeys(ZONES, 0), dict.fromkeys(ZONES, 0)
-        self.due = dict.fromkeys(ZONES, 0)         # entries by geometry
+        self.due = dict.fromkeys(ZONES, 0)  # entries by geometry
         self.missed, self.false = dict.fromkeys(ZONES, 0), dict.fromkeys(ZONES, 0)
-        self.unpaired = 0                  # a second begin without an end, or an end without a begin
-        self.fastest = 0.0                 # [px] moved in a step by something that was seen
-        self.met = {}                      # (zone, body id) -> (surely, perhaps) in the crossing under way
+        self.unpaired = 0  # a second begin without an end, or an end without a begin
+        self.fastest = 0.0  # [px] moved in a step by something that was seen
+        self.met = {}  # (zone, body id) -> (surely, perhaps) in the crossing under way
         self.glow = dict.fromkeys(ZONES, 0)
-        self.lit = {}                      # body id -> steps it still glows
-        self.trails = []                   # [x0, x1, y, age]
+        self.lit = {}  # body id -> steps it still glows
+        self.trails = []  # [x0, x1, y, age]
         self.way, self.rest = 1, 0
 
     def update(self, inputs):
@@ -98,9 +108,10 @@ class Sensors(Scene):
     def _launch(self):
         speed = self.values["speed"] * self.random.uniform(0.25, 1.0)
         y = self.random.uniform(HIGH.top + 14.0, HIGH.bottom - 14.0)
-        x = -20.0 - self.random.uniform(0.0, speed / 60)       # so that steps fall anywhere
-        body = self.world.add_body(Circle(SAUCER), position=(x, y), velocity=(speed, 0.0), filter=Filter(SHIP, ZONE),
-                                   continuous="swept")
+        x = -20.0 - self.random.uniform(0.0, speed / 60)  # so that steps fall anywhere
+        body = self.world.add_body(
+            Circle(SAUCER), position=(x, y), velocity=(speed, 0.0), filter=Filter(SHIP, ZONE), continuous="swept"
+        )
         self.flying[body.id] = speed
 
     def _steer(self):
@@ -119,12 +130,16 @@ class Sensors(Scene):
 
     def _places(self):
         bodies = self.world.bodies
-        return dict(zip(bodies["id"].tolist(), zip(bodies["x"].tolist(), bodies["y"].tolist(), strict=True), strict=True))
+        return dict(
+            zip(bodies["id"].tolist(), zip(bodies["x"].tolist(), bodies["y"].tolist(), strict=True), strict=True)
+        )
 
     def _take_events(self):
         """Count entries and exits and pair them up. Exits first: a body may leave and come back within a step."""
-        for events, tally, change in ((self.world.events.sensor_end, self.left, -1),
-                                      (self.world.events.sensor_begin, self.entered, 1)):
+        for events, tally, change in (
+            (self.world.events.sensor_end, self.left, -1),
+            (self.world.events.sensor_begin, self.entered, 1),
+        ):
             for row in events:
                 a, b = int(row["body_a"]), int(row["body_b"])
                 zone, other = (a, b) if a in self.zone_of else (b, a)
@@ -187,8 +202,10 @@ class Sensors(Scene):
         canvas.text("SENSORS", 4, 4, GOLD)
         words = f"saucers up to {self.values['speed'] / 60:.0f} px a step, scanner {self.values['scanner'] / 60:.0f} px"
         canvas.text(words, 474, 6, FOG, SMALL, align="right")
-        for rect, title in ((HIGH, "saucers through standing and drifting zones, and a beam of 1 px"),
-                            (LOW, "a fast thin scanner over resting mines")):
+        for rect, title in (
+            (HIGH, "saucers through standing and drifting zones, and a beam of 1 px"),
+            (LOW, "a fast thin scanner over resting mines"),
+        ):
             canvas.surface.blit(self.sky, rect, (30, 30, *rect.size))
             canvas.text(title, rect.x + 2, rect.y - 8, FOG, SMALL)
         canvas.surface.set_clip(HIGH.union(LOW))
@@ -205,7 +222,9 @@ class Sensors(Scene):
         for x0, x1, y, age in self.trails:
             color = faded(ORANGE, 0.3 + 0.65 * age / GLOW)
             if x0 < HIGH.right:
-                pygame.draw.line(canvas.surface, color, (whole(x0), whole(y)), (min(whole(x1), HIGH.right - 1), whole(y)))
+                pygame.draw.line(
+                    canvas.surface, color, (whole(x0), whole(y)), (min(whole(x1), HIGH.right - 1), whole(y))
+                )
 
     def _draw_bodies(self, canvas, alpha):
         bodies = self.world.bodies
@@ -220,8 +239,9 @@ class Sensors(Scene):
                 canvas.sprite(mine if identity in mines else image, x, y)
                 if identity in self.lit:
                     radius = int(MINE if identity in mines else SAUCER) + 2
-                    pygame.draw.circle(canvas.surface, faded(PAPER, 1.0 - self.lit[identity] / GLOW), (whole(x), whole(y)),
-                                       radius, 1)
+                    pygame.draw.circle(
+                        canvas.surface, faded(PAPER, 1.0 - self.lit[identity] / GLOW), (whole(x), whole(y)), radius, 1
+                    )
 
     def _draw_zone(self, canvas, name, alpha):
         (width, height), _, color = ZONES[name]
@@ -235,8 +255,12 @@ class Sensors(Scene):
             shade = pygame.Surface(rect.size, pygame.SRCALPHA)
             shade.fill((*color, round(46 + 90 * glow)))
             for stripe in range(-rect.height, rect.width, 10):
-                pygame.draw.line(shade, (*color, 90), (stripe + self.frame // 3 % 10, rect.height),
-                                 (stripe + self.frame // 3 % 10 + rect.height, 0))
+                pygame.draw.line(
+                    shade,
+                    (*color, 90),
+                    (stripe + self.frame // 3 % 10, rect.height),
+                    (stripe + self.frame // 3 % 10 + rect.height, 0),
+                )
             canvas.surface.blit(shade, rect)
             pygame.draw.rect(canvas.surface, color, rect, 1)
         else:
@@ -256,8 +280,15 @@ class Sensors(Scene):
             canvas.surface.fill(color, (SIDE_X, y, 2, 46))
             canvas.text(name, SIDE_X + 6, y, color, SMALL)
             inside = sum(1 for zone, _ in self.inside if zone == name)
-            for line, (label, value) in enumerate((("in", self.entered[name]), ("out", self.left[name]), ("inside", inside),
-                                                   ("geometry", self.due[name]), ("wrong", wrong))):
+            for line, (label, value) in enumerate(
+                (
+                    ("in", self.entered[name]),
+                    ("out", self.left[name]),
+                    ("inside", inside),
+                    ("geometry", self.due[name]),
+                    ("wrong", wrong),
+                )
+            ):
                 top = y + 9 + line * 8
                 hue = PAPER if line < 4 else GREEN if wrong == 0 else RED
                 canvas.text(label, SIDE_X + 6, top, FOG, SMALL)
@@ -269,16 +300,30 @@ class Sensors(Scene):
     def check(self):
         """Every entry is seen once, leaves once, and nothing is made up."""
         missed, false = sum(self.missed.values()), sum(self.false.values())
-        balance = all(self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name)
-                      for name in ZONES)
+        balance = all(
+            self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
+        )
         return [
-            Goal("no entry is missed", 600, min(self.due.values()) >= 5 and missed == 0,
-                 f"{missed} of {sum(self.due.values())}"),
+            Goal(
+                "no entry is missed",
+                600,
+                min(self.due.values()) >= 5 and missed == 0,
+                f"{missed} of {sum(self.due.values())}",
+            ),
             Goal("none is made up", 600, false == 0, f"{false}"),
-            Goal("each begin has its end", 600, self.unpaired == 0 and balance, f"{self.unpaired} unpaired, "
-                 f"{sum(self.entered.values())} in, {sum(self.left.values())} out, {len(self.inside)} inside"),
-            Goal("what moves further than a zone is wide is seen", 600, self.fastest > ZONES["field"][0][0],
-                 f"{self.fastest:.0f} px in a step"),
+            Goal(
+                "each begin has its end",
+                600,
+                self.unpaired == 0 and balance,
+                f"{self.unpaired} unpaired, "
+                f"{sum(self.entered.values())} in, {sum(self.left.values())} out, {len(self.inside)} inside",
+            ),
+            Goal(
+                "what moves further than a zone is wide is seen",
+                600,
+                self.fastest > ZONES["field"][0][0],
+                f"{self.fastest:.0f} px in a step",
+            ),
         ]
 
     def bot(self):
@@ -290,18 +335,27 @@ class Sensors(Scene):
     def state(self):
         """The tallies; the world holds who flies."""
         tallies = (self.entered, self.left, self.due, self.missed, self.false)
-        return (self.frame, *self.values.values(), self.unpaired, self.way, self.rest, self.fastest,
-                *(value for tally in tallies for value in tally.values()))
+        return (
+            self.frame,
+            *self.values.values(),
+            self.unpaired,
+            self.way,
+            self.rest,
+            self.fastest,
+            *(value for tally in tallies for value in tally.values()),
+        )
 
 
 def least_gap(start, end, zone_start, zone_end, half):
     """Least distance [px] of a point from a box while both move straight from start to end; sampled finely."""
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])
-    reach = max(min(abs(x[0]), abs(x[1])) - half[0] if x[0] * x[1] > 0 else 0.0,
-                min(abs(y[0]), abs(y[1])) - half[1] if y[0] * y[1] > 0 else 0.0)
+    reach = max(
+        min(abs(x[0]), abs(x[1])) - half[0] if x[0] * x[1] > 0 else 0.0,
+        min(abs(y[0]), abs(y[1])) - half[1] if y[0] * y[1] > 0 else 0.0,
+    )
     if reach > 2.0 * SAUCER:
-        return reach               # far away in this whole step: no need to look closer
+        return reach  # far away in this whole step: no need to look closer
     count = int(max(abs(x[1] - x[0]), abs(y[1] - y[0])) / SAMPLE) + 2
     share = np.linspace(0.0, 1.0, count)
     dx = np.maximum(np.abs(x[0] + (x[1] - x[0]) * share) - half[0], 0.0)

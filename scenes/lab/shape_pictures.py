@@ -11,8 +11,8 @@ from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import clockwise, ring
 from scenes.lab.pieces import hull
 
-RULER = 12.0           # [px] from the shapes to the ruler with their shadows
-MARGIN = 12            # [canvas px] around the picture of the differences
+RULER = 12.0  # [px] from the shapes to the ruler with their shadows
+MARGIN = 12  # [canvas px] around the picture of the differences
 
 
 def draw_shadows(frame, lens, placed, axes, colors):
@@ -26,17 +26,26 @@ def draw_shadows(frame, lens, placed, axes, colors):
             nx, ny = float(row["normal_x"]) * sign, float(row["normal_y"]) * sign
             x, y = (ax + bx) / 2 + nx * radius, (ay + by) / 2 + ny * radius
             is_best = row["separation"] == axes[0]["separation"]
-            pygame.draw.line(frame.surface, PAPER if is_best else SLATE, lens.points(x, y),
-                             lens.points(x + 7 * nx, y + 7 * ny), max(1, frame.scale - 1) if is_best else 1)
+            pygame.draw.line(
+                frame.surface,
+                PAPER if is_best else SLATE,
+                lens.points(x, y),
+                lens.points(x + 7 * nx, y + 7 * ny),
+                max(1, frame.scale - 1) if is_best else 1,
+            )
     nx, ny = float(axes[0]["normal_x"]), float(axes[0]["normal_y"])
-    ends = [(min(px * nx + py * ny for px, py in points) - radius, max(px * nx + py * ny for px, py in points) + radius)
-            for points, radius in placed]
+    ends = [
+        (min(px * nx + py * ny for px, py in points) - radius, max(px * nx + py * ny for px, py in points) + radius)
+        for points, radius in placed
+    ]
     middle = (ends[0][1] + ends[1][0]) / 2
     # Below the shapes, or above them where there is no room below.
     sides = sorted(((-ny, nx), (ny, -nx)), key=lambda side: -side[1])
     for tx, ty in sides:
         aside = max(px * tx + py * ty + radius for points, radius in placed for px, py in points) + RULER
-        if frame.surface.get_clip().collidepoint(lens.points(nx * middle + tx * (aside + RULER), ny * middle + ty * (aside + RULER))):
+        if frame.surface.get_clip().collidepoint(
+            lens.points(nx * middle + tx * (aside + RULER), ny * middle + ty * (aside + RULER))
+        ):
             break
 
     def at(along, off=0.0):
@@ -45,12 +54,22 @@ def draw_shadows(frame, lens, placed, axes, colors):
     thick = max(1, frame.scale)
     pygame.draw.line(frame.surface, SLATE, at(min(ends[0][0], ends[1][0]) - 10), at(max(ends[0][1], ends[1][1]) + 10))
     for number, (low, high) in enumerate(ends):
-        pygame.draw.line(frame.surface, colors[number], at(low, 2.5 * (2 * number - 1)), at(high, 2.5 * (2 * number - 1)), thick)
+        pygame.draw.line(
+            frame.surface, colors[number], at(low, 2.5 * (2 * number - 1)), at(high, 2.5 * (2 * number - 1)), thick
+        )
     low, high = ends[0][1], ends[1][0]
     pygame.draw.line(frame.surface, GREEN if high > low else RED, at(low), at(high), 2 * thick)
     x, y = at(middle, 8.0)
-    frame.text_if_free(f"{high - low:.2f}", x, y - 2 * frame.text_scale, GREEN if high > low else RED, SMALL,
-                       frame.text_scale, "center", True)
+    frame.text_if_free(
+        f"{high - low:.2f}",
+        x,
+        y - 2 * frame.text_scale,
+        GREEN if high > low else RED,
+        SMALL,
+        frame.text_scale,
+        "center",
+        True,
+    )
 
 
 def draw_differences(frame, rect, placed, meets, step):
@@ -60,7 +79,10 @@ def draw_differences(frame, rect, placed, meets, step):
     outer = np.array(ring(core, radius, 2.0))
     low = np.minimum(outer.min(axis=0), 0.0)
     high = np.maximum(outer.max(axis=0), 0.0)
-    zoom = min((rect.width - 2 * MARGIN * frame.scale) / (high - low)[0], (rect.height - 2 * MARGIN * frame.scale) / (high - low)[1])
+    zoom = min(
+        (rect.width - 2 * MARGIN * frame.scale) / (high - low)[0],
+        (rect.height - 2 * MARGIN * frame.scale) / (high - low)[1],
+    )
     shift = np.array(rect.center) - (low + high) / 2 * zoom
 
     def at(points):
@@ -73,7 +95,7 @@ def draw_differences(frame, rect, placed, meets, step):
     pygame.draw.lines(surface, FOG, True, at(outer), 1)
     if radius and len(core) > 1:
         pygame.draw.lines(surface, SLATE, len(core) > 2, at(core), 1)
-    (ox, oy), = at((0.0, 0.0))
+    ((ox, oy),) = at((0.0, 0.0))
     pygame.draw.line(surface, faded(PAPER, 0.7), (rect.left, oy), (rect.right, oy))
     pygame.draw.line(surface, faded(PAPER, 0.7), (ox, rect.top), (ox, rect.bottom))
     if step is not None:
@@ -107,8 +129,11 @@ def difference(a, b):
     for order in (points, points[::-1]):
         half = []
         for x, y in order:
-            while len(half) > 1 and ((half[-1][0] - half[-2][0]) * (y - half[-2][1])
-                                     - (half[-1][1] - half[-2][1]) * (x - half[-2][0])) <= 1e-9:
+            while (
+                len(half) > 1
+                and ((half[-1][0] - half[-2][0]) * (y - half[-2][1]) - (half[-1][1] - half[-2][1]) * (x - half[-2][0]))
+                <= 1e-9
+            ):
                 half.pop()
             half.append((x, y))
         halves += half[:-1]

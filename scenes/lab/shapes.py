@@ -22,23 +22,28 @@ from scenes.lab.pieces import hull
 from scenes.lab.shape_pictures import draw_differences, draw_shadows, placed_hull
 
 CHOICES = {
-    "circle": Circle(33.0), "capsule": Capsule((-27, 0), (27, 0), 17.0), "box": Polygon.box(72, 44),
+    "circle": Circle(33.0),
+    "capsule": Capsule((-27, 0), (27, 0), 17.0),
+    "box": Polygon.box(72, 44),
     "triangle": Polygon([(40, 0), (-22, 35), (-22, -35)]),
     "hexagon": Polygon([(37 * cos(k * pi / 3), 37 * sin(k * pi / 3)) for k in range(6)]),
-    "rounded": Polygon(Polygon.box(46, 28).points, radius=12.0), "segment": Segment((-42, 0), (42, 0)),
+    "rounded": Polygon(Polygon.box(46, 28).points, radius=12.0),
+    "segment": Segment((-42, 0), (42, 0)),
     "shard": Polygon([(45, -5), (20, 25), (-17, 30), (-42, 8), (-35, -20), (5, -27)]),
 }
 NAMES = tuple(CHOICES)
-COLORS = (SKY, ORANGE)                    # of A and B
+COLORS = (SKY, ORANGE)  # of A and B
 ARENA = pygame.Rect(4, 18, 300, 212)
 PICTURE = pygame.Rect(308, 18, 168, 130)  # of the differences
 SIDE_X, SIDE_Y = 310, 154
 ICON = 18
-ICONS = tuple(pygame.Rect(22 + i * (ICON + 2), 233 + row * (ICON + 1), ICON, ICON) for row in range(2) for i in range(len(NAMES)))
+ICONS = tuple(
+    pygame.Rect(22 + i * (ICON + 2), 233 + row * (ICON + 1), ICON, ICON) for row in range(2) for i in range(len(NAMES))
+)
 START = ((128.0, 112.0, 0.2), (232.0, 104.0, -0.4))
-MARGIN = 36                    # [px] that a shape's middle keeps from the arena's edge
-EXACT = 1e-9                              # [px] within which the methods must agree, at this size
-LEG = 25                                  # steps of the bot with one pair of shapes
+MARGIN = 36  # [px] that a shape's middle keeps from the arena's edge
+EXACT = 1e-9  # [px] within which the methods must agree, at this size
+LEG = 25  # steps of the bot with one pair of shapes
 MOST_STEPS = 24
 
 
@@ -49,13 +54,25 @@ class Shapes(Scene):
     title = "Shapes"
     about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
     pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts", "steps")
-    effects = Effects()                   # contacts are found and drawn; nobody is pushed
-    features = ("separating axes and shadows", "GJK simplex and EPA polytope, round by round",
-                "collide, distance and SAT compared in every step")
-    sliders = (Slider("A", 0, len(NAMES) - 1, 2, choices=NAMES), Slider("B", 0, len(NAMES) - 1, 1, choices=NAMES),
-               Slider("step", 0, MOST_STEPS, MOST_STEPS))
-    actions = (("mouse", "drag"), ("wheel", "turn"), ("arrows", "move"), ("Shift+arrows", "turn"), ("Space", "other"),
-               ("Enter", "next step"))
+    effects = Effects()  # contacts are found and drawn; nobody is pushed
+    features = (
+        "separating axes and shadows",
+        "GJK simplex and EPA polytope, round by round",
+        "collide, distance and SAT compared in every step",
+    )
+    sliders = (
+        Slider("A", 0, len(NAMES) - 1, 2, choices=NAMES),
+        Slider("B", 0, len(NAMES) - 1, 1, choices=NAMES),
+        Slider("step", 0, MOST_STEPS, MOST_STEPS),
+    )
+    actions = (
+        ("mouse", "drag"),
+        ("wheel", "turn"),
+        ("arrows", "move"),
+        ("Shift+arrows", "turn"),
+        ("Space", "other"),
+        ("Enter", "next step"),
+    )
     legend_at = (8, 22)
     hides_pointer = False
 
@@ -63,8 +80,10 @@ class Shapes(Scene):
         """Two bodies and the tallies."""
         self.add_world()
         self.hands = Hands(START, 1, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
-        self.bodies = [self.world.add_body(shape, position=pose[:2], angle=pose[2], kind="kinematic")
-                       for shape, pose in zip(self.shapes, self.hands.poses, strict=True)]
+        self.bodies = [
+            self.world.add_body(shape, position=pose[:2], angle=pose[2], kind="kinematic")
+            for shape, pose in zip(self.shapes, self.hands.poses, strict=True)
+        ]
         self.compared = self.overlapping = self.apart = 0
         self.disagreed = self.mirrored = 0
         self.worst = {"gap": 0.0, "axis": 0.0}
@@ -110,8 +129,10 @@ class Shapes(Scene):
                 self.hands.chosen = number // len(NAMES)
                 self.change_slider("AB"[self.hands.chosen], number % len(NAMES))
         if ARENA.collidepoint(x, y):
-            gaps = [distance(Circle(0.5), (x, y, 0.0), shape, tuple(pose)).distance
-                    for shape, pose in zip(self.shapes, self.hands.poses, strict=True)]
+            gaps = [
+                distance(Circle(0.5), (x, y, 0.0), shape, tuple(pose)).distance
+                for shape, pose in zip(self.shapes, self.hands.poses, strict=True)
+            ]
             which = int(gaps[1] < gaps[0])
             if gaps[which] < 6.0:
                 self.hands.take(which, x, y)
@@ -182,8 +203,12 @@ class Shapes(Scene):
         canvas.text(f"{abs(gap.distance):.3f}", 474, SIDE_Y, color, align="right")
         deepest = f"{float(np.min(self.manifold.separations)):.3f}" if meets else "no contact"
         best = f"{float(self.axes[0]['separation']):.3f} of {len(self.axes)} axes"
-        rows = (("collide", deepest, PAPER), ("best axis", best, PAPER),
-                ("rounds", f"{gap.iterations}", PAPER), ("normal", f"{gap.normal[0]:.3f} {gap.normal[1]:.3f}", PAPER))
+        rows = (
+            ("collide", deepest, PAPER),
+            ("best axis", best, PAPER),
+            ("rounds", f"{gap.iterations}", PAPER),
+            ("normal", f"{gap.normal[0]:.3f} {gap.normal[1]:.3f}", PAPER),
+        )
         for line, (label, value, hue) in enumerate(rows):
             y = SIDE_Y + 14 + line * 9
             canvas.text(label, SIDE_X, y, FOG, SMALL)
@@ -230,7 +255,9 @@ class Shapes(Scene):
         draw_differences(frame, frame.from_canvas(PICTURE), placed, len(self.manifold) > 0, self.step_shown)
         for index, pose in enumerate(self.hands.poses):
             x, y = lens.points(pose[0], pose[1])
-            frame.text_if_free("AB"[index], x, y - 3 * frame.text_scale, COLORS[index], SMALL, frame.text_scale, "center", True)
+            frame.text_if_free(
+                "AB"[index], x, y - 3 * frame.text_scale, COLORS[index], SMALL, frame.text_scale, "center", True
+            )
 
     def _draw_witness(self, frame, lens):
         """The nearest points, and those of the step that is shown."""
@@ -250,14 +277,31 @@ class Shapes(Scene):
     def check(self):
         """The methods agree along the whole tour."""
         return [
-            Goal("shapes seen apart and in each other", 240, min(self.apart, self.overlapping) > 20,
-                 f"{self.apart} and {self.overlapping} steps"),
-            Goal("collide and distance say the same", 590, self.compared > 500 and self.disagreed == 0,
-                 f"{self.disagreed} of {self.compared} differ"),
+            Goal(
+                "shapes seen apart and in each other",
+                240,
+                min(self.apart, self.overlapping) > 20,
+                f"{self.apart} and {self.overlapping} steps",
+            ),
+            Goal(
+                "collide and distance say the same",
+                590,
+                self.compared > 500 and self.disagreed == 0,
+                f"{self.disagreed} of {self.compared} differ",
+            ),
             Goal("in either order the same", 590, self.mirrored == 0, f"{self.mirrored} differ"),
-            Goal("nearest points are as far apart as said", 590, self.worst["gap"] <= EXACT, f"{self.worst['gap']:.1e} px"),
-            Goal("the best axis is as wide as the distance, or the depth", 590, self.worst["axis"] <= EXACT,
-                 f"{self.worst['axis']:.1e} px off"),
+            Goal(
+                "nearest points are as far apart as said",
+                590,
+                self.worst["gap"] <= EXACT,
+                f"{self.worst['gap']:.1e} px",
+            ),
+            Goal(
+                "the best axis is as wide as the distance, or the depth",
+                590,
+                self.worst["axis"] <= EXACT,
+                f"{self.worst['axis']:.1e} px off",
+            ),
             Goal("many pairs of shapes", 590, len(self.pairs) >= 20, f"{len(self.pairs)}"),
         ]
 
@@ -267,7 +311,7 @@ class Shapes(Scene):
         changes = ()
         if step == 0:
             changes = (("slider:A", leg % len(NAMES)), ("slider:B", (leg * 3 + leg // len(NAMES)) % len(NAMES)))
-        if step == 0:                      # let go, so that the next press takes hold of B's middle
+        if step == 0:  # let go, so that the next press takes hold of B's middle
             return InputFrame(frozenset(), self._pointer(1), False, 0, changes)
         share = (step - 1) / (LEG - 2)
         reach = 112.0 * abs(2.0 * share - 1.0) + 6.0
@@ -283,5 +327,14 @@ class Shapes(Scene):
     def state(self):
         """The poses and the tallies."""
         poses = [value for pose in self.hands.poses for value in pose]
-        return (self.frame, *poses, *self.values.values(), self.hands.chosen, self.compared, self.overlapping, self.disagreed,
-                self.mirrored, self.rounds)
+        return (
+            self.frame,
+            *poses,
+            *self.values.values(),
+            self.hands.chosen,
+            self.compared,
+            self.overlapping,
+            self.disagreed,
+            self.mirrored,
+            self.rounds,
+        )

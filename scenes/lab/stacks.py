@@ -22,14 +22,14 @@ from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest
 from scenes.lab.yard import Yard, plate
 
 COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
-SIZE, ZOOM = 32.0, 0.5                     # [px] a crate of one metre, drawn 16 px large
+SIZE, ZOOM = 32.0, 0.5  # [px] a crate of one metre, drawn 16 px large
 VIEWS = ((4, 16, 154, 210), (163, 16, 154, 210), (322, 16, 154, 210))
-FLOOR = 220                                # [canvas px]
-MIDDLE, GROUND = 154.0, (FLOOR - 16) / ZOOM    # [px] of each world
+FLOOR = 220  # [canvas px]
+MIDDLE, GROUND = 154.0, (FLOOR - 16) / ZOOM  # [px] of each world
 UNEVEN = (0.0, 1.5, -1.0, 0.5, -1.5, 1.0)  # [px] crates are not laid exactly one over the other
-NUDGE = 40.0                               # [px/s] given to a top crate that is not heavy
-WINDOW = 60                                # steps over which the sway is measured
-SETTLED = 120                              # steps after which sway counts
+NUDGE = 40.0  # [px/s] given to a top crate that is not heavy
+WINDOW = 60  # steps over which the sway is measured
+SETTLED = 120  # steps after which sway counts
 
 
 class Stacks(Scene):
@@ -58,12 +58,12 @@ class Stacks(Scene):
         self.worlds, self.casts, self.tops = [], [], []
         self.since = self.nudged = 0
         self.touched = False
-        self.track = {name: [] for name in SOLVERS}         # x of the top crate in the last steps
+        self.track = {name: [] for name in SOLVERS}  # x of the top crate in the last steps
         self.sway = dict.fromkeys(SOLVERS, 0.0)
         self.sag = dict.fromkeys(SOLVERS, 0.0)
-        self.calm_sway = dict.fromkeys(SOLVERS, 0.0)        # the most while nobody had touched it
-        self.depth = dict.fromkeys(SOLVERS, 0.0)            # deepest since it settled
-        self.standing = dict.fromkeys(SOLVERS, 0)           # steps that the top crate stayed near its place
+        self.calm_sway = dict.fromkeys(SOLVERS, 0.0)  # the most while nobody had touched it
+        self.depth = dict.fromkeys(SOLVERS, 0.0)  # deepest since it settled
+        self.standing = dict.fromkeys(SOLVERS, 0)  # steps that the top crate stayed near its place
         for name in SOLVERS:
             self._raise_column(name)
 
@@ -107,7 +107,7 @@ class Stacks(Scene):
         count = int(self.values["crates"])
         self.sag[name] = y - (GROUND - (count - 0.5) * SIZE)
         if self.since > SETTLED:
-            self.track[name] = [*self.track[name][-WINDOW + 1:], x]
+            self.track[name] = [*self.track[name][-WINDOW + 1 :], x]
             self.sway[name] = max(self.track[name]) - min(self.track[name])
             if not self.touched:
                 self.calm_sway[name] = max(self.calm_sway[name], self.sway[name])
@@ -139,8 +139,11 @@ class Stacks(Scene):
         stands = self.stands(name)
         canvas.text("stands" if stands else "fell", box.right - 4, box.y + 3, GREEN if stands else RED, align="right")
         tall = self.values["crates"] * SIZE
-        rows = (("sinks", self.sag[name] / tall), ("sways", self.sway[name] / SIZE),
-                ("overlap", self.depth[name] / SIZE))
+        rows = (
+            ("sinks", self.sag[name] / tall),
+            ("sways", self.sway[name] / SIZE),
+            ("overlap", self.depth[name] / SIZE),
+        )
         for row, (word, share) in enumerate(rows):
             y = box.y + 16 + row * 9
             canvas.text(word, box.x + 6, y, FOG, SMALL)
@@ -162,19 +165,42 @@ class Stacks(Scene):
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
         return [
-            Goal("the soft step stands, also after a nudge", 300, self.stands(soft) and self.nudged > 0,
-                 f"{self.standing[soft]} of {self.since} steps"),
-            Goal("left alone it sways by less than a fiftieth of a crate", 240, self.calm_sway[soft] < SIZE / 50,
-                 f"{self.calm_sway[soft]:.3f} px"),
-            Goal("it keeps its height to a hundredth", 300, abs(self.sag[soft]) < tall / 100,
-                 f"sinks {self.sag[soft]:.2f} px"),
-            Goal("its crates overlap by less than a fiftieth", 300, self.depth[soft] < SIZE / 50,
-                 f"{self.depth[soft]:.2f} px"),
-            Goal("sequential impulses stand until the nudge", 240, self.standing[kept] >= 240,
-                 f"sways {self.calm_sway[kept]:.2f} px"),
-            Goal("pushing out falls, or sinks three times as far", 300,
-                 not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
-                 f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px"),
+            Goal(
+                "the soft step stands, also after a nudge",
+                300,
+                self.stands(soft) and self.nudged > 0,
+                f"{self.standing[soft]} of {self.since} steps",
+            ),
+            Goal(
+                "left alone it sways by less than a fiftieth of a crate",
+                240,
+                self.calm_sway[soft] < SIZE / 50,
+                f"{self.calm_sway[soft]:.3f} px",
+            ),
+            Goal(
+                "it keeps its height to a hundredth",
+                300,
+                abs(self.sag[soft]) < tall / 100,
+                f"sinks {self.sag[soft]:.2f} px",
+            ),
+            Goal(
+                "its crates overlap by less than a fiftieth",
+                300,
+                self.depth[soft] < SIZE / 50,
+                f"{self.depth[soft]:.2f} px",
+            ),
+            Goal(
+                "sequential impulses stand until the nudge",
+                240,
+                self.standing[kept] >= 240,
+                f"sways {self.calm_sway[kept]:.2f} px",
+            ),
+            Goal(
+                "pushing out falls, or sinks three times as far",
+                300,
+                not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
+                f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px",
+            ),
         ]
 
     def bot(self):

@@ -24,13 +24,13 @@ from scenes.lab.yard import Yard, plate
 
 ZOOM = 0.5
 SIDES = 10
-INSIDE = 208.0                     # [px] from the middle to each wall
-WALL = 20.0                        # [px] thick
-FIN = 44.0                         # [px] the blades reach in
+INSIDE = 208.0  # [px] from the middle to each wall
+WALL = 20.0  # [px] thick
+FIN = 44.0  # [px] the blades reach in
 VIEW = ((120, 16), (360, 254))
-MIDDLE = (360.0, 254.0)            # [px] of the world: the middle of the view
+MIDDLE = (360.0, 254.0)  # [px] of the world: the middle of the view
 TOYS = ("red", "blue", "gold", "green", "purple", "teal")
-SLACK = 8.0                        # [px] a centre beyond the wall's inner face by this much is out
+SLACK = 8.0  # [px] a centre beyond the wall's inner face by this much is out
 STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
@@ -40,10 +40,15 @@ def ring(count, size, start):
     return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
 
 
-KINDS = (("block", Polygon.box(20, 20)), ("disc", Circle(10)), ("brick", Polygon.box(28, 12)),
-         ("pill", Capsule((-6, 0), (6, 0), 6)), ("hexagon", Polygon(ring(6, 24, 0.0))),
-         ("triangle", Polygon(ring(3, 28, -pi / 2))))
-THINNEST = 12.0                    # [px] bricks and pills
+KINDS = (
+    ("block", Polygon.box(20, 20)),
+    ("disc", Circle(10)),
+    ("brick", Polygon.box(28, 12)),
+    ("pill", Capsule((-6, 0), (6, 0), 6)),
+    ("hexagon", Polygon(ring(6, 24, 0.0))),
+    ("triangle", Polygon(ring(3, 28, -pi / 2))),
+)
+THINNEST = 12.0  # [px] bricks and pills
 
 
 class Tumbler(Scene):
@@ -70,8 +75,9 @@ class Tumbler(Scene):
         """A new world: the drum, and shapes laid out in rows inside it."""
         self.worlds = []
         world, self.cast = self.add_world(), Cast(load_atlas("lab"))
-        self.drum = world.add_body(*drum_boxes(), position=MIDDLE, kind="kinematic",
-                                   angular_velocity=float(self.values["speed"]))
+        self.drum = world.add_body(
+            *drum_boxes(), position=MIDDLE, kind="kinematic", angular_velocity=float(self.values["speed"])
+        )
         count = int(self.values["bodies"])
         random = Random(f"{self.seed} {count}")
         for number, place in enumerate(places(count)):
@@ -79,10 +85,10 @@ class Tumbler(Scene):
             body = world.add_body(shape, position=place, angle=0.0 if name == "brick" else random.uniform(-pi, pi))
             self.cast.add(body, f"{name}_{random.choice(TOYS)}")
         self.escaped = 0
-        self.highest = MIDDLE[1] + INSIDE        # y of the highest centre since the load has settled
-        self.most = self.energy = 0.0            # kinetic energy
-        self.overlap = self.pressed = 0.0        # [px] deepest ever, and deepest of each step on average
-        self.spent = 0.0                         # [ms]
+        self.highest = MIDDLE[1] + INSIDE  # y of the highest centre since the load has settled
+        self.most = self.energy = 0.0  # kinetic energy
+        self.overlap = self.pressed = 0.0  # [px] deepest ever, and deepest of each step on average
+        self.spent = 0.0  # [ms]
         self.since = 0
 
     def change_slider(self, name, value):
@@ -130,10 +136,15 @@ class Tumbler(Scene):
         plate(canvas, (4, 22, 112, 92))
         out = self.escaped
         canvas.text(f"{out} got out" if out else "none got out", 10, 26, RED if out else GREEN)
-        rows = (("shapes", f"{len(self.world.bodies) - 1}"), ("turns", f"{self.drum.angle / (2 * pi):.2f}"),
-                ("contacts", f"{len(self.world.contacts)}"), ("overlap", f"{deepest(self.world):.2f} px"),
-                ("on average", f"{self.pressed:.2f} px"),
-                ("speed", f"{self._pace():.0f} px/s"), ("a step", f"{self.spent:.2f} ms"))
+        rows = (
+            ("shapes", f"{len(self.world.bodies) - 1}"),
+            ("turns", f"{self.drum.angle / (2 * pi):.2f}"),
+            ("contacts", f"{len(self.world.contacts)}"),
+            ("overlap", f"{deepest(self.world):.2f} px"),
+            ("on average", f"{self.pressed:.2f} px"),
+            ("speed", f"{self._pace():.0f} px/s"),
+            ("a step", f"{self.spent:.2f} ms"),
+        )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 40 + number * 10, FOG, SMALL)
             canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
@@ -145,17 +156,29 @@ class Tumbler(Scene):
 
     def check(self):
         """Nobody gets out, the load is carried up, and it is not thrown about."""
-        fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE          # [px2/s2] what a fall through the whole drum gives
+        fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] what a fall through the whole drum gives
         mass = float(self.world.bodies["mass"][1:].sum())
         return [
             Goal("none gets out", 300, self.escaped == 0, f"{self.escaped} of {len(self.world.bodies) - 1}"),
-            Goal("the load is carried above the middle", 480, self.highest < MIDDLE[1],
-                 f"highest at {self.highest:.0f} px"),
+            Goal(
+                "the load is carried above the middle",
+                480,
+                self.highest < MIDDLE[1],
+                f"highest at {self.highest:.0f} px",
+            ),
             Goal("a quarter of a turn", 300, abs(self.drum.angle) > pi / 2, f"{self.drum.angle:.2f} rad"),
-            Goal("no energy out of nothing", 480, 0.0 < 2.0 * self.most / mass < fall,
-                 f"{2.0 * self.most / mass:.0f} of at most {fall:.0f} px2/s2"),
-            Goal("the deepest overlap is a fifth of the thinnest shape, on average", 480, self.pressed < THINNEST / 5,
-                 f"{self.pressed:.2f} px, once {self.overlap:.2f} px"),
+            Goal(
+                "no energy out of nothing",
+                480,
+                0.0 < 2.0 * self.most / mass < fall,
+                f"{2.0 * self.most / mass:.0f} of at most {fall:.0f} px2/s2",
+            ),
+            Goal(
+                "the deepest overlap is a fifth of the thinnest shape, on average",
+                480,
+                self.pressed < THINNEST / 5,
+                f"{self.pressed:.2f} px, once {self.overlap:.2f} px",
+            ),
         ]
 
     def bot(self):
@@ -164,8 +187,17 @@ class Tumbler(Scene):
 
     def state(self):
         """What was seen; the world holds the rest."""
-        return (self.frame, self.since, *self.values.values(), self.escaped, self.highest, self.energy, self.most,
-                self.overlap, self.pressed)
+        return (
+            self.frame,
+            self.since,
+            *self.values.values(),
+            self.escaped,
+            self.highest,
+            self.energy,
+            self.most,
+            self.overlap,
+            self.pressed,
+        )
 
 
 def drum_boxes():
@@ -217,7 +249,7 @@ def draw_drum(surface, camera, angle):
     for number in range(SIDES):
         turn = 2 * half * number
         quad = [at(inner, turn - half), at(outer, turn - half), at(outer, turn + half), at(inner, turn + half)]
-        facing = -(cos(angle + turn) * -0.55 + sin(angle + turn) * -0.8)        # the inner face looks inwards
+        facing = -(cos(angle + turn) * -0.55 + sin(angle + turn) * -0.8)  # the inner face looks inwards
         pygame.draw.polygon(surface, STEEL[1 + round(1 + facing)], quad)
         pygame.draw.line(surface, STEEL[3], quad[0], quad[3])
         pygame.draw.polygon(surface, INK, quad, 1)

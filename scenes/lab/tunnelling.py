@@ -20,21 +20,29 @@ from physics import Capsule, Circle, Effects, Polygon
 
 LANES = ("off", "ray", "swept", "toi")
 SHOTS = ("balls", "rods", "bullets")
-TITLES = {"off": "off: only where it stands", "ray": "ray: along the centre's path", "swept": "swept: the whole shape, not turning",
-          "toi": "toi: time of impact, turning too"}
+TITLES = {
+    "off": "off: only where it stands",
+    "ray": "ray: along the centre's path",
+    "swept": "swept: the whole shape, not turning",
+    "toi": "toi: time of impact, turning too",
+}
 BULLET_TITLES = {"off": "off", "ray": "ray", "swept": "swept", "toi": "toi, bullet against bullet"}
 COLORS = {"off": RED, "ray": ORANGE, "swept": SKY, "toi": GREEN}
 LANE_TOP, LANE_HEIGHT = 20, 62
-GUN_X, PLATE_X, END_X = 30.0, 300.0, 380.0      # [px]
-RADIUS, PLATE_HALF = 5.0, 11.0                  # [px]
-ROD_HALF, ROD_RADIUS = 14.0, 1.5                # [px]
-ROD_SPIN = (24.0, 46.0)                         # [rad/s] up to an eighth of a turn per step
-BULLET_RADIUS = 2.5                             # [px]
-EVERY = 7                                       # steps between shots
-SPREAD = {"balls": (0.0, 18.0), "rods": (13.0, 24.0), "bullets": (0.0, 3.4)}     # [px] off the middle; rods: beyond the plate
-CLEAR = 0.75                                    # [px] shots this close to just touching are not counted either way
-SAMPLE = 0.1                                    # [px] between two looks of the slow truth about rods
-GLOW_STEPS = 14                                 # steps a mark of a hit stays
+GUN_X, PLATE_X, END_X = 30.0, 300.0, 380.0  # [px]
+RADIUS, PLATE_HALF = 5.0, 11.0  # [px]
+ROD_HALF, ROD_RADIUS = 14.0, 1.5  # [px]
+ROD_SPIN = (24.0, 46.0)  # [rad/s] up to an eighth of a turn per step
+BULLET_RADIUS = 2.5  # [px]
+EVERY = 7  # steps between shots
+SPREAD = {
+    "balls": (0.0, 18.0),
+    "rods": (13.0, 24.0),
+    "bullets": (0.0, 3.4),
+}  # [px] off the middle; rods: beyond the plate
+CLEAR = 0.75  # [px] shots this close to just touching are not counted either way
+SAMPLE = 0.1  # [px] between two looks of the slow truth about rods
+GLOW_STEPS = 14  # steps a mark of a hit stays
 SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
 COUNT_X = 392
 
@@ -47,10 +55,16 @@ class Tunnelling(Scene):
     about = "Fast balls, spinning rods and bullets: off, ray, swept and time of impact, every missed hit counted."
     effects = Effects(response=True, rotation=True, stacking=True, continuous=True)
     pieces = ("circles", "boxes", "capsules")
-    features = ("ray approximation, swept shapes, time of impact with rotation", "bullets against bullets",
-                "missed hits counted against geometry")
-    sliders = (Slider("speed", 300, 12000, 3600, "px/s", step=100), Slider("plate", 1, 16, 3, "px", step=1),
-               Slider("shots", 0, 2, 0, choices=SHOTS))
+    features = (
+        "ray approximation, swept shapes, time of impact with rotation",
+        "bullets against bullets",
+        "missed hits counted against geometry",
+    )
+    sliders = (
+        Slider("speed", 300, 12000, 3600, "px/s", step=100),
+        Slider("plate", 1, 16, 3, "px", step=1),
+        Slider("shots", 0, 2, 0, choices=SHOTS),
+    )
     actions = (("left right", "speed"), ("up down", "plate"), ("Space", "balls, rods, bullets"))
     broadphase = "sweep"
     draggable = True
@@ -62,15 +76,15 @@ class Tunnelling(Scene):
         self.sky = load_backdrop("sky_dusk")
         self.gun = pygame.transform.rotate(load_atlas("planes")["player"], -90)
         self.gun_back = pygame.transform.flip(self.gun, True, False)
-        self.trials = []           # per shot: lane, body ids, must it hit, must it pass
-        self.of_body = {}          # body id -> its trial
-        self.spent = {}            # body id -> colour: shots that have hit, seen for one more step
-        self.trails = []           # [lane, what, pose before, pose, age], only seen
-        self.marks = []            # [x, y, colour, age], only seen
+        self.trials = []  # per shot: lane, body ids, must it hit, must it pass
+        self.of_body = {}  # body id -> its trial
+        self.spent = {}  # body id -> colour: shots that have hit, seen for one more step
+        self.trails = []  # [lane, what, pose before, pose, age], only seen
+        self.marks = []  # [x, y, colour, age], only seen
         keys = [(kind, lane) for kind in SHOTS for lane in LANES]
-        self.fired, self.due = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)     # due: must hit, by geometry
+        self.fired, self.due = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)  # due: must hit, by geometry
         self.hit, self.missed = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)
-        self.false = dict.fromkeys(keys, 0)          # hits of shots that pass by
+        self.false = dict.fromkeys(keys, 0)  # hits of shots that pass by
         self.plates = {}
         self._raise_plates()
 
@@ -85,7 +99,9 @@ class Tunnelling(Scene):
         self.plates = {}
         if self.kind != "bullets":
             shape = Polygon.box(self.values["plate"], 2 * PLATE_HALF)
-            self.plates = {lane: self.world.add_body(shape, position=(PLATE_X, middle(lane)), kind="static") for lane in LANES}
+            self.plates = {
+                lane: self.world.add_body(shape, position=(PLATE_X, middle(lane)), kind="static") for lane in LANES
+            }
 
     def change_slider(self, name, value):
         """Other plates are built at once; shots under way no longer count."""
@@ -135,14 +151,23 @@ class Tunnelling(Scene):
             verdict = rod_gap(start, offset, speed, angle, spin, float(self.values["plate"]))
         else:
             offset, other = self._aside(kind), self._aside(kind)
-            shots = [(Circle(BULLET_RADIUS), (start, offset), speed, 0.0, 0.0),
-                     (Circle(BULLET_RADIUS), (END_X - self.random.uniform(0.0, speed / 60), other), -speed, 0.0, 0.0)]
+            shots = [
+                (Circle(BULLET_RADIUS), (start, offset), speed, 0.0, 0.0),
+                (Circle(BULLET_RADIUS), (END_X - self.random.uniform(0.0, speed / 60), other), -speed, 0.0, 0.0),
+            ]
             verdict = abs(offset - other) - 2.0 * BULLET_RADIUS
         for lane in LANES:
             trial = {"lane": lane, "bodies": [], "must": verdict < -CLEAR, "passes": verdict > CLEAR}
             for shape, (x, y), vx, angle, spin in shots:
-                body = self.world.add_body(shape, position=(x, middle(lane) + y), velocity=(vx, 0.0), angle=angle,
-                                           angular_velocity=spin, continuous=lane, bullet=lane == "toi" and kind == "bullets")
+                body = self.world.add_body(
+                    shape,
+                    position=(x, middle(lane) + y),
+                    velocity=(vx, 0.0),
+                    angle=angle,
+                    angular_velocity=spin,
+                    continuous=lane,
+                    bullet=lane == "toi" and kind == "bullets",
+                )
                 trial["bodies"].append(body.id)
                 self.of_body[body.id] = trial
             self.trials.append(trial)
@@ -199,8 +224,11 @@ class Tunnelling(Scene):
         canvas.surface.fill(NIGHT)
         canvas.text("TUNNELLING", 4, 4, GOLD)
         step = self.values["speed"] / 60
-        size = {"balls": f"ball {2 * RADIUS:.0f} px", "rods": f"rod {2 * (ROD_HALF + ROD_RADIUS):.0f} px long",
-                "bullets": f"bullet {2 * BULLET_RADIUS:.0f} px"}[self.kind]
+        size = {
+            "balls": f"ball {2 * RADIUS:.0f} px",
+            "rods": f"rod {2 * (ROD_HALF + ROD_RADIUS):.0f} px long",
+            "bullets": f"bullet {2 * BULLET_RADIUS:.0f} px",
+        }[self.kind]
         plate = "" if self.kind == "bullets" else f"plate {self.values['plate']} px, "
         canvas.text(f"{self.kind}: {step:.0f} px a step, {plate}{size}", 474, 6, FOG, SMALL, align="right")
         for lane in LANES:
@@ -272,16 +300,39 @@ class Tunnelling(Scene):
             return f"{missed[kind, lane]} of {due[kind, lane]}"
 
         return [
-            *(Goal(f"toi misses none of the {kind}", when, due[kind, "toi"] > 5 and missed[kind, "toi"] == 0, found(kind, "toi"))
-              for kind, when in (("balls", 220), ("rods", 420), ("bullets", 600))),
-            Goal("the sweep misses no ball", 220, due["balls", "swept"] > 5 and missed["balls", "swept"] == 0,
-                 found("balls", "swept")),
-            Goal("the sweep is wrong about rods that turn", 420, missed["rods", "swept"] + self.false["rods", "swept"] > 0,
-                 f"{found('rods', 'swept')} missed, {self.false['rods', 'swept']} made up"),
-            Goal("the ray misses some that graze", 420, missed["balls", "ray"] + missed["rods", "ray"] > 0,
-                 f"{found('balls', 'ray')} balls, {found('rods', 'ray')} rods"),
-            Goal("without either most are missed", 600, all(2 * missed[kind, "off"] > due[kind, "off"] for kind in SHOTS),
-                 ", ".join(f"{found(kind, 'off')} {kind}" for kind in SHOTS)),
+            *(
+                Goal(
+                    f"toi misses none of the {kind}",
+                    when,
+                    due[kind, "toi"] > 5 and missed[kind, "toi"] == 0,
+                    found(kind, "toi"),
+                )
+                for kind, when in (("balls", 220), ("rods", 420), ("bullets", 600))
+            ),
+            Goal(
+                "the sweep misses no ball",
+                220,
+                due["balls", "swept"] > 5 and missed["balls", "swept"] == 0,
+                found("balls", "swept"),
+            ),
+            Goal(
+                "the sweep is wrong about rods that turn",
+                420,
+                missed["rods", "swept"] + self.false["rods", "swept"] > 0,
+                f"{found('rods', 'swept')} missed, {self.false['rods', 'swept']} made up",
+            ),
+            Goal(
+                "the ray misses some that graze",
+                420,
+                missed["balls", "ray"] + missed["rods", "ray"] > 0,
+                f"{found('balls', 'ray')} balls, {found('rods', 'ray')} rods",
+            ),
+            Goal(
+                "without either most are missed",
+                600,
+                all(2 * missed[kind, "off"] > due[kind, "off"] for kind in SHOTS),
+                ", ".join(f"{found(kind, 'off')} {kind}" for kind in SHOTS),
+            ),
             Goal("no hit is made up where nothing turns, nor by toi", 600, made_up == 0, f"{made_up}"),
         ]
 

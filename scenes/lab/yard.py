@@ -8,7 +8,7 @@ from game.drawing.draw import CANVAS_SIZE, SMALL, Canvas
 from game.drawing.sprites import load_atlas
 
 TILE = 16
-HEAD = 16          # [canvas px] of the dark head line
+HEAD = 16  # [canvas px] of the dark head line
 
 
 class Yard:

@@ -5,16 +5,24 @@ import pygame
 from game.drawing.draw import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 
-FADE = 0.9                   # [s] from one act's backdrop to the next
-CLOUDS_TOP = 14              # [canvas px]
-HORIZON = 62                 # [canvas px] the mountains stand above the picture's lower edge: the ground hides the rest
-FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}     # colour under the nearest layer, seen from high up
+FADE = 0.9  # [s] from one act's backdrop to the next
+CLOUDS_TOP = 14  # [canvas px]
+HORIZON = 62  # [canvas px] the mountains stand above the picture's lower edge: the ground hides the rest
+FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}  # colour under the nearest layer, seen from high up
 # act: back to front (picture, share of the camera's way along x and along y, own drift [px/s], above the horizon [px])
 LAYERS = {
-    "meadow": (("clouds", 0.05, 0.02, 3.0, None), ("mountains_far", 0.10, 0.05, 0.0, 0), ("mountains_mid", 0.20, 0.10, 0.0, 0),
-               ("mountains_near", 0.42, 0.18, 0.0, 0)),
-    "keep": (("clouds", 0.04, 0.02, 4.0, None), ("mountains_far", 0.08, 0.04, 0.0, -8),
-             ("mountains_mid", 0.16, 0.08, 0.0, -26), ("keep_far", 0.30, 0.14, 0.0, -30)),
+    "meadow": (
+        ("clouds", 0.05, 0.02, 3.0, None),
+        ("mountains_far", 0.10, 0.05, 0.0, 0),
+        ("mountains_mid", 0.20, 0.10, 0.0, 0),
+        ("mountains_near", 0.42, 0.18, 0.0, 0),
+    ),
+    "keep": (
+        ("clouds", 0.04, 0.02, 4.0, None),
+        ("mountains_far", 0.08, 0.04, 0.0, -8),
+        ("mountains_mid", 0.16, 0.08, 0.0, -26),
+        ("keep_far", 0.30, 0.14, 0.0, -30),
+    ),
 }
 CAVE = (("cave_far", 0.15, 0.10), ("cave_near", 0.40, 0.25))
 
@@ -58,7 +66,9 @@ class Backdrops:
 
 def lowest_view(level, act):
     """Top [px] of the lowest picture that is seen in an act."""
-    bottoms = [zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]]
+    bottoms = [
+        zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]
+    ]
     return (max(bottoms) if bottoms else level.size[1]) - CANVAS_SIZE[1]
 
 

@@ -11,20 +11,24 @@ from game.drawing.hud import MARGIN
 from game.drawing.sprites import load_atlas
 from scenes.platformer.feel import steps
 
-SIGN_REACH = (40, 44)        # [px] how near the hero must be to read a sign
-SIGN_WIDTH = 260             # [canvas px] of its longest line
-SIGN_BOTTOM = 10             # [canvas px] between its box and the picture's lower edge
-LINE = 11                    # [canvas px] from line to line
-IRIS = 0.32                  # [s] the picture closes around the hero, and opens again
-WIDEST = 560                 # [canvas px] radius at which the iris is out of the picture
-RESULT_AFTER = 0.9           # [s] from the goal to its result
-STARS_AFTER = (0.5, 1.0, 1.5)    # [s] after that, each star appears
-STAR, STAR_DROP, STAR_GROWTH = 18, 0.15, 120.0   # [px] of a star, [s] that it drops for, [px/s] that it shrinks meanwhile
-MOST_GEMS = 8                # places for secrets: there is no room for more
+SIGN_REACH = (40, 44)  # [px] how near the hero must be to read a sign
+SIGN_WIDTH = 260  # [canvas px] of its longest line
+SIGN_BOTTOM = 10  # [canvas px] between its box and the picture's lower edge
+LINE = 11  # [canvas px] from line to line
+IRIS = 0.32  # [s] the picture closes around the hero, and opens again
+WIDEST = 560  # [canvas px] radius at which the iris is out of the picture
+RESULT_AFTER = 0.9  # [s] from the goal to its result
+STARS_AFTER = (0.5, 1.0, 1.5)  # [s] after that, each star appears
+STAR, STAR_DROP, STAR_GROWTH = (
+    18,
+    0.15,
+    120.0,
+)  # [px] of a star, [s] that it drops for, [px/s] that it shrinks meanwhile
+MOST_GEMS = 8  # places for secrets: there is no room for more
 HOLE = (255, 0, 255)
 TITLES = {"meadow": "THE MEADOW", "cave": "THE HOLLOW", "keep": "THE KEEP"}
-TITLE_TIME, TITLE_FADE = 2.4, 0.35   # [s] the name of an act is shown; it comes and goes in
-TITLE_Y = 58                 # [canvas px]
+TITLE_TIME, TITLE_FADE = 2.4, 0.35  # [s] the name of an act is shown; it comes and goes in
+TITLE_Y = 58  # [canvas px]
 
 
 def draw_board(canvas, scene, view):
@@ -48,7 +52,11 @@ def clock_text(ticks):
 
 def stars(scene):
     """(earned, what for) of the three stars."""
-    return ((True, "the flag"), (scene.secrets == scene.things.secrets_in_all, "all secrets"), (scene.deaths == 0, "no hurt"))
+    return (
+        (True, "the flag"),
+        (scene.secrets == scene.things.secrets_in_all, "all secrets"),
+        (scene.deaths == 0, "no hurt"),
+    )
 
 
 def _draw_counters(canvas, scene):
@@ -157,10 +165,14 @@ def _draw_result(canvas, scene):
         shown = earned and age > 0.0
         _draw_star(canvas, icons["icon_star"], x, top + 46, shown, age)
         canvas.text(reason, x, top + 64, PAPER if shown else FOG, SMALL, 1, "center")
-    for row, (name, value) in enumerate((("time", clock_text(scene.clock)),
-                                         ("coins", f"{scene.coins} of {scene.things.coins_in_all}"),
-                                         ("secrets", f"{scene.secrets} of {scene.things.secrets_in_all}"),
-                                         ("hurt", f"{scene.deaths} times" if scene.deaths != 1 else "once"))):
+    for row, (name, value) in enumerate(
+        (
+            ("time", clock_text(scene.clock)),
+            ("coins", f"{scene.coins} of {scene.things.coins_in_all}"),
+            ("secrets", f"{scene.secrets} of {scene.things.secrets_in_all}"),
+            ("hurt", f"{scene.deaths} times" if scene.deaths != 1 else "once"),
+        )
+    ):
         y = top + 78 + row * 12
         canvas.text(name, middle - 6, y, FOG, TEXT, 1, "right")
         canvas.text(value, middle + 6, y, PAPER, TEXT)

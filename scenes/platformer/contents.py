@@ -3,9 +3,9 @@
 from scenes.platformer.enemies import Bat, Walker
 from scenes.platformer.things import TRIGGERS, Belt, Crate, Crumble, Platform, Trigger
 
-NEARBY = (400.0, 300.0)      # [px] from the hero within which enemies move: the picture's size and some more
+NEARBY = (400.0, 300.0)  # [px] from the hero within which enemies move: the picture's size and some more
 ENEMIES = ("walker", "hedgehog", "bat")
-BELOW = 64                   # [px] under the map what falls out of it is lost
+BELOW = 64  # [px] under the map what falls out of it is lost
 
 
 class Contents:
@@ -20,8 +20,11 @@ class Contents:
         self.crumbles = [Crumble(world, thing) for thing in level.map.things_of("crumble")]
         self.crates = [Crate(world, thing) for thing in level.map.things_of("crate")]
         # Which way each walker sets out is the one thing that the seed decides.
-        enemies = [Bat(world, thing) if thing.kind == "bat" else Walker(world, thing, random.choice((-1, 1)))
-                   for thing in level.map.things if thing.kind in ENEMIES]
+        enemies = [
+            Bat(world, thing) if thing.kind == "bat" else Walker(world, thing, random.choice((-1, 1)))
+            for thing in level.map.things
+            if thing.kind in ENEMIES
+        ]
         self.enemies = {enemy.body.id: enemy for enemy in enemies}
         self.lairs = {enemy.lair.id: enemy for enemy in enemies if enemy.kind == "bat"}
         self.crate_ids = {crate.body.id: crate for crate in self.crates}

@@ -10,15 +10,15 @@ from physics import Character, Polygon
 from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
 from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER
 
-WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}      # [px/s] a fifth of the hero's: it can be read and waited for
-BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}    # [px] inside the sprite: its rim does not hurt
+WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}  # [px/s] a fifth of the hero's: it can be read and waited for
+BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}  # [px] inside the sprite: its rim does not hurt
 # Bats
-LAIR = (104.0, 150.0)        # [px] to either side and down: who comes into it wakes the bat
-DIVE = 0.75                  # [s] down to the height at which it saw the hero
-FLY_SPEED = 84.0             # [px/s] slower than a run: one can get away
+LAIR = (104.0, 150.0)  # [px] to either side and down: who comes into it wakes the bat
+DIVE = 0.75  # [s] down to the height at which it saw the hero
+FLY_SPEED = 84.0  # [px/s] slower than a run: one can get away
 WAVE, WAVE_TIME = 11.0, 0.9  # [px], [s] up and down of its flight
-FLIGHT = 2.6                 # [s] until it turns back to where it hung
-HOME_SPEED = 120.0           # [px/s]
+FLIGHT = 2.6  # [s] until it turns back to where it hung
+HOME_SPEED = 120.0  # [px/s]
 HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
 
 
@@ -51,13 +51,13 @@ class Walker(Creature):
     def __init__(self, world, thing, way):
         height = BOXES[thing.kind][1]
         super().__init__(world, thing.kind, (thing.x + thing.width / 2, thing.y + thing.height - height / 2))
-        self.home = self.start[0]            # [px] the middle of its beat
+        self.home = self.start[0]  # [px] the middle of its beat
         self.range = float(thing.properties.get("range", 0))
         self.way = self.first_way = way
         self.vy = 0.0
-        self.left_at = self.character.position[0]   # where its own last move ended
+        self.left_at = self.character.position[0]  # where its own last move ended
         self.squeezed = False
-        self.riding = -1                     # id of the body under its feet
+        self.riding = -1  # id of the body under its feet
 
     @property
     def stompable(self):
@@ -68,7 +68,7 @@ class Walker(Creature):
         """One step of walking. seen: where the hero is [px]. Returns False: it never wakes up."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
-            self.home += x - self.left_at    # a platform carries its beat along; a belt carries only itself
+            self.home += x - self.left_at  # a platform carries its beat along; a belt carries only itself
         if (x - self.home) * self.way >= self.range:
             self.way = -self.way
         self.vy = approach(self.vy, FALL_SPEED, GRAVITY * STEP_SECONDS)
@@ -118,9 +118,15 @@ class Bat(Creature):
 
     def __init__(self, world, thing):
         super().__init__(world, "bat", (thing.x + thing.width / 2, thing.y + BOXES["bat"][1] / 2 + 1.0))
-        self.lair = world.add_body(Polygon.box(2 * LAIR[0], LAIR[1]), position=(self.start[0], self.start[1] + LAIR[1] / 2),
-                                   kind="static", sensor=True, filter=TRIGGER_FILTER, user="lair")
-        self.seen = False                    # the hero is in its lair
+        self.lair = world.add_body(
+            Polygon.box(2 * LAIR[0], LAIR[1]),
+            position=(self.start[0], self.start[1] + LAIR[1] / 2),
+            kind="static",
+            sensor=True,
+            filter=TRIGGER_FILTER,
+            user="lair",
+        )
+        self.seen = False  # the hero is in its lair
         self._hang()
 
     def _hang(self):

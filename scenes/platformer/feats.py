@@ -6,13 +6,22 @@ from scenes.platformer.feel import HEIGHT, WIDTH
 WORDS = {"jump": "jumps", "wall_jump": "wall jumps", "drop": "drops"}
 # feat: (kind of object that makes it possible, or None; how often or how many steps; by which step of the level as made)
 WANTED = {
-    "slope": (None, 20, 900), "stomps": ("walker", 1, 1500), "pushed a crate": ("crate", 10, 1500),
-    "springs": ("spring", 1, 2100), "drops": (None, 1, 2100), "lift": ("platform", 60, 3000), "ladder": ("ladder", 60, 3300),
-    "crumbled": ("crumble", 1, 4500), "belt": ("belt", 20, 5100), "crates thrown": ("spring", 1, 5100),
-    "lift with a crate": ("platform", 60, 6300), "lift with an enemy": ("platform", 60, 6300), "wall jumps": (None, 3, 7200),
+    "slope": (None, 20, 900),
+    "stomps": ("walker", 1, 1500),
+    "pushed a crate": ("crate", 10, 1500),
+    "springs": ("spring", 1, 2100),
+    "drops": (None, 1, 2100),
+    "lift": ("platform", 60, 3000),
+    "ladder": ("ladder", 60, 3300),
+    "crumbled": ("crumble", 1, 4500),
+    "belt": ("belt", 20, 5100),
+    "crates thrown": ("spring", 1, 5100),
+    "lift with a crate": ("platform", 60, 6300),
+    "lift with an enemy": ("platform", 60, 6300),
+    "wall jumps": (None, 3, 7200),
     "rode a crate": ("crate", 30, 9000),
 }
-GOAL_DUE = 9000              # [steps]
+GOAL_DUE = 9000  # [steps]
 
 
 class Feats:
@@ -49,9 +58,12 @@ class Feats:
             if not (left - 8 < x < right + 8 and top - 60 < y < top and under in ("platform", "crate")):
                 continue
             done["lift"] += under == "platform"
-            done["lift with a crate"] += any(left < crate.body.position[0] < right and abs(crate.box[3] - top) < 3
-                                             for crate in scene.things.crates)
-            done["lift with an enemy"] += any(enemy.riding == platform.body.id for enemy in scene.things.enemies.values())
+            done["lift with a crate"] += any(
+                left < crate.body.position[0] < right and abs(crate.box[3] - top) < 3 for crate in scene.things.crates
+            )
+            done["lift with an enemy"] += any(
+                enemy.riding == platform.body.id for enemy in scene.things.enemies.values()
+            )
 
     def broke(self):
         """A stone has crumbled."""
@@ -68,8 +80,14 @@ class Feats:
                 found.append(Goal(name, due, self.done[name] >= times, f"{self.done[name]} of {times}"))
         x, y = scene.hero.character.position
         if things.secrets_in_all:
-            found.append(Goal("all secrets", GOAL_DUE, scene.secrets == things.secrets_in_all,
-                              f"{scene.secrets} of {things.secrets_in_all}"))
+            found.append(
+                Goal(
+                    "all secrets",
+                    GOAL_DUE,
+                    scene.secrets == things.secrets_in_all,
+                    f"{scene.secrets} of {things.secrets_in_all}",
+                )
+            )
         if scene.checkpoints:
             of = len(scene.checkpoints)
             found.append(Goal("all checkpoints", GOAL_DUE, lit == of, f"{lit} of {of}"))

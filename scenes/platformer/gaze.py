@@ -5,14 +5,14 @@ from math import exp
 from game.drawing.draw import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
-AHEAD = 64.0                 # [px] it looks this far in the way of a run
-STANDING_AHEAD = AHEAD * 0.35    # [px] and this far in the way he faces when he stands
-AHEAD_RATE = 1.8             # [1/s] slowly, so that a step back does not swing the picture
-FOLLOW_RATE = 6.5            # [1/s]
-RUNNING = 60.0               # [px/s] faster than this it looks where he runs, slower where he faces
-DEAD_ZONE = (6.0, 10.0)      # [px] small moves leave the picture still
-RAISED = 46.0                # [px] the hero stands below the middle: there is more to see above
-JUMP_ROOM = 58.0             # [px] a jump of that height does not lift the camera; its landing does
+AHEAD = 64.0  # [px] it looks this far in the way of a run
+STANDING_AHEAD = AHEAD * 0.35  # [px] and this far in the way he faces when he stands
+AHEAD_RATE = 1.8  # [1/s] slowly, so that a step back does not swing the picture
+FOLLOW_RATE = 6.5  # [1/s]
+RUNNING = 60.0  # [px/s] faster than this it looks where he runs, slower where he faces
+DEAD_ZONE = (6.0, 10.0)  # [px] small moves leave the picture still
+RAISED = 46.0  # [px] the hero stands below the middle: there is more to see above
+JUMP_ROOM = 58.0  # [px] a jump of that height does not lift the camera; its landing does
 PEEK, PEEK_AFTER = 62.0, 24  # [px], [steps] that up or down is held on the ground
 
 
@@ -23,7 +23,7 @@ class Gaze:
         self.scene = scene
         self.ahead = STANDING_AHEAD
         self.level_y = scene.hero.character.position[1]
-        self.peeking = 0                     # steps that he has looked up or down
+        self.peeking = 0  # steps that he has looked up or down
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
@@ -39,7 +39,7 @@ class Gaze:
         self.ahead += (max(-AHEAD, min(AHEAD, wanted)) - self.ahead) * (1.0 - exp(-AHEAD_RATE * dt))
         if hero.grounded or hero.sliding or hero.ladder is not None:
             self.level_y = y
-        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)     # below it he is always followed
+        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)  # below it he is always followed
         self.peeking = self.peeking + 1 if hero.gazing else 0
         peek = PEEK * hero.gazing if self.peeking > PEEK_AFTER else 0.0
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)

@@ -59,10 +59,12 @@ class Hero:
 
     def __init__(self, world, level, position):
         self.world, self.level = world, level
-        self.character = Character(world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH)
-        self.crates = ()           # what he can push
-        self.solids = ()           # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
-        self.ladders = {}          # body id -> trigger of the ladders that he touches
+        self.character = Character(
+            world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH
+        )
+        self.crates = ()  # what he can push
+        self.solids = ()  # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
+        self.ladders = {}  # body id -> trigger of the ladders that he touches
         self.facing = 1
         self.news = []
         self.place(position)
@@ -70,17 +72,17 @@ class Hero:
     def place(self, position):
         """Stand still somewhere, as at a start."""
         self.character.move_to(position)
-        self.character.move(0.0, 0.0)        # forgets a squeeze that was not told yet
+        self.character.move(0.0, 0.0)  # forgets a squeeze that was not told yet
         self.before = self.character.position
         self.vx = self.vy = self.rise_speed = self.lift_x = self.lift_y = self.kept_vx = self.slope = 0.0
         self.buffer = self.coyote = self.rise = self.drop = self.locked = self.kept = self.lift = 0
         self.grip = steps(SLIDE_TIME)
         self.locked_way = self.wall = self.sliding = 0
         self.grounded = self.pushing = self.crushed = False
-        self.pushed = None                   # the crate beside him that he runs against
-        self.peak = self.before[1]           # highest since he left the ground [px]
+        self.pushed = None  # the crate beside him that he runs against
+        self.peak = self.before[1]  # highest since he left the ground [px]
         self.riding = self.ladder = None
-        self.gazing = 0                      # -1 looks up, 1 ducks
+        self.gazing = 0  # -1 looks up, 1 ducks
         self.news.clear()
 
     @property
@@ -176,8 +178,11 @@ class Hero:
             self._wall_jump()
 
     def _wall_jump(self):
-        near = [side for side in (self.facing, -self.facing)
-                if any(self._blocked(side * reach, 0) for reach in range(1, WALL_REACH + 1))]
+        near = [
+            side
+            for side in (self.facing, -self.facing)
+            if any(self._blocked(side * reach, 0) for reach in range(1, WALL_REACH + 1))
+        ]
         if near:
             self.locked_way = self.facing = -near[0]
             self.locked = steps(WALL_JUMP_TIME)
@@ -188,7 +193,7 @@ class Hero:
 
     def _rise(self, speed):
         self.vy = self.rise_speed = -speed
-        self.rise = steps(JUMP_HOLD) + 1     # the step of the press itself does not count
+        self.rise = steps(JUMP_HOLD) + 1  # the step of the press itself does not count
         self.buffer = self.coyote = 0
         self.grounded = False
         self.ladder = None
@@ -215,12 +220,12 @@ class Hero:
             self.ladder, self.coyote = None, 0 if down else 1
             self.vx = self.vy = 0.0
             if down:
-                self.buffer = 0                 # let go
+                self.buffer = 0  # let go
             else:
                 self._jump(way, False)
             return
         if self.ladder.body.id not in self.ladders or (way and not turn):
-            self.ladder, self.coyote = None, steps(COYOTE)     # left behind, or stepped off
+            self.ladder, self.coyote = None, steps(COYOTE)  # left behind, or stepped off
             self.vx, self.vy = way * RUN_SPEED * 0.5, 0.0
             return
         if way:
@@ -230,7 +235,7 @@ class Hero:
         self.vy = turn * CLIMB_SPEED
         if turn < 0:
             self.vy = max(self.vy, (self.ladder.top - self.box[3]) / STEP_SECONDS)
-        self.drop = 2 if turn > 0 else 0        # past its own top
+        self.drop = 2 if turn > 0 else 0  # past its own top
 
     def _leave_ladder(self, moved):
         """Off at its foot, or stand on its top."""
@@ -339,7 +344,8 @@ class Hero:
         left, top, right, bottom = self.box
         left, top, right, bottom = left + dx, top + dy, right + dx, bottom + dy
         return self.level.blocks(left, top, WIDTH, HEIGHT) or any(
-            left < box[2] and box[0] < right and top < box[3] and box[1] < bottom for box in self.solids)
+            left < box[2] and box[0] < right and top < box[3] and box[1] < bottom for box in self.solids
+        )
 
     def _crate_beside(self, way):
         left, top, right, bottom = self.box
@@ -352,7 +358,28 @@ class Hero:
 
     def state(self):
         """All that the next step depends on and that is not in the world."""
-        return (self.vx, self.vy, self.rise_speed, self.lift_x, self.lift_y, self.kept_vx, self.slope, self.buffer,
-                self.coyote, self.rise, self.drop, self.locked, self.kept, self.lift, self.grip, self.locked_way,
-                self.wall, self.sliding, self.facing, self.grounded, self.peak, *sorted(self.ladders),
-                self.ladder.body.id if self.ladder is not None else -1)
+        return (
+            self.vx,
+            self.vy,
+            self.rise_speed,
+            self.lift_x,
+            self.lift_y,
+            self.kept_vx,
+            self.slope,
+            self.buffer,
+            self.coyote,
+            self.rise,
+            self.drop,
+            self.locked,
+            self.kept,
+            self.lift,
+            self.grip,
+            self.locked_way,
+            self.wall,
+            self.sliding,
+            self.facing,
+            self.grounded,
+            self.peak,
+            *sorted(self.ladders),
+            self.ladder.body.id if self.ladder is not None else -1,
+        )

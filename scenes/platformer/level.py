@@ -24,7 +24,13 @@ SPRING_FILTER = Filter(TRIGGER, HERO | CRATE)
 DEBRIS_FILTER = Filter(DEBRIS, TILES)
 
 EMPTY, SOLID, PLANK, SLOPE = "empty", "solid", "one_way", "slope"
-GLOWS = {"torch": (0, -3), "crystal_0": (0, 0), "crystal_1": (0, 0), "glowcap": (0, 0), "window": (0, 0)}   # [px] of the light
+GLOWS = {
+    "torch": (0, -3),
+    "crystal_0": (0, 0),
+    "crystal_1": (0, 0),
+    "glowcap": (0, 0),
+    "window": (0, 0),
+}  # [px] of the light
 
 
 class Level:
@@ -36,8 +42,10 @@ class Level:
         self.size = self.map.size
         self.tile = self.map.tile_size
         kinds = {number: self.map.kind_of(number) for number in self.map.tiles}
-        self.kinds = [[kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY
-                       for number in row] for row in self.map.layers["solid"].tolist()]
+        self.kinds = [
+            [kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY for number in row]
+            for row in self.map.layers["solid"].tolist()
+        ]
         self.slopes = self.grid.slopes.tolist()
         self.lights = list(self._find_lights())
         self.zones = self.map.things_of("zone")
@@ -45,7 +53,7 @@ class Level:
         self.hints = sorted(self.map.things_of("hint"), key=lambda hint: hint.properties["order"])
 
     def __deepcopy__(self, memo):
-        return self                # nothing in it changes, and its pictures are kept by it
+        return self  # nothing in it changes, and its pictures are kept by it
 
     def _find_lights(self):
         """(x, y, name) of every tile of the decoration that glows [px]."""
@@ -59,8 +67,7 @@ class Level:
 
     def zones_at(self, x, y):
         """The zones that hold a point [px], in the map's order: the first one tells the act."""
-        return [zone for zone in self.zones
-                if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
+        return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
         """Put the tiles into a world as one static body."""
@@ -108,8 +115,10 @@ class Level:
         if bottom % self.tile:
             return False
         row = bottom // self.tile
-        under = {self.kind(column, row)
-                 for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1)}
+        under = {
+            self.kind(column, row)
+            for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1)
+        }
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):

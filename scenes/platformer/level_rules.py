@@ -7,11 +7,11 @@ from game.errors import FileError
 from game.places import IMAGES
 
 TILE_SIZE = 16
-SMALLEST, LARGEST = (30, 17), (1024, 256)      # [tiles] the picture; what is checked and painted in a moment
+SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; what is checked and painted in a moment
 MOST_THINGS = 1500
 ACTS = ("meadow", "cave", "keep")
 HINTS = ("run", "jump", "climb", "kick", "ride", "drop", "push", "fall", "spring")
-FAR = 1e5                                      # [px] beyond any map
+FAR = 1e5  # [px] beyond any map
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Kind:
     least: int = 0
     most: int = MOST_THINGS
     properties: tuple = ()
-    outside: bool = False          # may reach over the map's edge
+    outside: bool = False  # may reach over the map's edge
 
 
 def _number(name, least, most, needed=True):
@@ -29,15 +29,30 @@ def _number(name, least, most, needed=True):
 
 
 KINDS = {
-    "hero_start": Kind(1, 1), "goal": Kind(1, 1), "coin": Kind(), "secret": Kind(), "checkpoint": Kind(), "spring": Kind(),
-    "spikes": Kind(), "crate": Kind(), "crumble": Kind(), "ladder": Kind(),
+    "hero_start": Kind(1, 1),
+    "goal": Kind(1, 1),
+    "coin": Kind(),
+    "secret": Kind(),
+    "checkpoint": Kind(),
+    "spring": Kind(),
+    "spikes": Kind(),
+    "crate": Kind(),
+    "crumble": Kind(),
+    "ladder": Kind(),
     "sign": Kind(properties=(("text", str, 1, 120, True),)),
-    "walker": Kind(properties=(_number("range", 0.0, FAR),)), "hedgehog": Kind(properties=(_number("range", 0.0, FAR),)),
+    "walker": Kind(properties=(_number("range", 0.0, FAR),)),
+    "hedgehog": Kind(properties=(_number("range", 0.0, FAR),)),
     "bat": Kind(),
     "platform": Kind(properties=(_number("to_x", 0.0, FAR), _number("to_y", 0.0, FAR), _number("period", 0.5, 120.0))),
     "belt": Kind(properties=(_number("speed", -400.0, 400.0),)),
-    "zone": Kind(properties=(("act", str, ACTS, None, True), _number("view_top", 0.0, FAR, False),
-                             _number("view_bottom", 0.0, FAR, False)), outside=True),
+    "zone": Kind(
+        properties=(
+            ("act", str, ACTS, None, True),
+            _number("view_top", 0.0, FAR, False),
+            _number("view_bottom", 0.0, FAR, False),
+        ),
+        outside=True,
+    ),
     "cover": Kind(),
     "hint": Kind(properties=(_number("order", 0, 1e6), ("act", str, HINTS, None, True))),
 }
@@ -66,8 +81,10 @@ def _check_size(tilemap):
     path = tilemap.path
     if tilemap.tile_size != TILE_SIZE:
         raise FileError(path, "tilewidth", f"must be {TILE_SIZE} (got {tilemap.tile_size})")
-    for name, size, least, most in (("width", tilemap.columns, SMALLEST[0], LARGEST[0]),
-                                    ("height", tilemap.rows, SMALLEST[1], LARGEST[1])):
+    for name, size, least, most in (
+        ("width", tilemap.columns, SMALLEST[0], LARGEST[0]),
+        ("height", tilemap.rows, SMALLEST[1], LARGEST[1]),
+    ):
         if not least <= size <= most:
             raise FileError(path, f"map.{name}", f"must be {least}..{most} tiles (got {size})")
     if "solid" not in tilemap.layers:
@@ -85,7 +102,9 @@ def _check_thing(tilemap, thing):
     if not (0.0 < thing.width <= width and 0.0 < thing.height <= height):
         raise FileError(path, place, f"must have a size within the map (got {thing.width:g} x {thing.height:g})")
     if not kind.outside and not (0.0 <= thing.x <= width - thing.width and 0.0 <= thing.y <= height - thing.height):
-        raise FileError(path, place, f"is outside the map (x {thing.x:g}, y {thing.y:g}; the map is {width} x {height} px)")
+        raise FileError(
+            path, place, f"is outside the map (x {thing.x:g}, y {thing.y:g}; the map is {width} x {height} px)"
+        )
     for name, wanted, least, most, needed in kind.properties:
         if name in thing.properties:
             _check_value(path, f"{place}.{name}", thing.properties[name], wanted, least, most)

@@ -7,18 +7,23 @@ import pygame
 from game.drawing.draw import CANVAS_SIZE, whole
 from game.drawing.sprites import load_atlas
 
-AMBIENT = (136, 132, 180)    # what is left of each colour where the cave is darkest
-STEPS = 12                   # of darkness between day and that, each with light discs of its own
-GRAIN = 2                    # [px] between the radii that a flickering light takes: so few pictures are kept
-BRIGHTEST = 0.62             # of a light's colour in the middle of its disc
-WARM = ("torch", "lantern", "window")    # these glow as they are drawn, the others in cold colours
+AMBIENT = (136, 132, 180)  # what is left of each colour where the cave is darkest
+STEPS = 12  # of darkness between day and that, each with light discs of its own
+GRAIN = 2  # [px] between the radii that a flickering light takes: so few pictures are kept
+BRIGHTEST = 0.62  # of a light's colour in the middle of its disc
+WARM = ("torch", "lantern", "window")  # these glow as they are drawn, the others in cold colours
 # What shines: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
 SHINES = {
-    "torch": (0.10, 11.0, 32, 92, (255, 206, 150)), "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
-    "crystal_0": (0.06, 1.6, 20, 60, (130, 235, 235)), "crystal_1": (0.06, 1.9, 20, 60, (130, 235, 235)),
-    "glowcap": (0.08, 1.2, 16, 50, (150, 255, 190)), "window": (0.04, 6.0, 20, 60, (255, 206, 150)),
-    "hero": (0.02, 1.0, 0, 104, (226, 222, 240)), "secret": (0.12, 2.0, 22, 62, (150, 255, 240)),
-    "goal": (0.04, 2.0, 0, 80, (255, 230, 190)), "coin": (0.0, 1.0, 0, 22, (210, 180, 110)),
+    "torch": (0.10, 11.0, 32, 92, (255, 206, 150)),
+    "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
+    "crystal_0": (0.06, 1.6, 20, 60, (130, 235, 235)),
+    "crystal_1": (0.06, 1.9, 20, 60, (130, 235, 235)),
+    "glowcap": (0.08, 1.2, 16, 50, (150, 255, 190)),
+    "window": (0.04, 6.0, 20, 60, (255, 206, 150)),
+    "hero": (0.02, 1.0, 0, 104, (226, 222, 240)),
+    "secret": (0.12, 2.0, 22, 62, (150, 255, 240)),
+    "goal": (0.04, 2.0, 0, 80, (255, 230, 190)),
+    "coin": (0.0, 1.0, 0, 22, (210, 180, 110)),
 }
 
 
@@ -36,15 +41,21 @@ class Lighting:
             for x, y, name in lights:
                 flicker, speed, _, radius, color = SHINES[name]
                 image = disc(flickering(radius, flicker, speed, time, x), color, level / STEPS)
-                self.cover.blit(image, (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
-                                special_flags=pygame.BLEND_RGB_ADD)
+                self.cover.blit(
+                    image,
+                    (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
+                    special_flags=pygame.BLEND_RGB_ADD,
+                )
             surface.blit(self.cover, (0, 0), special_flags=pygame.BLEND_RGB_MULT)
         for x, y, name in lights:
             flicker, speed, radius, _, _ = SHINES[name]
             if radius:
                 image = glow(flickering(radius, flicker, speed, time, x), name in WARM)
-                surface.blit(image, (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
-                             special_flags=pygame.BLEND_RGB_ADD)
+                surface.blit(
+                    image,
+                    (whole(x) - image.get_width() // 2, whole(y) - image.get_height() // 2),
+                    special_flags=pygame.BLEND_RGB_ADD,
+                )
 
 
 def flickering(radius, share, speed, time, x):
@@ -70,8 +81,12 @@ def disc(radius, color, share):
     rings = max(radius // 5, 3)
     for ring in range(rings):
         part = (ring + 1) / rings
-        pygame.draw.circle(image, [whole(c * share * BRIGHTEST * part * part) for c in color], (radius, radius),
-                           whole(radius * (1.0 - ring / rings)))
+        pygame.draw.circle(
+            image,
+            [whole(c * share * BRIGHTEST * part * part) for c in color],
+            (radius, radius),
+            whole(radius * (1.0 - ring / rings)),
+        )
     return image
 
 

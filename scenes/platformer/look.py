@@ -7,40 +7,63 @@ from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
 # Squash and stretch: (width, height) at the moment, and how fast it fades
-STRETCHES = {"jump": (0.60, 1.40), "wall_jump": (0.60, 1.40), "land": (1.22, 0.80), "thud": (1.40, 0.60),
-             "launch": (0.60, 1.42), "stomp": (0.72, 1.28), "bump": (1.15, 0.85), "drop": (0.85, 1.12), "thrown": (1.25, 0.80)}
-STRETCH_RATE = 11.0          # [1/s]
-SOUNDS = {"jump": ("jump", 0.7), "wall_jump": ("jump", 0.8), "land": ("land", 0.4), "thud": ("land", 0.8),
-          "launch": ("spring", 0.9), "stomp": ("stomp", 0.9), "bump": ("hit", 0.25), "drop": ("blip", 0.4),
-          "thrown": ("hit", 0.7)}
+STRETCHES = {
+    "jump": (0.60, 1.40),
+    "wall_jump": (0.60, 1.40),
+    "land": (1.22, 0.80),
+    "thud": (1.40, 0.60),
+    "launch": (0.60, 1.42),
+    "stomp": (0.72, 1.28),
+    "bump": (1.15, 0.85),
+    "drop": (0.85, 1.12),
+    "thrown": (1.25, 0.80),
+}
+STRETCH_RATE = 11.0  # [1/s]
+SOUNDS = {
+    "jump": ("jump", 0.7),
+    "wall_jump": ("jump", 0.8),
+    "land": ("land", 0.4),
+    "thud": ("land", 0.8),
+    "launch": ("spring", 0.9),
+    "stomp": ("stomp", 0.9),
+    "bump": ("hit", 0.25),
+    "drop": ("blip", 0.4),
+    "thrown": ("hit", 0.7),
+}
 DUST = ((214, 200, 190), (160, 142, 140), (104, 90, 100))
 GRIT = ((190, 196, 214), (128, 128, 158), (74, 70, 100))
 GOLDEN = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
 EMBER = ((255, 244, 190), (255, 178, 70), (214, 84, 40), (90, 40, 52))
-MOTES = {"meadow": ((255, 226, 150), (226, 150, 110), (130, 84, 120)),
-         "cave": ((190, 255, 240), (90, 190, 200), (50, 90, 130)),
-         "keep": ((255, 214, 190), (214, 130, 140), (110, 70, 120))}
-CONFETTI = (((255, 92, 92), (180, 50, 80)), ((120, 220, 232), (60, 130, 190)), ((255, 222, 110), (214, 140, 60)),
-            ((190, 236, 120), (90, 160, 80)))
+MOTES = {
+    "meadow": ((255, 226, 150), (226, 150, 110), (130, 84, 120)),
+    "cave": ((190, 255, 240), (90, 190, 200), (50, 90, 130)),
+    "keep": ((255, 214, 190), (214, 130, 140), (110, 70, 120)),
+}
+CONFETTI = (
+    ((255, 92, 92), (180, 50, 80)),
+    ((120, 220, 232), (60, 130, 190)),
+    ((255, 222, 110), (214, 140, 60)),
+    ((190, 236, 120), (90, 160, 80)),
+)
 GEM = ((255, 255, 255), (170, 255, 236), (80, 200, 220), (60, 90, 170))
-FALLEN = 260.0               # [px/s] how fast a hurt hero is thrown up before he falls out of the picture
-FALLEN_GRAVITY = 1100.0      # [px/s2]
-RUN_DUST = 11                # steps between puffs of a run
-MOTE_EVERY = 9               # steps between motes of light in the air
-EMBER_EVERY = 5              # steps between sparks of a flame
-RUNG = 14.0                  # [px] of climbing between two sounds of it
-LOUDEST = 400000.0           # [density px3/s] impulse of a hit beyond which nothing gets louder: the large crate from 10 tiles
-FAINTEST, SHAKING = 0.02, 0.25   # of that: quieter is not heard, harder shakes the picture
-SQUASHED = 0.5               # [s] a flattened walker is seen
-TUMBLED = 1.2                # [s] a flattened bat or hedgehog is seen to fall
-QUICK, AFTERIMAGES = 250.0, 7    # [px/s] faster than this he leaves so many pictures of himself behind
-DARKEN = 2.2                 # [1/s] how quickly eyes and light get used to another act
-COVER_RATE = 7.0             # [1/s] a covered room is seen, and hidden again
+FALLEN = 260.0  # [px/s] how fast a hurt hero is thrown up before he falls out of the picture
+FALLEN_GRAVITY = 1100.0  # [px/s2]
+RUN_DUST = 11  # steps between puffs of a run
+MOTE_EVERY = 9  # steps between motes of light in the air
+EMBER_EVERY = 5  # steps between sparks of a flame
+RUNG = 14.0  # [px] of climbing between two sounds of it
+LOUDEST = 400000.0  # [density px3/s] impulse of a hit beyond which nothing gets louder: the large crate from 10 tiles
+FAINTEST, SHAKING = 0.02, 0.25  # of that: quieter is not heard, harder shakes the picture
+SQUASHED = 0.5  # [s] a flattened walker is seen
+TUMBLED = 1.2  # [s] a flattened bat or hedgehog is seen to fall
+QUICK, AFTERIMAGES = 250.0, 7  # [px/s] faster than this he leaves so many pictures of himself behind
+DARKEN = 2.2  # [1/s] how quickly eyes and light get used to another act
+COVER_RATE = 7.0  # [1/s] a covered room is seen, and hidden again
 PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] how fast the jumps of the counters end
-PUFF_LIFE = 0.3              # [s] all frames of dust or a sparkle
-HELD_STEP = STEP_SECONDS / 4     # [s] that pass for lights and coins while the picture stands still
-SPLIT_TIME = 2.6             # [s] the time at a checkpoint against the best run's is shown
-WINDOW = 20.0, 72.0          # [px] the ghost passed a checkpoint when it was that near
+PUFF_LIFE = 0.3  # [s] all frames of dust or a sparkle
+HELD_STEP = STEP_SECONDS / 4  # [s] that pass for lights and coins while the picture stands still
+SPLIT_TIME = 2.6  # [s] the time at a checkpoint against the best run's is shown
+WINDOW = 20.0, 72.0  # [px] the ghost passed a checkpoint when it was that near
 
 
 class Look:
@@ -49,21 +72,21 @@ class Look:
     def __init__(self, scene):
         self.scene = scene
         self.time = 0.0
-        self.width = self.height = 1.0       # the hero's stretch
-        self.run = self.climb = 0.0          # [px] way on the ground and on ladders, which drive the frames
-        self.puffs = []                      # [animation, x, y, age s]
-        self.flat = []                       # flattened enemies: [kind, x, bottom, way, age s]
-        self.afterimages = []                # [x, bottom, frame, way, age steps]
-        self.pulse = 0.0                     # the coin counter's jump, 1..0
+        self.width = self.height = 1.0  # the hero's stretch
+        self.run = self.climb = 0.0  # [px] way on the ground and on ladders, which drive the frames
+        self.puffs = []  # [animation, x, y, age s]
+        self.flat = []  # flattened enemies: [kind, x, bottom, way, age s]
+        self.afterimages = []  # [x, bottom, frame, way, age steps]
+        self.pulse = 0.0  # the coin counter's jump, 1..0
         self.gem_pulse = 0.0
-        self.fall = self.fall_speed = 0.0    # a hurt hero's way down
-        self.bodies, self.angles = {}, {}    # body id -> place, and angle of a crate, before this step
-        self.act = "meadow"                  # where no zone says otherwise
+        self.fall = self.fall_speed = 0.0  # a hurt hero's way down
+        self.bodies, self.angles = {}, {}  # body id -> place, and angle of a crate, before this step
+        self.act = "meadow"  # where no zone says otherwise
         self.act = self.last_act = self._act()
-        self.act_age = 0.0                   # [s] in this act
+        self.act_age = 0.0  # [s] in this act
         self.dark = 1.0 if self.act == "cave" else 0.0
-        self.open = [0.0] * len(scene.level.covers)     # how far each covered room is seen, 0..1
-        self.split = None                    # (seconds against the ghost's, time shown)
+        self.open = [0.0] * len(scene.level.covers)  # how far each covered room is seen, 0..1
+        self.split = None  # (seconds against the ghost's, time shown)
         self.gaze = Gaze(scene)
         self.arrive()
 
@@ -126,14 +149,33 @@ class Look:
             self._dust(2, hero.facing * 10, speed=(8, 26))
         elif hero.sliding and scene.frame % 4 == 0:
             x, y = hero.character.position
-            scene.particles.burst(x + 5 * hero.sliding, y + 4, 2, DUST, speed=(5, 26), life=(0.2, 0.4),
-                                  angle=pi / 2 * (1 + hero.sliding), spread=1.6, gravity=60.0)
+            scene.particles.burst(
+                x + 5 * hero.sliding,
+                y + 4,
+                2,
+                DUST,
+                speed=(5, 26),
+                life=(0.2, 0.4),
+                angle=pi / 2 * (1 + hero.sliding),
+                spread=1.6,
+                gravity=60.0,
+            )
         for crumble in scene.things.crumbles:
             if crumble.shaking and scene.frame % 3 == 0:
                 left, _, right, bottom = crumble.box
                 x = left + (right - left) * scene.particles.random.uniform(0, 1)
-                scene.particles.burst(x, bottom, 1, GRIT, speed=(4, 18), life=(0.2, 0.5), angle=pi / 2, spread=0.8,
-                                      size=(1, 1), gravity=240.0)
+                scene.particles.burst(
+                    x,
+                    bottom,
+                    1,
+                    GRIT,
+                    speed=(4, 18),
+                    life=(0.2, 0.5),
+                    angle=pi / 2,
+                    spread=0.8,
+                    size=(1, 1),
+                    gravity=240.0,
+                )
 
     def _age(self, dt):
         for aging in (self.puffs, self.flat):
@@ -163,8 +205,10 @@ class Look:
 
     def hidden(self, x, y):
         """Whether a cover is still over a point: light from there must not tell."""
-        return any(seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
-                   for cover, seen in zip(self.scene.level.covers, self.open, strict=True))
+        return any(
+            seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
+            for cover, seen in zip(self.scene.level.covers, self.open, strict=True)
+        )
 
     def _leave_images(self, hero):
         """Where he is quicker than he can run or fall by himself."""
@@ -179,14 +223,33 @@ class Look:
         left, top = scene.camera.view()
         width, height = scene.camera.size
         if scene.frame % MOTE_EVERY == 0:
-            particles.burst(left + width * random.uniform(0, 1), top + height * random.uniform(0.2, 1), 1, MOTES[self.act],
-                            speed=(4, 14), life=(1.5, 3.2), size=(1, 1), drag=0.2, gravity=-3.0)
+            particles.burst(
+                left + width * random.uniform(0, 1),
+                top + height * random.uniform(0.2, 1),
+                1,
+                MOTES[self.act],
+                speed=(4, 14),
+                life=(1.5, 3.2),
+                size=(1, 1),
+                drag=0.2,
+                gravity=-3.0,
+            )
         if scene.frame % EMBER_EVERY == 0:
             for x, y, name in scene.level.lights:
                 seen = left - 16 < x < left + width + 16 and top - 16 < y < top + height + 16
                 if name == "torch" and seen and not self.hidden(x, y):
-                    particles.burst(x, y - 1, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=-pi / 2, spread=1.2,
-                                    size=(1, 1), gravity=-30.0)
+                    particles.burst(
+                        x,
+                        y - 1,
+                        1,
+                        EMBER,
+                        speed=(6, 20),
+                        life=(0.3, 0.8),
+                        angle=-pi / 2,
+                        spread=1.2,
+                        size=(1, 1),
+                        gravity=-30.0,
+                    )
 
     # --- what the scene reports --------------------------------------------------------------------------------------
 
@@ -206,11 +269,22 @@ class Look:
             elif word == "wall_jump":
                 x, y = self.scene.hero.character.position
                 away = self.scene.hero.facing
-                self.scene.particles.burst(x - 6 * away, y + 4, 10, DUST, speed=(20, 90), life=(0.2, 0.45),
-                                           angle=0.0 if away > 0 else pi, spread=1.8, gravity=120.0)
+                self.scene.particles.burst(
+                    x - 6 * away,
+                    y + 4,
+                    10,
+                    DUST,
+                    speed=(20, 90),
+                    life=(0.2, 0.45),
+                    angle=0.0 if away > 0 else pi,
+                    spread=1.8,
+                    gravity=120.0,
+                )
             elif word == "launch":
                 x, y = self._feet()
-                self.scene.particles.burst(x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4)
+                self.scene.particles.burst(
+                    x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
+                )
 
     def tell(self, word, thing):
         """A stone shakes, breaks or is back, a bat wakes."""
@@ -247,8 +321,9 @@ class Look:
     def threw(self, trigger):
         """A spring has thrown a crate."""
         self._sound_at("spring", trigger.x, 0.7)
-        self.scene.particles.burst(trigger.x, trigger.foot[1] - 8, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2,
-                                   spread=1.4)
+        self.scene.particles.burst(
+            trigger.x, trigger.foot[1] - 8, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
+        )
 
     def lit(self, trigger):
         """A lantern is lit; the time against the ghost's is told."""
@@ -264,8 +339,9 @@ class Look:
         """An enemy is flat."""
         x, _ = enemy.character.position
         self.flat.append([enemy.kind, x, enemy.bottom, enemy.way, 0.0])
-        self.scene.particles.burst(x, enemy.bottom - 6, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=-pi / 2, spread=2.6,
-                                   gravity=200.0)
+        self.scene.particles.burst(
+            x, enemy.bottom - 6, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=-pi / 2, spread=2.6, gravity=200.0
+        )
         if self._in_picture(x, enemy.bottom):
             self.scene.camera.shake(0.2)
             self._sound_at("stomp", x, 0.6)
@@ -275,8 +351,17 @@ class Look:
         force = min(impulse / LOUDEST, 1.0)
         if force < FAINTEST or not self._in_picture(x, y):
             return
-        self.scene.particles.burst(x, y, 2 + round(16 * force), DUST, speed=(10, 30 + 80 * force),
-                                   life=(0.2, 0.3 + 0.4 * force), angle=-pi / 2, spread=2.6, gravity=60.0)
+        self.scene.particles.burst(
+            x,
+            y,
+            2 + round(16 * force),
+            DUST,
+            speed=(10, 30 + 80 * force),
+            life=(0.2, 0.3 + 0.4 * force),
+            angle=-pi / 2,
+            spread=2.6,
+            gravity=60.0,
+        )
         self._sound_at("crate", x, 0.15 + 0.75 * force)
         if force > SHAKING:
             self.scene.camera.shake(0.35 * force)
@@ -285,8 +370,9 @@ class Look:
         """The hero is thrown out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
-        self.scene.particles.burst(x, y, 24, ((255, 255, 255), (255, 150, 150), (190, 50, 80), (80, 30, 60)),
-                                   speed=(30, 170), life=(0.25, 0.7))
+        self.scene.particles.burst(
+            x, y, 24, ((255, 255, 255), (255, 150, 150), (190, 50, 80), (80, 30, 60)), speed=(30, 170), life=(0.25, 0.7)
+        )
         self.scene.camera.shake(0.6)
         self.scene.flash.start(0.35, (255, 190, 190))
         self._sound("hurt", 0.9)
@@ -300,8 +386,18 @@ class Look:
     def won(self, trigger):
         """Confetti."""
         for ramp in CONFETTI:
-            self.scene.particles.burst(trigger.x, trigger.y - 10, 34, ramp, speed=(60, 240), life=(0.8, 2.0),
-                                       angle=-pi / 2, spread=2.2, drag=1.6, gravity=150.0)
+            self.scene.particles.burst(
+                trigger.x,
+                trigger.y - 10,
+                34,
+                ramp,
+                speed=(60, 240),
+                life=(0.8, 2.0),
+                angle=-pi / 2,
+                spread=2.2,
+                drag=1.6,
+                gravity=150.0,
+            )
         self._sound("goal", 1.0)
 
     def arrive(self):
@@ -330,5 +426,15 @@ class Look:
 
     def _dust(self, count, dx, speed):
         x, bottom = self._feet()
-        self.scene.particles.burst(x + dx, bottom - 1, count, DUST, speed=speed, life=(0.15, 0.4), angle=-pi / 2,
-                                   spread=2.8, drag=3.0, gravity=40.0)
+        self.scene.particles.burst(
+            x + dx,
+            bottom - 1,
+            count,
+            DUST,
+            speed=speed,
+            life=(0.15, 0.4),
+            angle=-pi / 2,
+            spread=2.8,
+            drag=3.0,
+            gravity=40.0,
+        )

@@ -9,17 +9,17 @@ from math import sqrt
 
 from scenes.platformer.feel import GRAVITY, RUN_SPEED
 
-NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18       # [px] beside, below and above a hint (on a crate) that count as there
-EDGE = 10                    # [px] before an edge it jumps
-STEP = 18                    # [px] lower ground ahead is no gap
-HOLD = 40                    # steps that jump is held
-FLIGHT = 0.63                # [s] from a full jump's start to an enemy's back
-REACH = (100, 128)           # [px] how far a full jump carries in that time
-CLOSE, FAST_CLOSE = 34, 54   # [px] the last chance to jump over an enemy, over one that flies
-RUN_UP = 62                  # [px] before what is to be jumped over at full speed
-PAUSE, LONGEST_PAUSE = 37, 90    # steps
-DOCK = 1.5                   # [px] a platform that near its end is docked
-KICK_SPEED = -90.0           # [px/s] slower than this upwards, it kicks
+NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18  # [px] beside, below and above a hint (on a crate) that count as there
+EDGE = 10  # [px] before an edge it jumps
+STEP = 18  # [px] lower ground ahead is no gap
+HOLD = 40  # steps that jump is held
+FLIGHT = 0.63  # [s] from a full jump's start to an enemy's back
+REACH = (100, 128)  # [px] how far a full jump carries in that time
+CLOSE, FAST_CLOSE = 34, 54  # [px] the last chance to jump over an enemy, over one that flies
+RUN_UP = 62  # [px] before what is to be jumped over at full speed
+PAUSE, LONGEST_PAUSE = 37, 90  # steps
+DOCK = 1.5  # [px] a platform that near its end is docked
+KICK_SPEED = -90.0  # [px/s] slower than this upwards, it kicks
 
 
 class Runner:
@@ -39,10 +39,10 @@ class Runner:
         self.next = self.kept
         self.lives += 1
         self.pause = self.lives * PAUSE % LONGEST_PAUSE
-        self.hold = 0              # steps that jump is still held
-        self.fresh = True          # a hint has just become the next one
-        self.boarded = None        # (platform, the end at which it was boarded)
-        self.thrown = False        # a spring has thrown him on the way to this hint
+        self.hold = 0  # steps that jump is still held
+        self.fresh = True  # a hint has just become the next one
+        self.boarded = None  # (platform, the end at which it was boarded)
+        self.thrown = False  # a spring has thrown him on the way to this hint
         self.dropped = False
 
     def keys(self, scene):
@@ -99,17 +99,28 @@ class Runner:
     def _needs_a_run_up(self, scene, hero, way):
         """Whether spikes that walk are so near that a jump from here, at this speed, would end on them."""
         x, feet = hero.character.position[0], hero.box[3]
-        return hero.vx * way < 120.0 and not hero.wall and any(
-            not enemy.stompable and abs(enemy.bottom - feet) < 10 and 0 < (enemy.character.position[0] - x) * way < RUN_UP
-            for enemy in scene.things.enemies.values())
+        return (
+            hero.vx * way < 120.0
+            and not hero.wall
+            and any(
+                not enemy.stompable
+                and abs(enemy.bottom - feet) < 10
+                and 0 < (enemy.character.position[0] - x) * way < RUN_UP
+                for enemy in scene.things.enemies.values()
+            )
+        )
 
     def _waits_at_edge(self, scene, hero, hint, way):
         """Whether spikes that walk are just where a step down from here would end."""
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
             return False
-        return any(not enemy.stompable and STEP < enemy.bottom - feet < 120
-                   and -20 < (enemy.place_after(0.4) - x) * way < RUN_UP for enemy in scene.things.enemies.values())
+        return any(
+            not enemy.stompable
+            and STEP < enemy.bottom - feet < 120
+            and -20 < (enemy.place_after(0.4) - x) * way < RUN_UP
+            for enemy in scene.things.enemies.values()
+        )
 
     def _landing_aside(self, scene, hero):
         """The way to steer in the air so as not to come down on spikes that walk; 0 if none are there."""
@@ -170,8 +181,10 @@ class Runner:
         if self.thrown:
             # With a wall at hand and still too low, the kicks begin where the throw ends.
             return self._kick(scene, hero, hint) if hero.wall or hero.locked else (_keys(_way(hero, hint, 3)), False)
-        spring = min(scene.things.of("spring"), key=lambda one: abs(one.x - hero.character.position[0])
-                     + abs(one.foot[1] - hero.box[3]))
+        spring = min(
+            scene.things.of("spring"),
+            key=lambda one: abs(one.x - hero.character.position[0]) + abs(one.foot[1] - hero.box[3]),
+        )
         way = 1 if spring.x > hero.character.position[0] else -1
         if not hero.grounded:
             return _keys(self._landing_aside(scene, hero) or way), False
@@ -186,7 +199,7 @@ class Runner:
         left, _, right, _ = platform.box
         on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
         if not on_it and hero.grounded and hero.riding is None:
-            return self._run(scene, hero, hint)                # off it, on the other side or still on this one
+            return self._run(scene, hero, hint)  # off it, on the other side or still on this one
         if _docked(platform, other):
             way = _way(hero, hint)
             return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
@@ -200,8 +213,12 @@ class Runner:
 
     def _board(self, scene, hero, hint):
         x, feet = hero.character.position[0], hero.box[3]
-        platform = min(scene.things.platforms, key=lambda one: min(abs(x - one.start[0]) + abs(feet - one.start[1]),
-                                                                   abs(x - one.end[0]) + abs(feet - one.end[1])))
+        platform = min(
+            scene.things.platforms,
+            key=lambda one: min(
+                abs(x - one.start[0]) + abs(feet - one.start[1]), abs(x - one.end[0]) + abs(feet - one.end[1])
+            ),
+        )
         end = min((platform.start, platform.end), key=lambda place: abs(x - place[0]) + abs(feet - place[1]))
         left = end[0] - platform.size[0] / 2
         right = end[0] + platform.size[0] / 2
@@ -278,8 +295,10 @@ class Runner:
     def _enemy_near(self, scene, hero):
         """One that comes from either side while he stands."""
         x, bottom = hero.character.position[0], hero.box[3]
-        return any(0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
-                   for enemy in scene.things.enemies.values())
+        return any(
+            0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
+            for enemy in scene.things.enemies.values()
+        )
 
 
 def _middle(hint):

@@ -12,14 +12,14 @@ from scenes.platformer.look import Look
 from scenes.platformer.runner import Runner
 from scenes.platformer.view import hero_frame, level_view
 
-MOURNING = 0.6               # [s] from the hurt to the next life: long enough to see why, short enough to try again
-MERCY = 1.2                  # [s] in which enemies do not hurt a new life, or one who was thrown back
-APPLAUSE = 1.6               # [s] from the goal to its result
-HIT_STOP = 4                 # [steps] the picture stands still when he is hurt: 67 ms
-STOMP_STOP = 3               # [steps] and when he stomps
-STRIKE = 60.0                # [px/s] slower is a crate that is pushed or rocks: two steps of gravity
-CRUSHING = 120000.0          # [density px3/s] the large crate after a fall of a tile
-STOMP_DEPTH = 9              # [px] feet this far below an enemy's top still stomp it
+MOURNING = 0.6  # [s] from the hurt to the next life: long enough to see why, short enough to try again
+MERCY = 1.2  # [s] in which enemies do not hurt a new life, or one who was thrown back
+APPLAUSE = 1.6  # [s] from the goal to its result
+HIT_STOP = 4  # [steps] the picture stands still when he is hurt: 67 ms
+STOMP_STOP = 3  # [steps] and when he stomps
+STRIKE = 60.0  # [px/s] slower is a crate that is pushed or rocks: two steps of gravity
+CRUSHING = 120000.0  # [density px3/s] the large crate after a fall of a tile
+STOMP_DEPTH = 9  # [px] feet this far below an enemy's top still stomp it
 COIN_WORTH, SECRET_WORTH = 100, 1000
 PLAYING, HURT, WON = "playing", "hurt", "won"
 
@@ -29,14 +29,30 @@ class Platformer(Scene):
 
     name = "platformer"
     title = "Platformer"
-    about = "From the meadow through the cave to the keep at dusk: run, climb, ride, push and stomp your way to the flag."
-    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, continuous=True,
-                      sleeping=True, sensors=True, one_way=True, conveyor=True)
+    about = (
+        "From the meadow through the cave to the keep at dusk: run, climb, ride, push and stomp your way to the flag."
+    )
+    effects = Effects(
+        response=True,
+        gravity=True,
+        rotation=True,
+        friction=True,
+        stacking=True,
+        continuous=True,
+        sleeping=True,
+        sensors=True,
+        one_way=True,
+        conveyor=True,
+    )
     pieces = ("boxes", "circles", "tiles", "masks", "characters", "queries")
-    features = ("whole-pixel motion with slopes, planks, ladders and lifts", "coyote time, buffering, corner correction",
-                "crates stack, topple, are pushed, ridden, thrown and carried by belts",
-                "hits sound, shake and hurt by their impulse", "pick-ups are sensor events",
-                "three secrets, a ghost of the best run")
+    features = (
+        "whole-pixel motion with slopes, planks, ladders and lifts",
+        "coyote time, buffering, corner correction",
+        "crates stack, topple, are pushed, ridden, thrown and carried by belts",
+        "hits sound, shake and hurt by their impulse",
+        "pick-ups are sensor events",
+        "three secrets, a ghost of the best run",
+    )
     actions = (("Arrows", "run, climb"), ("Space", "jump"), ("Down + Space", "through planks"))
     broadphase = "hash"
     music = "platformer"
@@ -56,12 +72,12 @@ class Platformer(Scene):
         self.hero = Hero(self.world, self.level, self.spawn)
         self.things = Contents(self.world, self.level, self.random)
         self.checkpoints = self.things.of("checkpoint")
-        self.touched = set()       # ids of the enemies that he touches
+        self.touched = set()  # ids of the enemies that he touches
         self.phase, self.since, self.mercy, self.stop = PLAYING, 0, 0, 0
         self.coins = self.secrets = self.deaths = 0
-        self.clock = 0             # [steps] of the run, with its hurts, without the picture's stops
-        self.ticks = 0             # [steps] of the world
-        self.safe = self.spawn     # where he last stood on plain ground: with the assist, spikes throw him back there
+        self.clock = 0  # [steps] of the run, with its hurts, without the picture's stops
+        self.ticks = 0  # [steps] of the world
+        self.safe = self.spawn  # where he last stood on plain ground: with the assist, spikes throw him back there
         self.feats = Feats(self)
         self.runner = Runner()
         self.look = Look(self)
@@ -255,9 +271,16 @@ class Platformer(Scene):
     def _result(self):
         things = self.things
         hurts = "not hurt" if not self.deaths else "hurt once" if self.deaths == 1 else f"hurt {self.deaths} times"
-        return Result(True, self.coins * COIN_WORTH + self.secrets * SECRET_WORTH, self.clock * STEP_SECONDS,
-                      (f"coins {self.coins} of {things.coins_in_all}",
-                       f"secrets {self.secrets} of {things.secrets_in_all}", hurts))
+        return Result(
+            True,
+            self.coins * COIN_WORTH + self.secrets * SECRET_WORTH,
+            self.clock * STEP_SECONDS,
+            (
+                f"coins {self.coins} of {things.coins_in_all}",
+                f"secrets {self.secrets} of {things.secrets_in_all}",
+                hurts,
+            ),
+        )
 
     # --- the rest of a scene -------------------------------------------------------------------------------------------
 
@@ -271,8 +294,23 @@ class Platformer(Scene):
 
     def state(self):
         """All that is not in the world."""
-        return (self.frame, self.ticks, self.phase, self.since, self.mercy, self.stop, self.coins, self.secrets, self.deaths,
-                self.clock, *self.spawn, *self.safe, *self.hero.state(), *self.things.state(), *sorted(self.touched))
+        return (
+            self.frame,
+            self.ticks,
+            self.phase,
+            self.since,
+            self.mercy,
+            self.stop,
+            self.coins,
+            self.secrets,
+            self.deaths,
+            self.clock,
+            *self.spawn,
+            *self.safe,
+            *self.hero.state(),
+            *self.things.state(),
+            *sorted(self.touched),
+        )
 
     def draw(self, canvas, alpha):
         """The picture."""

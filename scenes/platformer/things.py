@@ -18,20 +18,23 @@ from scenes.platformer.level import (
     TRIGGER_FILTER,
 )
 
-CRATE_DENSITY = 0.5          # the large one weighs two and a half heroes: he tips what he stands on
-CRATE_FRICTION = 0.3         # the ground's is twice that
-SLIDES = 0.1                 # [px] a step that a crate gives way by
-SPRING_KEEPS = 0.5           # of its speed along x that a crate keeps when a spring throws it: up is where it aims
-COIN_REACH = 2               # [px] around a coin: whoever comes that close meant it
-LANTERN_SHINES = 64          # [px] above a checkpoint it is still reached: nobody loses it to a jump
-SPRING_INSET = (2, 7)        # [px] the plate lies low in its tile
-LADDER_INSET, LADDER_OVER = 3, 4     # [px] from its sides; above its top, where one who stands there reaches it with the feet
+CRATE_DENSITY = 0.5  # the large one weighs two and a half heroes: he tips what he stands on
+CRATE_FRICTION = 0.3  # the ground's is twice that
+SLIDES = 0.1  # [px] a step that a crate gives way by
+SPRING_KEEPS = 0.5  # of its speed along x that a crate keeps when a spring throws it: up is where it aims
+COIN_REACH = 2  # [px] around a coin: whoever comes that close meant it
+LANTERN_SHINES = 64  # [px] above a checkpoint it is still reached: nobody loses it to a jump
+SPRING_INSET = (2, 7)  # [px] the plate lies low in its tile
+LADDER_INSET, LADDER_OVER = (
+    3,
+    4,
+)  # [px] from its sides; above its top, where one who stands there reaches it with the feet
 TRIGGERS = ("coin", "secret", "spring", "spikes", "checkpoint", "goal", "ladder")
-SHAKES = 0.5                 # [s] a crumbling stone holds from the first foot on it
-GONE = 3.0                   # [s] until it is back, if nobody is in its place
-BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))      # [px] where its pieces start from
+SHAKES = 0.5  # [s] a crumbling stone holds from the first foot on it
+GONE = 3.0  # [s] until it is back, if nobody is in its place
+BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))  # [px] where its pieces start from
 BIT_SIZE, BIT_DENSITY = 7, 0.2
-BIT_LIFE = 1.6               # [s]
+BIT_LIFE = 1.6  # [s]
 
 
 class Trigger:
@@ -42,17 +45,37 @@ class Trigger:
         left, top, width, height = thing.x, thing.y, thing.width, thing.height
         self.top = thing.y
         if self.kind in ("coin", "secret"):
-            left, top, width, height = left - COIN_REACH, top - COIN_REACH, width + 2 * COIN_REACH, height + 2 * COIN_REACH
+            left, top, width, height = (
+                left - COIN_REACH,
+                top - COIN_REACH,
+                width + 2 * COIN_REACH,
+                height + 2 * COIN_REACH,
+            )
         elif self.kind == "spring":
-            left, top, width, height = (left + SPRING_INSET[0], top + SPRING_INSET[1], width - 2 * SPRING_INSET[0],
-                                        height - SPRING_INSET[1])
+            left, top, width, height = (
+                left + SPRING_INSET[0],
+                top + SPRING_INSET[1],
+                width - 2 * SPRING_INSET[0],
+                height - SPRING_INSET[1],
+            )
         elif self.kind == "checkpoint":
             top, height = top - LANTERN_SHINES, height + LANTERN_SHINES
         elif self.kind == "ladder":
-            left, top, width, height = left + LADDER_INSET, top - LADDER_OVER, width - 2 * LADDER_INSET, height + LADDER_OVER
+            left, top, width, height = (
+                left + LADDER_INSET,
+                top - LADDER_OVER,
+                width - 2 * LADDER_INSET,
+                height + LADDER_OVER,
+            )
         self.x, self.y = left + width / 2, top + height / 2
-        self.body = world.add_body(Polygon.box(width, height), position=(self.x, self.y), kind="static", sensor=True,
-                                   filter=SPRING_FILTER if self.kind == "spring" else TRIGGER_FILTER, user=self.kind)
+        self.body = world.add_body(
+            Polygon.box(width, height),
+            position=(self.x, self.y),
+            kind="static",
+            sensor=True,
+            filter=SPRING_FILTER if self.kind == "spring" else TRIGGER_FILTER,
+            user=self.kind,
+        )
         self.lit = False
         self.touched = None
 
@@ -74,14 +97,22 @@ class Platform:
         self.end = (there["to_x"] + half_width, there["to_y"] + half_height)
         self.size = (thing.width, thing.height)
         self.period = float(there["period"])
-        self.body = world.add_body(Polygon.box(*self.size), position=self.start, kind="kinematic", continuous="off",
-                                   filter=PLATFORM_FILTER, user="platform")
+        self.body = world.add_body(
+            Polygon.box(*self.size),
+            position=self.start,
+            kind="kinematic",
+            continuous="off",
+            filter=PLATFORM_FILTER,
+            user="platform",
+        )
 
     def place_at(self, tick):
         """Where its centre is after so many steps of the world [px]."""
         share = (1.0 - cos(2.0 * pi * tick * STEP_SECONDS / self.period)) / 2.0
-        return (self.start[0] + (self.end[0] - self.start[0]) * share,
-                self.start[1] + (self.end[1] - self.start[1]) * share)
+        return (
+            self.start[0] + (self.end[0] - self.start[0]) * share,
+            self.start[1] + (self.end[1] - self.start[1]) * share,
+        )
 
     def aim(self, tick):
         """Give it the velocity that takes it to its next place in one step: it moves in the world, and so carries."""
@@ -114,8 +145,14 @@ class Belt(Block):
     def __init__(self, world, thing):
         super().__init__(world, thing)
         self.speed = float(thing.properties["speed"])
-        self.body = world.add_body(Polygon.box(*self.size), position=self.center, kind="static", filter=TILE_FILTER,
-                                   material=Material(surface_speed=self.speed), user="belt")
+        self.body = world.add_body(
+            Polygon.box(*self.size),
+            position=self.center,
+            kind="static",
+            filter=TILE_FILTER,
+            material=Material(surface_speed=self.speed),
+            user="belt",
+        )
 
 
 class Crumble(Block):
@@ -126,17 +163,23 @@ class Crumble(Block):
     def __init__(self, world, thing):
         super().__init__(world, thing)
         self.whole = self.box
-        self.count = 0                    # steps since it began to shake, or since it broke
+        self.count = 0  # steps since it began to shake, or since it broke
         self.shaking = False
         self.body = None
-        self.bits = []                    # [body, age in steps]
+        self.bits = []  # [body, age in steps]
         self.stand()
 
     def stand(self):
         """Be there, whole."""
         if self.body is None:
-            self.body = self.world.add_body(Polygon.box(*self.size), position=self.center, kind="kinematic", continuous="off",
-                                            filter=PLATFORM_FILTER, user="crumble")
+            self.body = self.world.add_body(
+                Polygon.box(*self.size),
+                position=self.center,
+                kind="kinematic",
+                continuous="off",
+                filter=PLATFORM_FILTER,
+                user="crumble",
+            )
         self.box, self.count, self.shaking = self.whole, 0, False
 
     def press(self):
@@ -152,8 +195,9 @@ class Crumble(Block):
         self.bits = [bit for bit in self.bits if bit[1] <= steps(BIT_LIFE)]
         if self.body is None:
             self.count += 1
-            if self.count >= steps(GONE) and not self.world.overlap(Polygon.box(*self.size), (*self.center, 0.0),
-                                                                    filter=self.FREE):
+            if self.count >= steps(GONE) and not self.world.overlap(
+                Polygon.box(*self.size), (*self.center, 0.0), filter=self.FREE
+            ):
                 self.stand()
                 return "back"
         elif self.shaking:
@@ -169,9 +213,15 @@ class Crumble(Block):
         self.world.remove_body(self.body)
         self.body, self.box, self.count, self.shaking = None, (0, 0, 0, 0), 0, False
         for dx, dy in BITS:
-            body = self.world.add_body(Polygon.box(BIT_SIZE, BIT_SIZE), position=(self.center[0] + dx, self.center[1] + dy),
-                                       velocity=(3.0 * dx, -30.0), angular_velocity=0.3 * dx, filter=DEBRIS_FILTER,
-                                       material=Material(BIT_DENSITY), user="bit")
+            body = self.world.add_body(
+                Polygon.box(BIT_SIZE, BIT_SIZE),
+                position=(self.center[0] + dx, self.center[1] + dy),
+                velocity=(3.0 * dx, -30.0),
+                angular_velocity=0.3 * dx,
+                filter=DEBRIS_FILTER,
+                material=Material(BIT_DENSITY),
+                user="bit",
+            )
             self.bits.append([body, 0])
 
 
@@ -183,9 +233,14 @@ class Crate:
     def __init__(self, world, thing):
         self.size = (int(thing.width), int(thing.height))
         self.home = (thing.x + thing.width / 2, thing.y + thing.height / 2)
-        self.body = world.add_body(Polygon.box(*self.size), position=self.home, filter=CRATE_FILTER, user="crate",
-                                   material=Material(CRATE_DENSITY, CRATE_FRICTION),
-                                   continuous="toi")         # or a fall of two tiles ends 5 px deep in the ground
+        self.body = world.add_body(
+            Polygon.box(*self.size),
+            position=self.home,
+            filter=CRATE_FILTER,
+            user="crate",
+            material=Material(CRATE_DENSITY, CRATE_FRICTION),
+            continuous="toi",
+        )  # or a fall of two tiles ends 5 px deep in the ground
 
     def slides(self, way):
         """Whether it moved that way (-1, 1) in the last step."""

@@ -19,18 +19,18 @@ from scenes.platformer.lighting import Lighting, wave
 from scenes.platformer.look import AFTERIMAGES
 from scenes.platformer.things import SHAKES
 
-STRIDE = 13.0                # [px] of way per frame of the run: feet do not slide
+STRIDE = 13.0  # [px] of way per frame of the run: feet do not slide
 PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
-STANDING = 12.0              # [px/s] slower than this he is drawn standing
-FRAME = 24                   # [px] width and height of the hero's pictures
-NEAR = 40                    # [px] around the picture in which things are still drawn
-LIT_FROM = 100               # [px] around the picture from where light still reaches into it
-COIN_WAVE = 0.9              # [px] coins bob by this much, in a wave along the level
-GHOST = (96, 190, 255)       # added to a ghost's colours
+STANDING = 12.0  # [px/s] slower than this he is drawn standing
+FRAME = 24  # [px] width and height of the hero's pictures
+NEAR = 40  # [px] around the picture in which things are still drawn
+LIT_FROM = 100  # [px] around the picture from where light still reaches into it
+COIN_WAVE = 0.9  # [px] coins bob by this much, in a wave along the level
+GHOST = (96, 190, 255)  # added to a ghost's colours
 GHOST_ALPHA = 130
-IMAGE = (120, 130, 220)      # to an afterimage's
-IMAGE_ALPHA, ALPHA_STEP = 110, 22    # of a fresh one; it fades in steps, so that few pictures are kept
-SPARED_BLINK = 8             # [steps] of one blink of one who was just hurt
+IMAGE = (120, 130, 220)  # to an afterimage's
+IMAGE_ALPHA, ALPHA_STEP = 110, 22  # of a fresh one; it fades in steps, so that few pictures are kept
+SPARED_BLINK = 8  # [steps] of one blink of one who was just hurt
 TUMBLE = (30.0, 90.0, 420.0)  # [px/s], [px/s], [px/s2] aside, up and down of what was flattened and is no walker
 LAYERS = ("wall", "decor", "solid")
 SHINING = ("secret", "goal", "coin")
@@ -43,7 +43,9 @@ class View:
         self.level = level
         sheet = load_image(level.picture)
         self.backdrops, self.lighting = Backdrops(level), Lighting()
-        self.layers = {name: TilePicture(level.map, name, sheet) for name in (*LAYERS, "cover") if name in level.map.layers}
+        self.layers = {
+            name: TilePicture(level.map, name, sheet) for name in (*LAYERS, "cover") if name in level.map.layers
+        }
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
         self.crates = [TurnedPicture(self.things[name]) for name in ("crate", "crate_large")]
         self.bits = [TurnedPicture(self.things[f"crumble_bit_{number}"]) for number in range(3)]
@@ -77,7 +79,9 @@ class View:
         """The whole picture."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
-        self.near = [trigger for trigger in scene.things.triggers.values() if self._sees(trigger.x, trigger.y, LIT_FROM)]
+        self.near = [
+            trigger for trigger in scene.things.triggers.values() if self._sees(trigger.x, trigger.y, LIT_FROM)
+        ]
         self.backdrops.draw(canvas.surface, scene.look, left, top)
         for name in ("wall", "decor"):
             if name in self.layers:
@@ -96,8 +100,10 @@ class View:
         board.draw_board(canvas, scene, (left, top))
 
     def _sees(self, x, y, reach=NEAR):
-        return (self.left - reach < x < self.left + CANVAS_SIZE[0] + reach
-                and self.top - reach < y < self.top + CANVAS_SIZE[1] + reach)
+        return (
+            self.left - reach < x < self.left + CANVAS_SIZE[0] + reach
+            and self.top - reach < y < self.top + CANVAS_SIZE[1] + reach
+        )
 
     def _stand(self, canvas, image, x, bottom):
         """Draw an image with the middle of its lower edge at a world point."""
@@ -146,13 +152,17 @@ class View:
         things, look = self.things, scene.look
         for trigger in self.near:
             if trigger.kind in ("coin", "secret"):
-                image = things.animation("coin" if trigger.kind == "coin" else "secret_gem").at(look.time + trigger.x * 0.004)
+                image = things.animation("coin" if trigger.kind == "coin" else "secret_gem").at(
+                    look.time + trigger.x * 0.004
+                )
                 bob = COIN_WAVE * wave(look.time * 0.55 + trigger.x * 0.011)
                 canvas.sprite(image, trigger.x - self.left, trigger.y + bob - self.top)
         for platform in scene.things.platforms:
             x, y = between(look.before(platform.body), platform.body.position, alpha)
-            canvas.surface.blit(deck(int(platform.size[0])), (whole(x - platform.size[0] / 2) - self.left,
-                                                             whole(y - platform.size[1] / 2) - self.top))
+            canvas.surface.blit(
+                deck(int(platform.size[0])),
+                (whole(x - platform.size[0] / 2) - self.left, whole(y - platform.size[1] / 2) - self.top),
+            )
         for crate in scene.things.crates:
             self._draw_turned(canvas, look, crate.body, self.crates[crate.size[0] > 16], alpha)
         for crumble in scene.things.crumbles:

@@ -13,12 +13,12 @@ from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
 from scenes.shooter.spectacle import BONUS_SHOWN
 
-SLIDE = 24                   # steps that a banner takes to come in, and to go
-STRIPE = 16                  # [px] of the warning's slanted stripes
-SMOKE = 50                   # steps that the boss's end is left to be seen
-BLINK = 20                   # steps: WARNING is bright and dark by turns, three times in two seconds
-HALF = 28                    # [px] from the top of a band of two lines to the line that it grows from
-HURRY = 4                    # the digit of the countdown below which it is red
+SLIDE = 24  # steps that a banner takes to come in, and to go
+STRIPE = 16  # [px] of the warning's slanted stripes
+SMOKE = 50  # steps that the boss's end is left to be seen
+BLINK = 20  # steps: WARNING is bright and dark by turns, three times in two seconds
+HALF = 28  # [px] from the top of a band of two lines to the line that it grows from
+HURRY = 4  # the digit of the countdown below which it is red
 
 
 def draw_banners(canvas, scene):
@@ -70,7 +70,9 @@ def _draw_warning(canvas, scene):
     if share < 0.6:
         return
     bright = not scene.comfort.flashing or since % (2 * BLINK) < BLINK
-    canvas.text("WARNING", canvas.rect.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True)
+    canvas.text(
+        "WARNING", canvas.rect.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True
+    )
     canvas.text(scene.director.announced.name, canvas.rect.centerx, 136, PAPER, TEXT, 1, "center", True)
 
 
@@ -98,21 +100,30 @@ def _draw_bonuses(canvas, scene):
 
 def _draw_continue(canvas, scene):
     digit = scene.ending.digit
-    banner(canvas, f"CONTINUE? {digit}", ("fire: go on, with the points begun anew", "bomb: hurry"),
-           RED if digit < HURRY else GOLD)
+    banner(
+        canvas,
+        f"CONTINUE? {digit}",
+        ("fire: go on, with the points begun anew", "bomb: hurry"),
+        RED if digit < HURRY else GOLD,
+    )
 
 
 def _summary(scene):
     score = scene.score
-    counts = (f"{count_text(sum(score.kills.values()), 'plane')} shot down", count_text(score.grazes, "graze"),
-              f"best chain {score.best_chain}")
+    counts = (
+        f"{count_text(sum(score.kills.values()), 'plane')} shot down",
+        count_text(score.grazes, "graze"),
+        f"best chain {score.best_chain}",
+    )
     return [f"{points_text(score.points)} points", "   ".join(counts), "fire: go on"]
 
 
 def _band(canvas, top, high):
     """A dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
     if high > 0:
-        canvas.surface.blit(_shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top))
+        canvas.surface.blit(
+            _shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top)
+        )
 
 
 def _text_inside(canvas, text, x, y, color, scale):

@@ -6,8 +6,8 @@ from math import hypot
 class Blow:
     """An impulse [px3/s] on a body of some mass [px2]: where to, and how it compares with a plain shot's."""
 
-    USUAL = 22000.0              # [px3/s] a shot of the player's, straight on
-    FASTEST = 140.0              # [px/s] that debris is given
+    USUAL = 22000.0  # [px3/s] a shot of the player's, straight on
+    FASTEST = 140.0  # [px/s] that debris is given
 
     def __init__(self, x=0.0, y=0.0, mass=1.0):
         self.x, self.y, self.mass = x, y, mass

@@ -9,13 +9,18 @@ from scenes.shooter.plane import TOP_POWER
 from scenes.shooter.score import HOLD, TOP_CHAIN
 from scenes.shooter.spectacle import NEWS
 
-HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))      # by how much is left
-FADE = 0.55                  # [s] after which a rising word is written darker
-HELD = ((0, 0, 132, 36), (380, 0, 100, 44), (140, 0, 226, 28), (0, 254, 150, 16))  # [canvas px] where the fixed words stand
-BAR = (148, 17, 184, 7)      # [canvas px] of the leader's health
+HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))  # by how much is left
+FADE = 0.55  # [s] after which a rising word is written darker
+HELD = (
+    (0, 0, 132, 36),
+    (380, 0, 100, 44),
+    (140, 0, 226, 28),
+    (0, 254, 150, 16),
+)  # [canvas px] where the fixed words stand
+BAR = (148, 17, 184, 7)  # [canvas px] of the leader's health
 CHAIN = (MARGIN, 17, 60, 4)
-HEALTH_WIDTH = 36            # [px] of the bar at a damaged plane
-PHASE_NAME = 150             # steps that the name of a leader's phase is shown
+HEALTH_WIDTH = 36  # [px] of the bar at a damaged plane
+PHASE_NAME = 150  # steps that the name of a leader's phase is shown
 SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 

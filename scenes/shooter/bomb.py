@@ -6,11 +6,11 @@ Bullets that it meets are gone, planes are damaged once, and the player is a gho
 from physics import Circle
 from scenes.shooter.cast import BLASTING, steps
 
-GROW, BURN = steps(0.45), steps(1.1)      # steps until it is as large as it gets, and until it is over
-EVERY = 3                                 # steps between two sizes of its shape
-FIRST, REACH = 20.0, 120.0                # [px] radius
-SHELTER = steps(2.0)                      # steps that the player is a ghost
-DAMAGE, LEADER_DAMAGE = 18.0, 45.0        # plain shots
+GROW, BURN = steps(0.45), steps(1.1)  # steps until it is as large as it gets, and until it is over
+EVERY = 3  # steps between two sizes of its shape
+FIRST, REACH = 20.0, 120.0  # [px] radius
+SHELTER = steps(2.0)  # steps that the player is a ghost
+DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # plain shots
 
 
 class Bomb:
@@ -33,7 +33,9 @@ class Bomb:
         """It goes off at a place [px]."""
         self.x, self.y, self.age = x, y, 0
         self.struck = set()
-        self.body = self.world.add_body(Circle(self.radius), position=(x, y), kind="kinematic", sensor=True, filter=BLASTING)
+        self.body = self.world.add_body(
+            Circle(self.radius), position=(x, y), kind="kinematic", sensor=True, filter=BLASTING
+        )
 
     def step(self):
         """It grows. Returns the id of its body when it is over, to be removed, else None."""

@@ -11,13 +11,13 @@ from scenes.shooter.patterns import Gun
 from scenes.shooter.stage import Group
 
 LOOKS = ("midboss_0", "boss_a_0", "boss_b_0", "boss_c_0")
-ENTRY_Y, HOME_Y = -60.0, 70.0     # [px]
-ARRIVE_SPEED, SWING_SPEED = 95.0, 130.0   # [px/s]
-CHANGE = steps(1.6)          # steps between two phases
-DRESSED = steps(0.5)         # steps into them, when the next look shows behind the smoke
-FALL = steps(2.6)            # steps that it burns before it is gone
-SINK = 14.0                  # [px/s] while it burns
-ALMOST = 5.0                 # [s] before the end of a phase, when its timer is counted aloud
+ENTRY_Y, HOME_Y = -60.0, 70.0  # [px]
+ARRIVE_SPEED, SWING_SPEED = 95.0, 130.0  # [px/s]
+CHANGE = steps(1.6)  # steps between two phases
+DRESSED = steps(0.5)  # steps into them, when the next look shows behind the smoke
+FALL = steps(2.6)  # steps that it burns before it is gone
+SINK = 14.0  # [px/s] while it burns
+ALMOST = 5.0  # [s] before the end of a phase, when its timer is counted aloud
 
 
 class Leader(Enemy):
@@ -27,7 +27,7 @@ class Leader(Enemy):
 
     def __init__(self, event):
         group = Group("", (0.5,), 1.0, 0.0, "", HOME_Y)
-        super().__init__(WIDTH / 2, ENTRY_Y, group, event)     # an event has the factors of a pace
+        super().__init__(WIDTH / 2, ENTRY_Y, group, event)  # an event has the factors of a pace
         self.kind, self.name, self.phases = event.event, event.name, event.phases
         self.number = 0
         self.beaten = False
@@ -104,4 +104,10 @@ class Leader(Enemy):
 
     def state(self):
         """For the digest."""
-        return (*super().state(), self.number, self.clock, self.beaten, *(value for gun in self.guns for value in gun.state()))
+        return (
+            *super().state(),
+            self.number,
+            self.clock,
+            self.beaten,
+            *(value for gun in self.guns for value in gun.state()),
+        )

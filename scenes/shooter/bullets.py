@@ -8,7 +8,7 @@ from game.drawing.sprites import load_atlas
 from physics.tables import Table
 from scenes.shooter.cast import HEIGHT, MARGIN, WIDTH
 
-DOWN, UP = pi / 2, -pi / 2     # [rad] headings; y points down
+DOWN, UP = pi / 2, -pi / 2  # [rad] headings; y points down
 # The frame that collides, in atlas "effects", and its heading as painted (None: round, it is never turned).
 LOOKS = {
     "shot": ("player_bullet_0", UP),
@@ -24,7 +24,7 @@ LOOKS = {
 }
 NAMES = tuple(LOOKS)
 HOSTILE_LOOKS = NAMES[3:]
-GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8      # what of the player a bullet has met already: it counts once
+GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8  # what of the player a bullet has met already: it counts once
 BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
@@ -34,7 +34,7 @@ class Bullets:
     def __init__(self, world, side):
         self.world, self.side = world, side
         self.table = Table(BULLET)
-        self.volley = {name: [] for name in NAMES}      # look -> (x, y, vx, vy, angle) fired in this step
+        self.volley = {name: [] for name in NAMES}  # look -> (x, y, vx, vy, angle) fired in this step
 
     def __len__(self):
         return self.table.count
@@ -46,10 +46,12 @@ class Bullets:
 
     def make_room(self, count):
         """Let every table grow before the first step, so that no step of the fight has to, and memory stays as it is."""
-        apart = 1000.0 + 20.0 * np.arange(count)       # on a diagonal far away: no two of them are ever a pair
-        ids = self.world.add_bodies(mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side)
+        apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away: no two of them are ever a pair
+        ids = self.world.add_bodies(
+            mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
+        )
         self.world.step()
-        for part in np.split(ids, (1, 2, 3, 4)):       # most are kept, several times over, as in the fight
+        for part in np.split(ids, (1, 2, 3, 4)):  # most are kept, several times over, as in the fight
             self.world.remove_bodies(part)
         self.table.append(count)
         self.table.keep(np.zeros(count, bool))
@@ -69,8 +71,9 @@ class Bullets:
             if not fired:
                 continue
             rows = np.array(fired)
-            ids = self.world.add_bodies(mask_of(look), rows[:, 0:2], rows[:, 2:4], rows[:, 4], kind="kinematic",
-                                        filter=self.side)
+            ids = self.world.add_bodies(
+                mask_of(look), rows[:, 0:2], rows[:, 2:4], rows[:, 4], kind="kinematic", filter=self.side
+            )
             added = self.table.append(len(ids))
             added["id"], added["look"], added["met"] = ids, NAMES.index(look), 0
             fired.clear()

@@ -9,19 +9,23 @@ from physics import Filter
 CORE, HULL, RING, ENEMY, SHOT, BULLET, ITEM, BLAST = (1 << bit for bit in range(8))
 
 # The player: a small core, the hull that is drawn, and a ring that bullets graze and pick-ups are taken by.
-AT_RISK = {"core": Filter(CORE, ENEMY | BULLET), "hull": Filter(HULL, ENEMY | BULLET), "ring": Filter(RING, BULLET | ITEM)}
+AT_RISK = {
+    "core": Filter(CORE, ENEMY | BULLET),
+    "hull": Filter(HULL, ENEMY | BULLET),
+    "ring": Filter(RING, BULLET | ITEM),
+}
 GHOST = {"core": Filter(CORE, 0), "hull": Filter(HULL, 0), "ring": Filter(RING, ITEM)}
 HOSTILE = Filter(ENEMY, CORE | HULL | SHOT | BLAST)
-GROUNDED = Filter(ENEMY, SHOT | BLAST)              # what is on the ground: planes fly over it
-FALLING = Filter(ENEMY, 0)                          # a wreck: nothing meets it any more
-FIRED = Filter(SHOT, ENEMY)                         # what the player fires
-INCOMING = Filter(BULLET, CORE | HULL | RING | BLAST)    # what is fired at the player
+GROUNDED = Filter(ENEMY, SHOT | BLAST)  # what is on the ground: planes fly over it
+FALLING = Filter(ENEMY, 0)  # a wreck: nothing meets it any more
+FIRED = Filter(SHOT, ENEMY)  # what the player fires
+INCOMING = Filter(BULLET, CORE | HULL | RING | BLAST)  # what is fired at the player
 LOOT = Filter(ITEM, RING)
-BLASTING = Filter(BLAST, ENEMY | BULLET)            # a bomb
+BLASTING = Filter(BLAST, ENEMY | BULLET)  # a bomb
 
-WIDTH, HEIGHT = 480, 270      # [px] the sky that is seen; nothing scrolls but the ground
-MARGIN = 34                   # [px] outside of it, where bodies are removed: more than half of the largest sprite
-GROUND_SPEED = 30.0           # [px/s] the ground, and what stands on it, moves down
+WIDTH, HEIGHT = 480, 270  # [px] the sky that is seen; nothing scrolls but the ground
+MARGIN = 34  # [px] outside of it, where bodies are removed: more than half of the largest sprite
+GROUND_SPEED = 30.0  # [px/s] the ground, and what stands on it, moves down
 
 
 def steps(seconds):

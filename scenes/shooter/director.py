@@ -5,11 +5,11 @@ from dataclasses import replace
 from scenes.shooter.cast import WIDTH, steps
 from scenes.shooter.pace import Pace
 
-SCATTER = 0.03               # of the side that a plane may enter beside its place
-WARNING = steps(3.0)         # steps between the warning and its leader
-CLEARING = steps(8.0)        # steps that a warning waits for the last planes of the waves before it
-REST = steps(1.5)            # steps of peace when a leader is gone
-READY = steps(3.0)           # steps of the stage's title, before its clock begins
+SCATTER = 0.03  # of the side that a plane may enter beside its place
+WARNING = steps(3.0)  # steps between the warning and its leader
+CLEARING = steps(8.0)  # steps that a warning waits for the last planes of the waves before it
+REST = steps(1.5)  # steps of peace when a leader is gone
+READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
@@ -20,13 +20,13 @@ class Director:
 
     def __init__(self, stage):
         self.stage = stage
-        self.clock = self.next = 0       # steps; the event that comes next
+        self.clock = self.next = 0  # steps; the event that comes next
         self.mode, self.since = "ready", 0
         self.number, self.wave = 0, ""
-        self.grounds = [(-1e9, stage.events[0].ground)]      # (px that the ground had moved when it came, name)
+        self.grounds = [(-1e9, stage.events[0].ground)]  # (px that the ground had moved when it came, name)
         self.pace = Pace()
-        self.due = []                    # (step, group, number in the group, wave), earliest first
-        self.left = {}                   # wave -> its planes that are not shot down yet
+        self.due = []  # (step, group, number in the group, wave), earliest first
+        self.left = {}  # wave -> its planes that are not shot down yet
         self.mirrored = False
 
     @property
@@ -44,8 +44,11 @@ class Director:
         self.since += 1
         if self.mode == "run":
             self.clock += 1
-            while self.mode == "run" and self.next < len(self.stage.events) \
-                    and steps(self.stage.events[self.next].at) <= self.clock:
+            while (
+                self.mode == "run"
+                and self.next < len(self.stage.events)
+                and steps(self.stage.events[self.next].at) <= self.clock
+            ):
                 self.next += 1
                 self._begin(self.stage.events[self.next - 1], sky)
         elif self.mode == "ready":
@@ -93,9 +96,14 @@ class Director:
         self.wave = event.name
         self.left[self.number] = sum(len(group.places) for group in event.groups)
         self.mirrored = sky.random.random() < 0.5
-        found = [(self.clock + steps(group.after + group.every * number), order, number, group)
-                 for order, group in enumerate(event.groups) for number in range(len(group.places))]
-        self.due += [(when, group, number, self.number) for when, _, number, group in sorted(found, key=lambda f: f[:3])]
+        found = [
+            (self.clock + steps(group.after + group.every * number), order, number, group)
+            for order, group in enumerate(event.groups)
+            for number in range(len(group.places))
+        ]
+        self.due += [
+            (when, group, number, self.number) for when, _, number, group in sorted(found, key=lambda f: f[:3])
+        ]
         self.due.sort(key=lambda each: each[0])
         sky.spectacle.wave(self)
 
@@ -128,5 +136,16 @@ class Director:
 
     def state(self):
         """For the digest."""
-        return (self.clock, self.next, self.mode, self.since, self.number, self.wave, self.ground, self.mirrored,
-                len(self.due), *self.left.values(), *(since for since, _ in self.grounds))
+        return (
+            self.clock,
+            self.next,
+            self.mode,
+            self.since,
+            self.number,
+            self.wave,
+            self.ground,
+            self.mirrored,
+            len(self.due),
+            *self.left.values(),
+            *(since for since, _ in self.grounds),
+        )

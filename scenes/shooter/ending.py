@@ -7,11 +7,11 @@ from game.drawing.figures import count_text
 from game.scene import Result
 from scenes.shooter.cast import steps
 
-COUNTDOWN = 10               # seconds, shown as 9..0
-GRACE = steps(0.7)           # steps in which a key still held from the fight says nothing
+COUNTDOWN = 10  # seconds, shown as 9..0
+GRACE = steps(0.7)  # steps in which a key still held from the fight says nothing
 MOST_CONTINUES = 3
-FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)     # after the boss is gone, and between two bonuses
-SHOWN = steps(2.0)           # steps that all bonuses stand before the result
+FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)  # after the boss is gone, and between two bonuses
+SHOWN = steps(2.0)  # steps that all bonuses stand before the result
 
 PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lost"
 
@@ -21,7 +21,7 @@ class Ending:
 
     def __init__(self):
         self.mode, self.since, self.left = PLAYING, 0, 0
-        self.counted = []            # (what for, points) of the bonuses so far
+        self.counted = []  # (what for, points) of the bonuses so far
 
     @property
     def digit(self):
@@ -62,7 +62,7 @@ class Ending:
                 scene.spectacle.went_on()
                 return
             if inputs.pressed("bomb") or inputs.pressed("cancel"):
-                self.left = self.digit * 60 - 1        # hurry
+                self.left = self.digit * 60 - 1  # hurry
         if self.left <= 0:
             self._lose(scene)
         elif self.digit != before:
@@ -92,9 +92,11 @@ class Ending:
 
     def _result(self, scene, won):
         score = scene.score
-        lines = (f"{count_text(sum(score.kills.values()), 'plane')}, {count_text(score.waves, 'whole wave')}",
-                 f"{count_text(score.grazes, 'graze')}, best chain {score.best_chain}",
-                 ", ".join(map(count_text, (score.hits, score.bombs, score.continues), ("hit", "bomb", "continue"))))
+        lines = (
+            f"{count_text(sum(score.kills.values()), 'plane')}, {count_text(score.waves, 'whole wave')}",
+            f"{count_text(score.grazes, 'graze')}, best chain {score.best_chain}",
+            ", ".join(map(count_text, (score.hits, score.bombs, score.continues), ("hit", "bomb", "continue"))),
+        )
         return Result(won, score.points, (scene.frame + 1) / 60, lines)
 
     def state(self):

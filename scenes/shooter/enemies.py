@@ -12,10 +12,10 @@ from scenes.shooter.bullets import DOWN
 from scenes.shooter.cast import HOSTILE, WIDTH, steps
 from scenes.shooter.patterns import aimed, fan, ring
 
-ENTRY_Y = -40.0               # [px] above the picture
-APPROACH = 3.2                # [1/s] how quickly a plane closes in on its place
-NOTCH = 2 * pi / 64           # [rad] planes are turned in such steps: every other angle at which a mask is drawn
-EDGE = 40.0                   # [px] from the sides that gunships keep
+ENTRY_Y = -40.0  # [px] above the picture
+APPROACH = 3.2  # [1/s] how quickly a plane closes in on its place
+NOTCH = 2 * pi / 64  # [rad] planes are turned in such steps: every other angle at which a mask is drawn
+EDGE = 40.0  # [px] from the sides that gunships keep
 
 
 class Enemy:
@@ -26,11 +26,11 @@ class Enemy:
 
     kind, frame, health, points = "", "", 1, 0
     side = HOSTILE
-    heavy = False                 # smokes when it is damaged, shows its health, and survives ramming the player
-    leads = False                 # a mid-boss or a boss
+    heavy = False  # smokes when it is damaged, shows its health, and survives ramming the player
+    leads = False  # a mid-boss or a boss
 
     def __init__(self, x, y, group, pace):
-        self.id = -1                  # of its body, given when it is launched
+        self.id = -1  # of its body, given when it is launched
         self.x, self.y = x, y
         self.home_x, self.home_y = x, group.hover
         self.sway, self.bend = group.sway, group.bend
@@ -39,7 +39,7 @@ class Enemy:
         self.vx = self.vy = self.angle = 0.0
         self.heading = DOWN
         self.age = self.since = self.volleys = 0
-        self.met = 0                  # what of the player it has met: see bullets
+        self.met = 0  # what of the player it has met: see bullets
         self.mode = "arrive"
 
     @staticmethod
@@ -69,17 +69,32 @@ class Enemy:
 
     def state(self):
         """For the digest."""
-        return (self.id, self.kind, self.health, self.age, self.since, self.volleys, self.mode, self.home_x, self.home_y,
-                self.sway, self.bend, self.carries, self.wave, self.met, self.heading)
+        return (
+            self.id,
+            self.kind,
+            self.health,
+            self.age,
+            self.since,
+            self.volleys,
+            self.mode,
+            self.home_x,
+            self.home_y,
+            self.sway,
+            self.bend,
+            self.carries,
+            self.wave,
+            self.met,
+            self.heading,
+        )
 
 
 class Dart(Enemy):
     """Waits for a moment, turns to you, dives at where you are then."""
 
     kind, frame, health, points = "dart", "dart_0", 3, 100
-    DIVE_SPEED, DIVE_GAIN = 205.0, 190.0      # [px/s], [px/s2]
-    AIM_TIME, TURN_RATE = 0.55, 7.0           # [s], [1/s]
-    NEEDLE = 280.0                            # [px/s]
+    DIVE_SPEED, DIVE_GAIN = 205.0, 190.0  # [px/s], [px/s2]
+    AIM_TIME, TURN_RATE = 0.55, 7.0  # [s], [1/s]
+    NEEDLE = 280.0  # [px/s]
 
     def think(self, sky):
         if self.mode == "arrive":
@@ -105,9 +120,9 @@ class Saucer(Enemy):
     """Weaves down the sky and fires at you while it is well above you."""
 
     kind, frame, health, points = "saucer", "saucer_0", 8, 200
-    FALL, TURNS = 40.0, 0.36                  # [px/s], swings per second
-    BETWEEN, BULLET = 1.6, 112.0              # [s], [px/s]
-    SPREAD = 0.26                             # [rad] between the bullets of a volley
+    FALL, TURNS = 40.0, 0.36  # [px/s], swings per second
+    BETWEEN, BULLET = 1.6, 112.0  # [s], [px/s]
+    SPREAD = 0.26  # [rad] between the bullets of a volley
 
     @staticmethod
     def entry(group, share):
@@ -125,14 +140,21 @@ class Saucer(Enemy):
             self.volleys += 1
             count = 1 + sky.pace.extra
             heading = aimed(self.x, self.y + 8.0, sky.target)
-            sky.incoming.fire("red", self.x, self.y + 8.0, fan(heading, count, self.SPREAD * (count - 1)),
-                              self.BULLET * sky.pace.speed)
+            sky.incoming.fire(
+                "red",
+                self.x,
+                self.y + 8.0,
+                fan(heading, count, self.SPREAD * (count - 1)),
+                self.BULLET * sky.pace.speed,
+            )
             sky.spectacle.enemy_fires(self)
 
     def ahead(self, seconds):
         turn = 2 * pi * self.TURNS
-        return (self.x + self.sway * (np.sin(turn * (self.age / 60 + seconds)) - sin(turn * self.age / 60)),
-                self.y + self.vy * seconds)
+        return (
+            self.x + self.sway * (np.sin(turn * (self.age / 60 + seconds)) - sin(turn * self.age / 60)),
+            self.y + self.vy * seconds,
+        )
 
 
 class Gunship(Enemy):
@@ -140,10 +162,10 @@ class Gunship(Enemy):
 
     kind, frame, health, points = "gunship", "gunship_0", 90, 1000
     heavy = True
-    BETWEEN, FIRST = 1.15, 0.6                # [s]
-    FAN, RING = 104.0, 82.0                   # [px/s]
-    FAN_GAP = 0.31                            # [rad] a plane fits through it from 140 px on
-    DRIFT, STAY = 26.0, 16.0                  # [px/s], [s]
+    BETWEEN, FIRST = 1.15, 0.6  # [s]
+    FAN, RING = 104.0, 82.0  # [px/s]
+    FAN_GAP = 0.31  # [rad] a plane fits through it from 140 px on
+    DRIFT, STAY = 26.0, 16.0  # [px/s], [s]
 
     def think(self, sky):
         if self.mode == "arrive":

@@ -12,12 +12,12 @@ GOLD = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
 ROSE = ((255, 255, 255), (255, 170, 190), (220, 80, 130), (110, 40, 90))
 DUST = ((226, 210, 180), (170, 150, 124), (110, 96, 90), (66, 60, 66))
 VAPOUR = ((214, 232, 255), (150, 178, 214), (92, 116, 156))
-WORD_LIFE = 0.8              # [s]
-RING_LIFE = 0.45             # [s] of a shock wave
-MOST_SCARS = 24              # scorched places on the ground that are remembered
-WORD_RISE = 18.0             # [px/s]
-DEBRIS_DRAG, DEBRIS_FALL = 0.985, 0.8    # of the speed that is left a step later; [px/s] it falls faster each step
-BURNING = 0.7                # share of its life in which debris burns and trails sparks
+WORD_LIFE = 0.8  # [s]
+RING_LIFE = 0.45  # [s] of a shock wave
+MOST_SCARS = 24  # scorched places on the ground that are remembered
+WORD_RISE = 18.0  # [px/s]
+DEBRIS_DRAG, DEBRIS_FALL = 0.985, 0.8  # of the speed that is left a step later; [px/s] it falls faster each step
+BURNING = 0.7  # share of its life in which debris burns and trails sparks
 
 
 class Fireworks:
@@ -25,11 +25,11 @@ class Fireworks:
 
     def __init__(self, particles):
         self.particles, self.random = particles, particles.random
-        self.bursts = []             # [animation, x, y, vx, vy, age s]; before age 0 it waits
-        self.debris = []             # [frame, x, y, vx, vy, age s, life s]
-        self.words = []              # [text, x, y, age s, color]
-        self.rings = []              # [x, y, radius px, age s]: shock waves
-        self.scars = []              # [x, y, size px] of what burnt on the ground
+        self.bursts = []  # [animation, x, y, vx, vy, age s]; before age 0 it waits
+        self.debris = []  # [frame, x, y, vx, vy, age s, life s]
+        self.words = []  # [text, x, y, age s, color]
+        self.rings = []  # [x, y, radius px, age s]: shock waves
+        self.scars = []  # [x, y, size px] of what burnt on the ground
 
     def step(self, dt, still=False):
         """Everything ages; the ground moves on unless it stands still."""
@@ -76,8 +76,16 @@ class Fireworks:
 
     def embers(self, xs, ys):
         """Three sparks at each of many places (arrays, px), in one call."""
-        self.particles.burst(np.repeat(xs, 3), np.repeat(ys, 3), 3 * len(xs), ROSE, speed=(10, 50), life=(0.25, 0.8),
-                             size=(1, 2), drag=2.6)
+        self.particles.burst(
+            np.repeat(xs, 3),
+            np.repeat(ys, 3),
+            3 * len(xs),
+            ROSE,
+            speed=(10, 50),
+            life=(0.25, 0.8),
+            size=(1, 2),
+            drag=2.6,
+        )
 
     def puffs(self, x, y, count):
         """Smoke that drifts apart."""
@@ -90,8 +98,14 @@ class Fireworks:
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
         for number in range(max(2, round(count * blow.strength))):
-            self.piece(frames[number % 2], x, y, vx + wild * self.random.uniform(-90, 90),
-                       vy + wild * self.random.uniform(-100, 50), self.random.uniform(0.5, 1.2))
+            self.piece(
+                frames[number % 2],
+                x,
+                y,
+                vx + wild * self.random.uniform(-90, 90),
+                vy + wild * self.random.uniform(-100, 50),
+                self.random.uniform(0.5, 1.2),
+            )
 
     def piece(self, kind, x, y, vx, vy, life):
         """One piece of debris; kind: number of its frame."""
@@ -103,7 +117,7 @@ class Fireworks:
 
     def scar(self, x, y, size):
         """A scorched place that stays on the ground."""
-        self.scars = [*self.scars[1 - MOST_SCARS:], [x, y, size]]
+        self.scars = [*self.scars[1 - MOST_SCARS :], [x, y, size]]
 
     def word(self, text, x, y, color):
         """A word that rises from a place, unless one was just written there."""

@@ -10,17 +10,17 @@ from scenes.shooter.cast import GROUND_SPEED, GROUNDED, HEIGHT, WIDTH, steps
 from scenes.shooter.enemies import Enemy
 from scenes.shooter.patterns import aimed, fan, lead
 
-OUT = 26.0                    # [px] outside of the picture, where a hornet comes in
+OUT = 26.0  # [px] outside of the picture, where a hornet comes in
 
 
 class Hornet(Enemy):
     """Flies straight, then along an arc of `bend`, then straight again, and fires twice at where you will be."""
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
-    SPEED, TURN = 150.0, radians(75.0)        # [px/s], [rad/s]: an arc of 115 px
-    STRAIGHT = 0.45                           # [s] before the arc begins
-    MOMENTS, BULLET = (0.8, 1.7), 150.0       # [s], [px/s]
-    CLOSE = 80.0                              # [px] nearer than that it does not fire: nobody could dodge
+    SPEED, TURN = 150.0, radians(75.0)  # [px/s], [rad/s]: an arc of 115 px
+    STRAIGHT = 0.45  # [s] before the arc begins
+    MOMENTS, BULLET = (0.8, 1.7), 150.0  # [s], [px/s]
+    CLOSE = 80.0  # [px] nearer than that it does not fire: nobody could dodge
 
     def __init__(self, x, y, group, pace):
         super().__init__(x, y, group, pace)
@@ -28,7 +28,7 @@ class Hornet(Enemy):
         self.face(headings[group.side])
         # A positive bend turns a file from either side downwards; one from below, to the right.
         self.turn = self.TURN * (-1.0 if group.side == "right" else 1.0) * (1.0 if group.bend >= 0.0 else -1.0)
-        self.left = abs(radians(group.bend))      # [rad] of the arc still to fly
+        self.left = abs(radians(group.bend))  # [rad] of the arc still to fly
 
     @staticmethod
     def entry(group, share):
@@ -67,10 +67,10 @@ class Turret(Enemy):
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED
-    BETWEEN, FIRST = 1.5, 0.9                 # [s]
-    WALL, FAN = 70.0, 88.0                    # [px/s]
-    COUNT, SPACING = 5, 13.0                  # of a wall; [px]
-    SPREAD = 0.34                             # [rad] between the bullets of a fan
+    BETWEEN, FIRST = 1.5, 0.9  # [s]
+    WALL, FAN = 70.0, 88.0  # [px/s]
+    COUNT, SPACING = 5, 13.0  # of a wall; [px]
+    SPREAD = 0.34  # [rad] between the bullets of a fan
 
     def think(self, sky):
         self.vx, self.vy = 0.0, GROUND_SPEED
@@ -88,7 +88,8 @@ class Turret(Enemy):
         else:
             count = 3 + sky.pace.extra
             heading = aimed(self.x, muzzle, sky.target)
-            sky.incoming.fire("orange", self.x, muzzle, fan(heading, count, self.SPREAD * (count - 1)),
-                              self.FAN * sky.pace.speed)
+            sky.incoming.fire(
+                "orange", self.x, muzzle, fan(heading, count, self.SPREAD * (count - 1)), self.FAN * sky.pace.speed
+            )
         self.volleys += 1
         sky.spectacle.enemy_fires(self)

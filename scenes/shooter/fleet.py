@@ -10,9 +10,9 @@ from scenes.shooter.flankers import Hornet, Turret
 from scenes.shooter.pace import EASY
 
 KINDS = {each.kind: each for each in (Dart, Saucer, Gunship, Hornet, Turret)}
-DIVES = 20               # notches to either side of straight down: darts dive no flatter
-SIDEWAYS = 10            # half notches that side bullets lean at most
-ALL_AROUND = 32          # hornets fly anywhere
+DIVES = 20  # notches to either side of straight down: darts dive no flatter
+SIDEWAYS = 10  # half notches that side bullets lean at most
+ALL_AROUND = 32  # hornets fly anywhere
 
 
 class Fleet:
@@ -21,7 +21,7 @@ class Fleet:
     def __init__(self, world, tier):
         self.world, self.tier = world, tier
         self.planes = {}
-        self.longest = 0             # steps that any enemy without a timer of its own has been in the sky
+        self.longest = 0  # steps that any enemy without a timer of its own has been in the sky
 
     def __len__(self):
         return len(self.planes)
@@ -36,7 +36,7 @@ class Fleet:
         made = KINDS[group.kind]
         plane = made(*made.entry(group, share), group, pace)
         if plane.side is GROUNDED:
-            plane.y += scrolled % 1.0        # so that it steps from pixel to pixel together with its ground
+            plane.y += scrolled % 1.0  # so that it steps from pixel to pixel together with its ground
         plane.carries, plane.wave = carries, wave
         return self._add(plane)
 
@@ -45,8 +45,14 @@ class Fleet:
         return self._add(Leader(event))
 
     def _add(self, plane):
-        body = self.world.add_body(load_atlas("planes").mask(plane.frame), position=(plane.x, plane.y), angle=plane.angle,
-                                   kind="kinematic", filter=plane.side, tier=self.tier)
+        body = self.world.add_body(
+            load_atlas("planes").mask(plane.frame),
+            position=(plane.x, plane.y),
+            angle=plane.angle,
+            kind="kinematic",
+            filter=plane.side,
+            tier=self.tier,
+        )
         plane.id = body.id
         self.planes[body.id] = plane
         return plane

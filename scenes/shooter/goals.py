@@ -3,9 +3,9 @@
 from game.scene import Goal
 from scenes.shooter.cast import steps
 
-FOUGHT = {"dart": 900, "saucer": 1500, "hornet": 2400, "turret": 3300, "gunship": 4200}     # kind -> frame
-MIDBOSS, BOSS, CLEARED = 9000, 18000, 18600     # frames: what every timer leaves time for
-LONGEST = steps(40)          # steps that a plane without a timer of its own may be in the sky
+FOUGHT = {"dart": 900, "saucer": 1500, "hornet": 2400, "turret": 3300, "gunship": 4200}  # kind -> frame
+MIDBOSS, BOSS, CLEARED = 9000, 18000, 18600  # frames: what every timer leaves time for
+LONGEST = steps(40)  # steps that a plane without a timer of its own may be in the sky
 
 
 def stage_goals(scene):
@@ -16,14 +16,21 @@ def stage_goals(scene):
     leaders = (("midboss", MIDBOSS), ("boss", BOSS))
     cleared = scene.result is not None and scene.result.won
     return [
-        *(Goal(f"shot down a {kind}", due, score.kills[kind] > 0, f"{score.kills[kind]}")
-          for kind, due in FOUGHT.items() if kind in sent),
+        *(
+            Goal(f"shot down a {kind}", due, score.kills[kind] > 0, f"{score.kills[kind]}")
+            for kind, due in FOUGHT.items()
+            if kind in sent
+        ),
         Goal("grazed", 3600, score.grazes > 0, f"{score.grazes}"),
         Goal("a pick-up taken", 3600, score.taken > 0, f"{score.taken}"),
         Goal("a bomb used", BOSS, score.bombs > 0, f"{score.bombs}"),
         *(Goal(f"the {name} beaten", due, scene.beaten[name]) for name, due in leaders if name in kinds),
-        Goal("the stage cleared without a continue", CLEARED, cleared and not score.continues,
-             f"{scene.plane.lives} lives left, {score.hits} hits"),
+        Goal(
+            "the stage cleared without a continue",
+            CLEARED,
+            cleared and not score.continues,
+            f"{scene.plane.lives} lives left, {score.hits} hits",
+        ),
         Goal("no enemy stays for ever", 1, fleet.longest < LONGEST, f"the longest {fleet.longest / 60:.0f} s"),
         Goal("every body in the world is in the game", 1, scene.unknown == 0, f"{scene.unknown} are not"),
     ]

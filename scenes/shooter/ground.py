@@ -4,7 +4,7 @@ Where two stretches meet, the border is a coast of noise, not a line: a pixel be
 wavy threshold.
 """
 
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 import pygame
@@ -16,13 +16,13 @@ from scenes.shooter.cast import GROUND_SPEED, steps
 
 # Layer over the ground, its way down [px/s], px it shifts for each px that the plane is off the middle, a fixed shift [px].
 LAYERS = (("cloud_shadows", 46.0, 0.06, 40), ("clouds_low", 46.0, 0.08, 0), ("clouds_high", 92.0, 0.16, 0))
-BORDER = 150                 # [px] that the meeting of two stretches is high
-DARKEN = steps(5.0)          # steps in which clouds turn dark over a stormy stretch
-SHADES = 6                   # of dark clouds
-DARKEST = (96, 104, 138)     # factors, of 255, on clouds of a storm
-STREAKS = 16                 # wisps of air that show the speed
-DROPS = 70                   # of rain in the picture
-CONTRAST = (150, 150, 158)   # factors, of 255, on the ground where the player wants more contrast
+BORDER = 150  # [px] that the meeting of two stretches is high
+DARKEN = steps(5.0)  # steps in which clouds turn dark over a stormy stretch
+SHADES = 6  # of dark clouds
+DARKEST = (96, 104, 138)  # factors, of 255, on clouds of a storm
+STREAKS = 16  # wisps of air that show the speed
+DROPS = 70  # of rain in the picture
+CONTRAST = (150, 150, 158)  # factors, of 255, on the ground where the player wants more contrast
 
 
 def draw_ground(surface, scene, alpha, left, top):
@@ -55,7 +55,7 @@ def storm_share(grounds, scrolled):
 
 def _draw_stretches(surface, grounds, scrolled, left, top):
     since, name = grounds[-1]
-    line = whole(scrolled - since) - BORDER - top          # where the new stretch is all there, on the canvas
+    line = whole(scrolled - since) - BORDER - top  # where the new stretch is all there, on the canvas
     if len(grounds) == 1 or line > CANVAS_SIZE[1]:
         tile(surface, stretch(name), -left, scrolled - top)
         return
@@ -84,13 +84,13 @@ def _draw_air(surface, time, off, storm):
     blit_many(surface, drawn)
 
 
-@lru_cache(maxsize=None)
+@cache
 def stretch(name):
     """The picture of a ground."""
     return load_backdrop(name)
 
 
-@lru_cache(maxsize=None)
+@cache
 def clouds(name, shade):
     """A layer of clouds, darker by steps as a storm comes."""
     picture = load_backdrop(name)

@@ -52,7 +52,7 @@ def partners(events, identity):
 def boxes_met(world, identity):
     """Ids of the enemies and bullets whose box overlapped that of a body in the last step."""
     shapes = world.shapes
-    box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]      # whatever the tier, it has one shape
+    box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # whatever the tier, it has one shape
     a, b = world.candidates[:, 0], world.candidates[:, 1]
     others = np.concatenate([b[a == box["id"]], a[b == box["id"]]])
     if not len(others):
@@ -60,6 +60,10 @@ def boxes_met(world, identity):
     rows = np.searchsorted(np.ascontiguousarray(shapes["id"]), others)
     other = shapes[rows[(shapes["membership"][rows] & (ENEMY | BULLET)) != 0]]
     # Open boxes: an edge that only touches an edge is nothing to be proud of.
-    over = ((other["min_x"] < box["max_x"]) & (other["max_x"] > box["min_x"])
-            & (other["min_y"] < box["max_y"]) & (other["max_y"] > box["min_y"]))
+    over = (
+        (other["min_x"] < box["max_x"])
+        & (other["max_x"] > box["min_x"])
+        & (other["min_y"] < box["max_y"])
+        & (other["max_y"] > box["min_y"])
+    )
     return np.unique(other["body"][over])

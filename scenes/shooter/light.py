@@ -9,10 +9,10 @@ from scenes.shooter.fireworks import RING_LIFE
 
 LINE = (150, 236, 255)
 WAVE = (255, 214, 150)
-SHADES = 8                   # of a fading shock wave
-ROUNDING = 4                 # [px] between the radii that are drawn: so few pictures are kept
-BLAST = 120                  # [px] radius of the light of a blast
-INSIDE = 12                  # [px] that the drawn ring may be smaller than the blast
+SHADES = 8  # of a fading shock wave
+ROUNDING = 4  # [px] between the radii that are drawn: so few pictures are kept
+BLAST = 120  # [px] radius of the light of a blast
+INSIDE = 12  # [px] that the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):

@@ -5,10 +5,14 @@ from math import cos, hypot, pi
 from game.drawing.sprites import load_atlas
 from scenes.shooter.cast import LOOT, WIDTH
 
-FALL, SWAY, SWINGS = 34.0, 26.0, 0.5      # [px/s], [px/s], swings per second
-REACH, FAR_REACH, PULL = 58.0, 130.0, 170.0   # [px] from which it comes to you, the same while you focus; how fast [px/s]
-TOSS, TOSS_TIME = 90.0, 34                # [px/s] upwards, and steps: what a lost plane leaves can be caught again
-EDGE = 16.0                               # [px] from the sides that it keeps
+FALL, SWAY, SWINGS = 34.0, 26.0, 0.5  # [px/s], [px/s], swings per second
+REACH, FAR_REACH, PULL = (
+    58.0,
+    130.0,
+    170.0,
+)  # [px] from which it comes to you, the same while you focus; how fast [px/s]
+TOSS, TOSS_TIME = 90.0, 34  # [px/s] upwards, and steps: what a lost plane leaves can be caught again
+EDGE = 16.0  # [px] from the sides that it keeps
 PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
 
 
@@ -61,4 +65,6 @@ class Loot:
 
     def state(self):
         """For the digest."""
-        return tuple(value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed))
+        return tuple(
+            value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed)
+        )

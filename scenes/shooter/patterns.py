@@ -8,8 +8,8 @@ from math import atan2, hypot, pi, radians, sin
 from scenes.shooter.bullets import DOWN
 from scenes.shooter.cast import WIDTH, steps
 
-WALL_Y = -8.0                # [px] where a wall of bullets comes from
-WALL_EDGE = 30.0             # [px] from the sides that the middle of its gap keeps
+WALL_Y = -8.0  # [px] where a wall of bullets comes from
+WALL_EDGE = 30.0  # [px] from the sides that the middle of its gap keeps
 
 
 def aimed(x, y, target):
@@ -20,7 +20,7 @@ def aimed(x, y, target):
 def lead(x, y, target, velocity, speed):
     """The heading that meets a target which goes on as it flies, for a bullet of that speed [px/s]."""
     ahead = 0.0
-    for _ in range(3):       # each round halves the error or better: targets are slower than bullets
+    for _ in range(3):  # each round halves the error or better: targets are slower than bullets
         ahead_x, ahead_y = target[0] + velocity[0] * ahead, target[1] + velocity[1] * ahead
         ahead = hypot(ahead_x - x, ahead_y - y) / speed
     return atan2(ahead_y - y, ahead_x - x)
@@ -51,11 +51,11 @@ class Gun:
 
     def __init__(self, pattern):
         self.pattern = pattern
-        self.wait = max(steps(pattern.after), 1)     # steps until the next shot
-        self.fired = 0                               # shots so far
-        self.age = 0                                 # steps
-        self.held = DOWN                             # heading of the stream that runs [rad]
-        self.middle = WIDTH / 2                      # of the last wall's gap [px]
+        self.wait = max(steps(pattern.after), 1)  # steps until the next shot
+        self.fired = 0  # shots so far
+        self.age = 0  # steps
+        self.held = DOWN  # heading of the stream that runs [rad]
+        self.middle = WIDTH / 2  # of the last wall's gap [px]
 
     def step(self, sky, x, y):
         """Fire if a shot is due; (x, y) [px] is the middle of what carries it. True if it fired."""

@@ -11,20 +11,20 @@ from scenes.shooter.bullets import NAMES, mask_of
 from scenes.shooter.cast import GROUNDED, HEIGHT
 from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, RIGHT, SPEED, TOP
 
-MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)    # steps ahead
-SOON = 5                                    # of these are so near that only a bomb would help
-WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)      # what comes later can still be dodged later
-FLOWN = (5.0, 12.0, 26.0)                   # steps that a direction is held
-SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}      # [px] radius of what must not be met, for the prediction
+MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)  # steps ahead
+SOON = 5  # of these are so near that only a bomb would help
+WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)  # what comes later can still be dodged later
+FLOWN = (5.0, 12.0, 26.0)  # steps that a direction is held
+SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}  # [px] radius of what must not be met, for the prediction
 ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0, "hornet": 12.0, "midboss": 38.0, "boss": 56.0}
-CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}      # factor on enemies' sizes: what is tested is larger
-COMFORT = 14.0                              # [px] nearer than this is uncomfortable
-DEADLY = 0.8                                # [px] nearer than this is a hit
-HIT = 60.0                                  # the cost of one
-NEAR, MOST = 130.0, 64                      # [px] farther threats can wait, and so can more than so many
-AT_ONCE = 7                                 # plans that are compared at once: arrays stay small
-LINE_Y = 216.0                              # [px] where it likes to fly
-CROWD = 1500                                # bullets in the sky at which it uses its first bomb, come what may
+CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}  # factor on enemies' sizes: what is tested is larger
+COMFORT = 14.0  # [px] nearer than this is uncomfortable
+DEADLY = 0.8  # [px] nearer than this is a hit
+HIT = 60.0  # the cost of one
+NEAR, MOST = 130.0, 64  # [px] farther threats can wait, and so can more than so many
+AT_ONCE = 7  # plans that are compared at once: arrays stay small
+LINE_Y = 216.0  # [px] where it likes to fly
+CROWD = 1500  # bullets in the sky at which it uses its first bomb, come what may
 
 
 def directions():
@@ -103,7 +103,9 @@ class Pilot:
     def _distance(self, scene, x, y, end_x, end_y):
         """Cost of each plan by how far it ends from where there is something to do."""
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
-        prey = [e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")]
+        prey = [
+            e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")
+        ]
         if prey:
             aim = min(prey, key=lambda e: (abs(e.x - x) - 0.4 * e.y, e.id))
             ahead = max(y - aim.y, 0.0) / 540.0

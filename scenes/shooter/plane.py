@@ -12,20 +12,20 @@ from scenes.shooter.bullets import UP
 from scenes.shooter.cast import AT_RISK, GHOST, HEIGHT, WIDTH, steps
 from scenes.shooter.fleet import dress
 
-SPEED, FOCUS = 168.0, 0.5            # [px/s]; factor while focusing
-DIAGONAL = 0.7071067811865476        # both keys of a diagonal together are no faster than one alone
-BORDER = 16.0                        # [px] that its centre keeps from the edges of the picture
+SPEED, FOCUS = 168.0, 0.5  # [px/s]; factor while focusing
+DIAGONAL = 0.7071067811865476  # both keys of a diagonal together are no faster than one alone
+BORDER = 16.0  # [px] that its centre keeps from the edges of the picture
 LEFT, RIGHT, TOP, BOTTOM = BORDER, WIDTH - BORDER, BORDER, HEIGHT - BORDER
 START_X, START_Y, ENTRY_Y = WIDTH / 2, 222.0, HEIGHT + 30.0
-CORE_RADIUS, RING_RADIUS = 2.5, 16.0     # [px]
-FLY_IN = steps(0.6)                  # steps of the flight into the picture
-SAFE = steps(2.5)                    # steps as a ghost after that
-AWAY = steps(1.0)                    # steps between two lives
-BANK_RATE = 0.34                     # frames of bank per step
+CORE_RADIUS, RING_RADIUS = 2.5, 16.0  # [px]
+FLY_IN = steps(0.6)  # steps of the flight into the picture
+SAFE = steps(2.5)  # steps as a ghost after that
+AWAY = steps(1.0)  # steps between two lives
+BANK_RATE = 0.34  # frames of bank per step
 BANKS = ("player_left2", "player_left1", "player", "player_right1", "player_right2")
 LIVES, MOST_LIVES, BOMBS, MOST_BOMBS, TOP_POWER = 3, 6, 3, 6, 5
-POWER_LOST = 2                       # levels, with a life; one of them can be caught again
-COOLDOWN = 6                         # steps between two volleys
+POWER_LOST = 2  # levels, with a life; one of them can be caught again
+COOLDOWN = 6  # steps between two volleys
 SHOT_SPEED, SIDE_SPEED = 560.0, 480.0
 # What a volley is, by power: shots and heavy shots by their x [px] off the nose, side bullets by their lean [rad] from
 # straight up.
@@ -73,11 +73,20 @@ class Plane:
         """A life starts below the picture."""
         self.bank = 0.0
         self.x, self.y = START_X, ENTRY_Y
-        shapes = {"core": Circle(CORE_RADIUS), "hull": load_atlas("planes").mask(self.frame), "ring": Circle(RING_RADIUS)}
+        shapes = {
+            "core": Circle(CORE_RADIUS),
+            "hull": load_atlas("planes").mask(self.frame),
+            "ring": Circle(RING_RADIUS),
+        }
         for part, shape in shapes.items():
             self.bodies[part] = self.world.add_body(
-                shape, position=(self.x, self.y), kind="kinematic", filter=GHOST[part], sensor=part == "ring",
-                tier=self.tier if part == "hull" else None)
+                shape,
+                position=(self.x, self.y),
+                kind="kinematic",
+                filter=GHOST[part],
+                sensor=part == "ring",
+                tier=self.tier if part == "hull" else None,
+            )
         self.ghost = True
         self.entering, self.safe, self.cooldown = FLY_IN, FLY_IN + SAFE, 0
 
@@ -163,5 +172,19 @@ class Plane:
 
     def state(self):
         """For the digest."""
-        return (self.lives, self.power, self.bombs, self.bank, self.safe, self.away, self.cooldown, self.entering, self.x,
-                self.y, *self.velocity, self.focusing, self.ghost, *(body.id for body in self.bodies.values()))
+        return (
+            self.lives,
+            self.power,
+            self.bombs,
+            self.bank,
+            self.safe,
+            self.away,
+            self.cooldown,
+            self.entering,
+            self.x,
+            self.y,
+            *self.velocity,
+            self.focusing,
+            self.ghost,
+            *(body.id for body in self.bodies.values()),
+        )

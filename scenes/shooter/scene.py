@@ -22,11 +22,11 @@ from scenes.shooter.spectacle import Spectacle
 from scenes.shooter.stage import load_stage
 from scenes.shooter.view import the_view
 
-FREEZE = 3                    # steps that the game stands still when the player is hit or a phase ends: 50 ms
-LAST_MOMENT = 6               # steps after a hit in which a bomb still saves the plane
-SWEEP_EVERY = 8               # steps between two looks for what has left the sky: removing costs by the batch
-ROOM = 1800                   # bullets that the tables have room for from the start
-DROP_EVERY = 45               # kills between two power-ups that nobody carried
+FREEZE = 3  # steps that the game stands still when the player is hit or a phase ends: 50 ms
+LAST_MOMENT = 6  # steps after a hit in which a bomb still saves the plane
+SWEEP_EVERY = 8  # steps between two looks for what has left the sky: removing costs by the batch
+ROOM = 1800  # bullets that the tables have room for from the start
+DROP_EVERY = 45  # kills between two power-ups that nobody carried
 
 
 class Shooter(Scene):
@@ -34,23 +34,27 @@ class Shooter(Scene):
 
     name = "shooter"
     title = "Shooter"
-    about = "One stage, five kinds of planes, a boss. What your eye calls a miss is a miss: exact shapes decide every hit."
+    about = (
+        "One stage, five kinds of planes, a boss. What your eye calls a miss is a miss: exact shapes decide every hit."
+    )
     effects = Effects(sensors=True)
     pieces = ("masks", "circles", "boxes", "queries")
-    features = ("pixel masks and a small core: both are tested, you choose which hurts",
-                "sensors: grazing, pick-ups, and a bomb that grows through the bullets",
-                "filters: bullets never pair with bullets or with their own side",
-                "bullets are rows, added and removed in batches: 1,500 at once")
+    features = (
+        "pixel masks and a small core: both are tested, you choose which hurts",
+        "sensors: grazing, pick-ups, and a bomb that grows through the bullets",
+        "filters: bullets never pair with bullets or with their own side",
+        "bullets are rows, added and removed in batches: 1,500 at once",
+    )
     actions = (("arrows", "fly"), ("Space", "fire"), ("Shift", "focus"), ("X", "bomb"))
     tiers = ("pixels", "obb", "aabb", "circle")
-    broadphase = "sweep"       # bullets are spread over the whole sky: four times as quick as a grid with 1,500 of them
+    broadphase = "sweep"  # bullets are spread over the whole sky: four times as quick as a grid with 1,500 of them
     sliders = (Slider("hurts", 0, 1, 0, choices=("core", "hull")),)
     music = "shooter"
     ranked_by = "points"
     assists = ("invincible", "hit_stop")
     takes_level = True
     level_suffix = ".json"
-    best = 0                   # points of the best game so far, to be shown; whoever keeps the list sets it
+    best = 0  # points of the best game so far, to be shown; whoever keeps the list sets it
 
     def build(self):
         """An empty sky, and you."""
@@ -65,10 +69,10 @@ class Shooter(Scene):
         self.blows, self.hits = Blows(world), Hits()
         self.director, self.score, self.ending = Director(stage), Score(KINDS), Ending()
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
-        self.scrolled = self.scrolled_before = 0.0     # [px] that the ground has moved, now and a step ago
-        self.gone = []               # bodies that go when the next step begins
-        self.hit_by = []             # what hit the player; it is lost when `stricken` has counted down
-        self.hit_blow = Blow()       # how hard that was
+        self.scrolled = self.scrolled_before = 0.0  # [px] that the ground has moved, now and a step ago
+        self.gone = []  # bodies that go when the next step begins
+        self.hit_by = []  # what hit the player; it is lost when `stricken` has counted down
+        self.hit_blow = Blow()  # how hard that was
         self.freeze = self.stricken = self.since_drop = self.unknown = self.most_bullets = 0
         self.beaten = {"midboss": False, "boss": False}
 
@@ -343,10 +347,29 @@ class Shooter(Scene):
         """All that is not in the world."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending)
-        return (self.frame, self.freeze, self.stricken, self.since_drop, self.unknown, self.most_bullets, self.scrolled,
-                self.fleet.longest, self.hurts, self.music, *self.assist.values(), *self.beaten.values(), *planes,
-                *(value for part in parts for value in part.state()), self.shots.state(), self.incoming.state(),
-                *self.gone, *self.hit_by, self.hit_blow.x, self.hit_blow.y, self.hit_blow.mass)
+        return (
+            self.frame,
+            self.freeze,
+            self.stricken,
+            self.since_drop,
+            self.unknown,
+            self.most_bullets,
+            self.scrolled,
+            self.fleet.longest,
+            self.hurts,
+            self.music,
+            *self.assist.values(),
+            *self.beaten.values(),
+            *planes,
+            *(value for part in parts for value in part.state()),
+            self.shots.state(),
+            self.incoming.state(),
+            *self.gone,
+            *self.hit_by,
+            self.hit_blow.x,
+            self.hit_blow.y,
+            self.hit_blow.mass,
+        )
 
     def draw(self, canvas, alpha):
         """The picture."""

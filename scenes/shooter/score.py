@@ -5,10 +5,10 @@ Kills and grazes make the chain longer and keep it alive; it breaks when nothing
 
 from scenes.shooter.cast import steps
 
-CHAIN_STEP, TOP_CHAIN = 8, 8         # links per step of the multiplier, and its end
-HOLD = steps(3.0)                    # steps that a kill keeps the chain alive
-GRAZE_HOLD = steps(0.75)             # steps that a graze adds, at most to the whole
-GRAZE, BURNT, SPARE, WHOLE_WAVE = 20, 10, 1000, 500     # points, times the multiplier
+CHAIN_STEP, TOP_CHAIN = 8, 8  # links per step of the multiplier, and its end
+HOLD = steps(3.0)  # steps that a kill keeps the chain alive
+GRAZE_HOLD = steps(0.75)  # steps that a graze adds, at most to the whole
+GRAZE, BURNT, SPARE, WHOLE_WAVE = 20, 10, 1000, 500  # points, times the multiplier
 FIRST_LIFE, NEXT_LIFE = 100_000, 200_000
 LIFE_BONUS, BOMB_BONUS, GRAZE_BONUS, PURE_BONUS = 20_000, 5_000, 50, 100_000
 
@@ -108,5 +108,17 @@ class Score:
 
     def state(self):
         """For the digest."""
-        return (self.points, self.chain, self.hold, self.best_chain, self.grazes, self.taken, self.hits, self.bombs,
-                self.waves, self.continues, self.next_life, *self.kills.values())
+        return (
+            self.points,
+            self.chain,
+            self.hold,
+            self.best_chain,
+            self.grazes,
+            self.taken,
+            self.hits,
+            self.bombs,
+            self.waves,
+            self.continues,
+            self.next_life,
+            *self.kills.values(),
+        )

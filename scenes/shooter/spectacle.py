@@ -6,25 +6,35 @@ from scenes.shooter.cast import WIDTH
 from scenes.shooter.fireworks import BLUE, DUST, FIRE, GOLD, SPARK, VAPOUR, Fireworks
 from scenes.shooter.plane import TOP_POWER
 
-SMOKE_EVERY = 5              # steps between puffs of something large that is damaged
-FLASH = 3                    # steps that a plane stays white when it is hit
-LEAN_RATE = 0.06             # share of the way to the plane that the parallax goes in a step
-NEWS = 130                   # steps that the name of a wave is shown
-BONUS_SHOWN = 120            # steps that what a phase gave is shown
-PULSE_FADE, GAIN_FADE = 5.0, 2.0   # [1/s] how fast the score's jump and the weapon's icon's end
-HEALTH_RATE = 0.12           # share of the way to the real health that the leader's bar goes in a step
-SHOT_SOUND = 6               # steps at least between two sounds of a leader's guns
-GRAZE_WORDS = 45             # steps between two words about grazes
-MOST_EMBERS = 100            # bullets that burn with sparks at once; more would hide the picture
+SMOKE_EVERY = 5  # steps between puffs of something large that is damaged
+FLASH = 3  # steps that a plane stays white when it is hit
+LEAN_RATE = 0.06  # share of the way to the plane that the parallax goes in a step
+NEWS = 130  # steps that the name of a wave is shown
+BONUS_SHOWN = 120  # steps that what a phase gave is shown
+PULSE_FADE, GAIN_FADE = 5.0, 2.0  # [1/s] how fast the score's jump and the weapon's icon's end
+HEALTH_RATE = 0.12  # share of the way to the real health that the leader's bar goes in a step
+SHOT_SOUND = 6  # steps at least between two sounds of a leader's guns
+GRAZE_WORDS = 45  # steps between two words about grazes
+MOST_EMBERS = 100  # bullets that burn with sparks at once; more would hide the picture
 # kind -> explosion, sound, volume, shake, sparks, pieces of debris
-DEATHS = {"dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
-          "saucer": ("explosion_small", "explosion", 0.7, 0.10, 24, 5),
-          "hornet": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
-          "turret": ("explosion_large", "explosion", 0.85, 0.18, 36, 7),
-          "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 12)}
-PAINT = {"dart": (1, 0), "saucer": (3, 4), "gunship": (2, 0), "hornet": (4, 0), "turret": (0, 2),
-         "player": (5, 0), "midboss": (2, 0), "boss": (1, 0)}     # frames of the debris
-PRAISE = (150, 226, 255)     # colour of what was done well
+DEATHS = {
+    "dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
+    "saucer": ("explosion_small", "explosion", 0.7, 0.10, 24, 5),
+    "hornet": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
+    "turret": ("explosion_large", "explosion", 0.85, 0.18, 36, 7),
+    "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 12),
+}
+PAINT = {
+    "dart": (1, 0),
+    "saucer": (3, 4),
+    "gunship": (2, 0),
+    "hornet": (4, 0),
+    "turret": (0, 2),
+    "player": (5, 0),
+    "midboss": (2, 0),
+    "boss": (1, 0),
+}  # frames of the debris
+PRAISE = (150, 226, 255)  # colour of what was done well
 WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
@@ -36,15 +46,15 @@ class Spectacle:
         self.works = Fireworks(scene.particles)
         self.random = scene.particles.random
         self.time = 0.0
-        self.flashes = {}            # body id -> steps it stays white
-        self.muzzle = 9              # steps since the last volley
-        self.quiet = 0               # steps until a leader's guns are heard again
-        self.hush = 0                # steps until a graze is written again
-        self.news = 0                # steps that the name of the wave is still shown
-        self.pulse = self.gain = 0.0     # the score, and the weapon's icon, jump when they grow, 1..0
-        self.bonus = ["", 0, 0]      # what a phase gave: title, points, steps it is still shown
-        self.health = 0.0            # of the leader, as its bar shows it: it follows the real one
-        self.lean = self.lean_before = 0.0     # [px] off the middle, as the parallax sees it: slower than the plane
+        self.flashes = {}  # body id -> steps it stays white
+        self.muzzle = 9  # steps since the last volley
+        self.quiet = 0  # steps until a leader's guns are heard again
+        self.hush = 0  # steps until a graze is written again
+        self.news = 0  # steps that the name of the wave is still shown
+        self.pulse = self.gain = 0.0  # the score, and the weapon's icon, jump when they grow, 1..0
+        self.bonus = ["", 0, 0]  # what a phase gave: title, points, steps it is still shown
+        self.health = 0.0  # of the leader, as its bar shows it: it follows the real one
+        self.lean = self.lean_before = 0.0  # [px] off the middle, as the parallax sees it: slower than the plane
 
     def step(self, dt):
         """Everything ages."""
@@ -70,8 +80,9 @@ class Spectacle:
         for enemy in self.scene.fleet.planes.values():
             if enemy.heavy and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
                 side = -15 if enemy.age % (2 * SMOKE_EVERY) else 15
-                self.works.burst("smoke", enemy.x + side * (2 if enemy.leads else 1), enemy.y - 6,
-                                 self.random.uniform(-8, 8), -26.0)
+                self.works.burst(
+                    "smoke", enemy.x + side * (2 if enemy.leads else 1), enemy.y - 6, self.random.uniform(-8, 8), -26.0
+                )
             elif enemy.kind == "hornet" and enemy.age % 3 == 0:
                 particles.burst(enemy.x, enemy.y, 1, VAPOUR, speed=(0, 6), life=(0.3, 0.6), size=(1, 1))
             elif enemy.kind == "dart" and enemy.mode == "dive" and enemy.age % 2 == 0:
@@ -122,20 +133,33 @@ class Spectacle:
 
     def dive(self, dart):
         """A dart lights its burner."""
-        self.scene.particles.burst(dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4)
+        self.scene.particles.burst(
+            dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
+        )
         self.scene.play("enemy_shot", dart.x, 0.3)
 
     def struck(self, enemy, x, y, blow):
         """A shot hits a plane and does not bring it down: the harder, the more sparks."""
         self.flashes[enemy.id] = FLASH
         self.works.burst("spark", x, y, 0.0, 20.0)
-        self.scene.particles.burst(x, y, round(5 * blow.strength), SPARK, speed=(40, 160 * blow.strength), life=(0.1, 0.3),
-                                   angle=pi / 2, spread=2.6, size=(1, 1))
+        self.scene.particles.burst(
+            x,
+            y,
+            round(5 * blow.strength),
+            SPARK,
+            speed=(40, 160 * blow.strength),
+            life=(0.1, 0.3),
+            angle=pi / 2,
+            spread=2.6,
+            size=(1, 1),
+        )
         self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
 
     def glanced(self, enemy, x, y):
         """A shot hits what nothing hurts now."""
-        self.scene.particles.burst(x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1))
+        self.scene.particles.burst(
+            x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1)
+        )
 
     def destroyed(self, enemy, worth, blow):
         """A plane is brought down. Its pieces go on as it flew, with what the last blow gave them."""
@@ -284,8 +308,14 @@ class Spectacle:
         works.sparks(x, y, 60, GOLD, 300)
         works.puffs(x, y, 14)
         for number in range(20):
-            works.piece(PAINT[leader.kind][number % 2], x, y, self.random.uniform(-190, 190),
-                        self.random.uniform(-180, 120), self.random.uniform(0.8, 1.8))
+            works.piece(
+                PAINT[leader.kind][number % 2],
+                x,
+                y,
+                self.random.uniform(-190, 190),
+                self.random.uniform(-180, 120),
+                self.random.uniform(0.8, 1.8),
+            )
         self.scene.flash.start(1.0)
         self.scene.camera.shake(0.9)
         self.scene.play("big_explosion", x, 1.0)

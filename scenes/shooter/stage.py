@@ -19,10 +19,10 @@ GROUNDS = ("sea", "coast", "storm")
 KIND_NAMES = ("dart", "saucer", "gunship", "hornet", "turret")
 ITEMS = ("power", "bomb", "life")
 SIDES = ("left", "right", "below")
-LONGEST = 600                # [s] of a stage's clock
-MOST_PLANES = 80             # of one wave
-SLOWEST = 20.0               # [px/s] a bullet that hardly moves would stay for ever
-MOST_FIRE = 1000             # bullets that a phase may fire per second, by all its patterns
+LONGEST = 600  # [s] of a stage's clock
+MOST_PLANES = 80  # of one wave
+SLOWEST = 20.0  # [px/s] a bullet that hardly moves would stay for ever
+MOST_FIRE = 1000  # bullets that a phase may fire per second, by all its patterns
 
 
 @dataclass(frozen=True)
@@ -123,19 +123,28 @@ class Stage:
 
 
 def _group(**fields):
-    return Record(Group, places=List(Number(0, 1), 1, 30), every=Number(0.05, 10), after=Number(0, 30, 0.0),
-                  carries=Choice(ITEMS, ""), **fields)
+    return Record(
+        Group,
+        places=List(Number(0, 1), 1, 30),
+        every=Number(0.05, 10),
+        after=Number(0, 30, 0.0),
+        carries=Choice(ITEMS, ""),
+        **fields,
+    )
 
 
 def _pattern(**fields):
     return Record(Pattern, **fields)
 
 
-WALL_WIDTH = 480.0           # [px] a wall reaches across the sky
+WALL_WIDTH = 480.0  # [px] a wall reaches across the sky
 HOVER = Number(24, 120, 56.0)
 GROUPS = {
-    "dart": _group(hover=HOVER), "gunship": _group(hover=HOVER), "saucer": _group(sway=Number(-220, 220, 40.0)),
-    "hornet": _group(side=Choice(SIDES), bend=Number(-360, 360, 0.0)), "turret": _group(),
+    "dart": _group(hover=HOVER),
+    "gunship": _group(hover=HOVER),
+    "saucer": _group(sway=Number(-220, 220, 40.0)),
+    "hornet": _group(side=Choice(SIDES), bend=Number(-360, 360, 0.0)),
+    "turret": _group(),
 }
 COUNT, TURN = Number(1, 64, whole=True), Number(-360, 360, 0.0)
 PATTERNS = {
@@ -148,24 +157,51 @@ PATTERNS = {
     "stream": _pattern(turn=TURN),
 }
 MUZZLE = List(Number(-80, 80), 2, 2)
-PATTERN = Variant("shoot", PATTERNS, bullet=Choice(HOSTILE_LOOKS), speed=Number(SLOWEST, 400), every=Number(0.03, 30),
-                  after=Number(0, 30, 0.0), shots=Number(1, 200, 1, whole=True), rest=Number(0, 30, 0.0),
-                  faster=Number(-100, 100, 0.0), muzzles=List(MUZZLE, 1, 8, ((0.0, 0.0),)),
-                  out=Number(0, 80, 0.0))
+PATTERN = Variant(
+    "shoot",
+    PATTERNS,
+    bullet=Choice(HOSTILE_LOOKS),
+    speed=Number(SLOWEST, 400),
+    every=Number(0.03, 30),
+    after=Number(0, 30, 0.0),
+    shots=Number(1, 200, 1, whole=True),
+    rest=Number(0, 30, 0.0),
+    faster=Number(-100, 100, 0.0),
+    muzzles=List(MUZZLE, 1, 8, ((0.0, 0.0),)),
+    out=Number(0, 80, 0.0),
+)
 MOVE = Record(Move, across=Number(0, 180), down=Number(0, 60), seconds=Number(1, 60))
-PHASE = Record(Phase, name=Text(24), health=Number(1, 5000), seconds=Number(5, 120), bonus=Number(0, 1_000_000, whole=True),
-               move=MOVE, patterns=List(PATTERN, 1, 8))
+PHASE = Record(
+    Phase,
+    name=Text(24),
+    health=Number(1, 5000),
+    seconds=Number(5, 120),
+    bonus=Number(0, 1_000_000, whole=True),
+    move=MOVE,
+    patterns=List(PATTERN, 1, 8),
+)
 EVENTS = {
     "backdrop": Record(Event, ground=Choice(GROUNDS)),
-    "pace": Record(Event, speed=Number(0.5, 2, 1.0), patience=Number(0.3, 3, 1.0), armour=Number(0.5, 4, 1.0),
-                   extra=Number(0, 8, 0, whole=True)),
+    "pace": Record(
+        Event,
+        speed=Number(0.5, 2, 1.0),
+        patience=Number(0.3, 3, 1.0),
+        armour=Number(0.5, 4, 1.0),
+        extra=Number(0, 8, 0, whole=True),
+    ),
     "wave": Record(Event, name=Text(24), groups=List(Variant("kind", GROUPS), 1, 8)),
     "item": Record(Event, item=Choice(ITEMS), across=Number(0.05, 0.95)),
     "midboss": Record(Event, name=Text(24), phases=List(PHASE, 1, 1)),
     "boss": Record(Event, name=Text(24), phases=List(PHASE, 1, 3)),
 }
-FILE = {"format": Choice((FORMAT,)), "version": Number(VERSION, VERSION, whole=True), "title": Text(16), "name": Text(28),
-        "about": List(Text(200), 0, 40, ()), "events": List(Variant("event", EVENTS, at=Number(0, LONGEST)), 2, 400)}
+FILE = {
+    "format": Choice((FORMAT,)),
+    "version": Number(VERSION, VERSION, whole=True),
+    "title": Text(16),
+    "name": Text(28),
+    "about": List(Text(200), 0, 40, ()),
+    "events": List(Variant("event", EVENTS, at=Number(0, LONGEST)), 2, 400),
+}
 
 
 def load_stage(path=None):
@@ -218,8 +254,10 @@ def _check_event(reader, place, event):
         for row, pattern in enumerate(phase.patterns):
             slowest = pattern.speed + min(pattern.faster, 0.0) * (pattern.shots - 1)
             if slowest < SLOWEST:
-                reader.fail(f"{place}.phases[{number}].patterns[{row}].faster",
-                            f"leaves the last shot {slowest:g} px/s; at least {SLOWEST:g}")
+                reader.fail(
+                    f"{place}.phases[{number}].patterns[{row}].faster",
+                    f"leaves the last shot {slowest:g} px/s; at least {SLOWEST:g}",
+                )
         fired = sum(pattern.per_second for pattern in phase.patterns)
         if fired > MOST_FIRE:
             reader.fail(f"{place}.phases[{number}].patterns", f"fire {fired:.0f} bullets a second; at most {MOST_FIRE}")

@@ -23,24 +23,36 @@ from scenes.shooter.ground import draw_ground
 from scenes.shooter.loot import PICTURES
 from scenes.shooter.plane import RING_RADIUS, SPEED
 
-SHADOW_AT = (15, 24)         # [px] from a plane to its shadow on the ground
+SHADOW_AT = (15, 24)  # [px] from a plane to its shadow on the ground
 SHADOW = (8, 12, 30, 84)
-CYCLES = {"red": "bullet_red", "purple": "bullet_purple", "orange": "bullet_orange", "small": "bullet_small",
-          "big": "bullet_big", "hollow": "bullet_ring"}
-GLOWS = {"shot": "glow_blue", "heavy": "glow_blue", "red": "glow_small", "orange": "glow_small", "purple": "glow_blue",
-         "big": "glow_small"}
-MOST_GLOWS = 160             # bullets of a look that glow; more would be one bright fog, and cost time
-OUT = 24                     # [px] outside of the picture, where a bullet's light is no longer seen
-EXHAUST_AT = 15              # [px] from the plane's middle to the root of its flame
-EXHAUST_PLAY = 0.35          # share by which the flame is longer or shorter at full speed up or down
-MUZZLE_AT, MUZZLE_STEPS = 16, 4   # [px] from the plane's middle to its guns; steps that their flash is seen
-WHITE, PALE = 190, 28        # how much a hit brightens a plane; what takes many hits only glimmers
-FAINT = 120                  # alpha of a ghost, and of the core while nobody looks for it
-TUMBLES = 14                 # quarter turns of debris a second
-STURDY = 20                  # health from which on it is shown
-HEALTH_AT = 26               # [px] from a plane's middle up to its health
-LIT = 0.25                   # [s] that an explosion lights up what is around it
-BLINK = 8                    # steps of one blink of a ghost
+CYCLES = {
+    "red": "bullet_red",
+    "purple": "bullet_purple",
+    "orange": "bullet_orange",
+    "small": "bullet_small",
+    "big": "bullet_big",
+    "hollow": "bullet_ring",
+}
+GLOWS = {
+    "shot": "glow_blue",
+    "heavy": "glow_blue",
+    "red": "glow_small",
+    "orange": "glow_small",
+    "purple": "glow_blue",
+    "big": "glow_small",
+}
+MOST_GLOWS = 160  # bullets of a look that glow; more would be one bright fog, and cost time
+OUT = 24  # [px] outside of the picture, where a bullet's light is no longer seen
+EXHAUST_AT = 15  # [px] from the plane's middle to the root of its flame
+EXHAUST_PLAY = 0.35  # share by which the flame is longer or shorter at full speed up or down
+MUZZLE_AT, MUZZLE_STEPS = 16, 4  # [px] from the plane's middle to its guns; steps that their flash is seen
+WHITE, PALE = 190, 28  # how much a hit brightens a plane; what takes many hits only glimmers
+FAINT = 120  # alpha of a ghost, and of the core while nobody looks for it
+TUMBLES = 14  # quarter turns of debris a second
+STURDY = 20  # health from which on it is shown
+HEALTH_AT = 26  # [px] from a plane's middle up to its health
+LIT = 0.25  # [s] that an explosion lights up what is around it
+BLINK = 8  # steps of one blink of a ghost
 
 
 class View:
@@ -48,7 +60,7 @@ class View:
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
-        self.turned = {}             # (atlas, shown frame, frame that collides) -> TurnedSprites
+        self.turned = {}  # (atlas, shown frame, frame that collides) -> TurnedSprites
         self.shaded, self.whitened = lru_cache(maxsize=512)(shade), lru_cache(maxsize=512)(lit)
         self.outlined = lru_cache(maxsize=16)(outline)
         self.ghostly = lru_cache(maxsize=16)(ghostly)
@@ -74,11 +86,15 @@ class View:
         draw_ground(self.surface, scene, alpha, self.left, self.top)
         ground, air = self._planes(scene)
         blit_many(self.surface, ground)
-        blit_many(self.surface, [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in air])
+        blit_many(
+            self.surface, [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in air]
+        )
         self._draw_loot(scene)
         self._draw_bullets(scene, scene.shots)
         self._draw_exhaust(scene)
-        blit_many(self.surface, [(self.whitened(image, white) if white else image, place) for image, place, white in air])
+        blit_many(
+            self.surface, [(self.whitened(image, white) if white else image, place) for image, place, white in air]
+        )
         self._draw_health(scene)
         self._draw_debris(works)
         self._draw_bursts(works)
@@ -96,8 +112,11 @@ class View:
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
         back = 1.0 - self.alpha
-        return (x - (x - bodies["previous_x"][rows]) * back, y - (y - bodies["previous_y"][rows]) * back,
-                bodies["angle"][rows])
+        return (
+            x - (x - bodies["previous_x"][rows]) * back,
+            y - (y - bodies["previous_y"][rows]) * back,
+            bodies["angle"][rows],
+        )
 
     def at(self, x, y, origin):
         """Canvas place of a picture whose origin is at a world point."""

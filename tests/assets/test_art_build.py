@@ -5,8 +5,16 @@ import pytest
 
 from assets import FOLDER, build, png
 
-FAST = ("font/font5x7", "font/font3x5", "sounds/laser", "sounds/coin", "images/planes", "images/hero", "images/tiles",
-        "levels/platformer")
+FAST = (
+    "font/font5x7",
+    "font/font3x5",
+    "sounds/laser",
+    "sounds/coin",
+    "images/planes",
+    "images/hero",
+    "images/tiles",
+    "levels/platformer",
+)
 
 
 @pytest.mark.parametrize("name", FAST)
@@ -26,9 +34,24 @@ def test_every_made_kind_of_file_in_the_folder_has_a_product():
     kept = {f"{folder}/{path.stem}" for folder, pattern in made.items() for path in (FOLDER / folder).glob(pattern)}
     products = {name for name in build.PRODUCTS if "backdrops" not in name and "pictures" not in name}
     assert products <= kept
-    layers = {"sea", "coast", "storm", "clouds_low", "cloud_shadows", "clouds_high", "clouds_storm", "sky_dusk",
-              "mountains_far", "mountains_mid", "mountains_near", "keep_far", "clouds", "cave_far", "cave_near"}
-    assert kept - products == {f"images/{layer}" for layer in layers}   # their products make several at once
+    layers = {
+        "sea",
+        "coast",
+        "storm",
+        "clouds_low",
+        "cloud_shadows",
+        "clouds_high",
+        "clouds_storm",
+        "sky_dusk",
+        "mountains_far",
+        "mountains_mid",
+        "mountains_near",
+        "keep_far",
+        "clouds",
+        "cave_far",
+        "cave_near",
+    }
+    assert kept - products == {f"images/{layer}" for layer in layers}  # their products make several at once
 
 
 def test_check_names_a_changed_pixel(tmp_path, monkeypatch, capsys):

@@ -6,11 +6,14 @@ import pytest
 from assets.enemy_bullets import ROUND, SAFE
 from tests.assets.art_reading import backdrop, load, oklab
 
-GROUNDS = {"sea": ("clouds_low", "clouds_high"), "coast": ("clouds_low", "clouds_high"),
-           "storm": ("clouds_storm", "clouds_high")}
+GROUNDS = {
+    "sea": ("clouds_low", "clouds_high"),
+    "coast": ("clouds_low", "clouds_high"),
+    "storm": ("clouds_storm", "clouds_high"),
+}
 FRAMES = [f"{safe}{name}_{frame}" for safe in ("", "safe_") for name in ROUND for frame in range(2)]
 FRAMES += ["bullet_needle", "safe_bullet_needle"]
-CORE_LEAST, RING_LEAST, INNER_LEAST = 0.30, 0.18, 0.25   # OKLab lightness differences
+CORE_LEAST, RING_LEAST, INNER_LEAST = 0.30, 0.18, 0.25  # OKLab lightness differences
 
 
 def seen(ground):

@@ -9,39 +9,116 @@ from assets.things import LETTERS as THING_LETTERS
 from tests.assets.art_reading import backdrop, load, oklab, pieces
 
 SHEETS = {
-    "planes": ("player_left2 player_left1 player player_right1 player_right2 large_plane_a large_plane_b",
-               {"dart": 2, "saucer": 2, "gunship": 2, "powerup": 2, "exhaust": 2, "hornet": 2, "turret": 2, "midboss": 2,
-                "boss_a": 2, "boss_b": 2, "boss_c": 2, "core": 2, "bomb_item": 4, "life_item": 4}),
-    "effects": ("side_bullet bullet_needle safe_bullet_needle glow_small glow_large hitbox_dot heavy_shot",
-                {"player_bullet": 2, "bullet_red": 2, "bullet_purple": 2, "bullet_orange": 2, "muzzle_flash": 3,
-                 "explosion_small": 10, "explosion_large": 14, "spark": 4, "smoke": 4, "debris": 4, "bullet_small": 2,
-                 "bullet_big": 2, "bullet_ring": 2, "bomb_ring": 6, "graze_spark": 3}),
-    "hero": ("hero_flash", {"idle": 2, "run": 6, "jump": 1, "fall": 1, "slide": 1, "hurt": 1, "win": 2, "climb": 4,
-                            "push": 4, "duck": 1, "look_up": 1}),
-    "things": ("crate crate_large spikes sign platform checkpoint_off walker_squashed crumble_0 crumble_1 crumble_2 "
-               "crumble_3 crumble_bit_0 crumble_bit_1 crumble_bit_2",
-               {"coin": 4, "spring": 3, "walker": 4, "goal": 2, "checkpoint": 2, "sparkle": 4, "dust": 4, "bat": 4,
-                "hedgehog": 4, "secret_gem": 4, "belt_left_end": 4, "belt_mid": 4, "belt_right_end": 4}),
+    "planes": (
+        "player_left2 player_left1 player player_right1 player_right2 large_plane_a large_plane_b",
+        {
+            "dart": 2,
+            "saucer": 2,
+            "gunship": 2,
+            "powerup": 2,
+            "exhaust": 2,
+            "hornet": 2,
+            "turret": 2,
+            "midboss": 2,
+            "boss_a": 2,
+            "boss_b": 2,
+            "boss_c": 2,
+            "core": 2,
+            "bomb_item": 4,
+            "life_item": 4,
+        },
+    ),
+    "effects": (
+        "side_bullet bullet_needle safe_bullet_needle glow_small glow_large hitbox_dot heavy_shot",
+        {
+            "player_bullet": 2,
+            "bullet_red": 2,
+            "bullet_purple": 2,
+            "bullet_orange": 2,
+            "muzzle_flash": 3,
+            "explosion_small": 10,
+            "explosion_large": 14,
+            "spark": 4,
+            "smoke": 4,
+            "debris": 4,
+            "bullet_small": 2,
+            "bullet_big": 2,
+            "bullet_ring": 2,
+            "bomb_ring": 6,
+            "graze_spark": 3,
+        },
+    ),
+    "hero": (
+        "hero_flash",
+        {
+            "idle": 2,
+            "run": 6,
+            "jump": 1,
+            "fall": 1,
+            "slide": 1,
+            "hurt": 1,
+            "win": 2,
+            "climb": 4,
+            "push": 4,
+            "duck": 1,
+            "look_up": 1,
+        },
+    ),
+    "things": (
+        "crate crate_large spikes sign platform checkpoint_off walker_squashed crumble_0 crumble_1 crumble_2 "
+        "crumble_3 crumble_bit_0 crumble_bit_1 crumble_bit_2",
+        {
+            "coin": 4,
+            "spring": 3,
+            "walker": 4,
+            "goal": 2,
+            "checkpoint": 2,
+            "sparkle": 4,
+            "dust": 4,
+            "bat": 4,
+            "hedgehog": 4,
+            "secret_gem": 4,
+            "belt_left_end": 4,
+            "belt_mid": 4,
+            "belt_right_end": 4,
+        },
+    ),
     "tiles": ("ladder ladder_top rock_0 rock_255 rock_255_3 back_cave_0 stalactite crystal_1 banner window chain", {}),
-    "ui": ("logo panel panel_selected icon_heart icon_coin icon_life icon_cursor icon_bomb icon_core icon_hull icon_gem",
-           {}),
+    "ui": (
+        "logo panel panel_selected icon_heart icon_coin icon_life icon_cursor icon_bomb icon_core icon_hull icon_gem",
+        {},
+    ),
 }
 SIZES = {
     # sheet: {frame: (width, height)} of what rules are written for
-    "planes": {"hornet_0": (22, 22), "turret_0": (36, 36), "midboss_0": (84, 56), "boss_a_0": (132, 84),
-               "boss_c_1": (132, 84), "core_0": (6, 6), "bomb_item_0": (18, 18), "life_item_0": (18, 18)},
-    "effects": {"bullet_small_0": (6, 6), "bullet_big_0": (14, 14), "bullet_ring_0": (10, 10), "bomb_ring_5": (240, 240)},
+    "planes": {
+        "hornet_0": (22, 22),
+        "turret_0": (36, 36),
+        "midboss_0": (84, 56),
+        "boss_a_0": (132, 84),
+        "boss_c_1": (132, 84),
+        "core_0": (6, 6),
+        "bomb_item_0": (18, 18),
+        "life_item_0": (18, 18),
+    },
+    "effects": {
+        "bullet_small_0": (6, 6),
+        "bullet_big_0": (14, 14),
+        "bullet_ring_0": (10, 10),
+        "bomb_ring_5": (240, 240),
+    },
     "hero": {"climb_0": (24, 24), "push_0": (24, 24), "duck_0": (24, 24)},
-    "things": {"bat_0": (20, 14), "hedgehog_0": (20, 14), "crumble_0": (32, 16), "secret_gem_0": (14, 14),
-               "belt_mid_0": (16, 16)},
+    "things": {
+        "bat_0": (20, 14),
+        "hedgehog_0": (20, 14),
+        "crumble_0": (32, 16),
+        "secret_gem_0": (14, 14),
+        "belt_mid_0": (16, 16),
+    },
     "tiles": {"ladder": (16, 16), "rock_0": (16, 16)},
 }
 # Light, flames and flat parts of a larger picture have no outline of their own.
-BARE = {
-    "planes": ("exhaust", "flash"),
-    "hero": ("flash",),
-    "things": ("sparkle", "dust", "light", "flash", "belt"),
-}
+BARE = {"planes": ("exhaust", "flash"), "hero": ("flash",), "things": ("sparkle", "dust", "light", "flash", "belt")}
 # One silhouette under all pictures of an animation: it collides as its first frame.
 ONE_MASK = ("saucer", "gunship", "hornet", "turret", "midboss", "boss_a", "boss_b", "boss_c", "core", "powerup")
 
@@ -81,11 +158,24 @@ def test_hero_stands_on_the_bottom_row_in_the_middle():
         assert abs((feet[0] + feet[-1]) / 2 - 11.5) <= 2.5, f"{name} stands off centre"
 
 
-@pytest.mark.parametrize("name, axes", [
-    ("sea", (0, 1)), ("clouds_low", (0, 1)), ("clouds_high", (0, 1)), ("mountains_far", (1,)), ("mountains_mid", (1,)),
-    ("mountains_near", (1,)), ("clouds", (1,)), ("coast", (0, 1)), ("storm", (0, 1)), ("clouds_storm", (0, 1)),
-    ("cave_far", (1,)), ("cave_near", (1,)), ("keep_far", (1,)),
-])
+@pytest.mark.parametrize(
+    "name, axes",
+    [
+        ("sea", (0, 1)),
+        ("clouds_low", (0, 1)),
+        ("clouds_high", (0, 1)),
+        ("mountains_far", (1,)),
+        ("mountains_mid", (1,)),
+        ("mountains_near", (1,)),
+        ("clouds", (1,)),
+        ("coast", (0, 1)),
+        ("storm", (0, 1)),
+        ("clouds_storm", (0, 1)),
+        ("cave_far", (1,)),
+        ("cave_near", (1,)),
+        ("keep_far", (1,)),
+    ],
+)
 def test_backdrop_is_seamless(name, axes):
     """Across the seam the picture changes no more than it does between any other two lines."""
     picture = backdrop(name).astype(int)
@@ -103,10 +193,20 @@ def test_shooter_ground_is_dark_and_muted(ground):
     assert np.sqrt(lab[:, 1] ** 2 + lab[:, 2] ** 2).max() <= 0.09
 
 
-@pytest.mark.parametrize("name, size", [
-    ("sky_dusk", (270, 480)), ("sea", (540, 480)), ("coast", (540, 480)), ("storm", (540, 480)), ("clouds_low", (540, 480)),
-    ("clouds_storm", (540, 480)), ("cave_far", (270, 480)), ("cave_near", (270, 480)), ("keep_far", (150, 480)),
-])
+@pytest.mark.parametrize(
+    "name, size",
+    [
+        ("sky_dusk", (270, 480)),
+        ("sea", (540, 480)),
+        ("coast", (540, 480)),
+        ("storm", (540, 480)),
+        ("clouds_low", (540, 480)),
+        ("clouds_storm", (540, 480)),
+        ("cave_far", (270, 480)),
+        ("cave_near", (270, 480)),
+        ("keep_far", (150, 480)),
+    ],
+)
 def test_backdrop_size(name, size):
     assert backdrop(name).shape[:2] == size
 
@@ -164,12 +264,34 @@ def test_the_bosses_looks_differ_in_their_silhouettes():
     assert (b & ~a).sum() < 0.02 * a.sum(), "nothing grows back"
 
 
-@pytest.mark.parametrize("sheet, prefixes", [
-    ("planes", ("player", "dart", "saucer", "gunship", "hornet", "turret", "midboss", "boss", "core", "powerup", "bomb_item",
-                "life_item", "large")),
-    ("things", ("walker", "bat", "hedgehog", "crumble", "secret_gem", "coin", "spring", "checkpoint", "goal", "platform")),
-    ("hero", ("climb", "push", "duck", "look_up", "jump")),
-])
+@pytest.mark.parametrize(
+    "sheet, prefixes",
+    [
+        (
+            "planes",
+            (
+                "player",
+                "dart",
+                "saucer",
+                "gunship",
+                "hornet",
+                "turret",
+                "midboss",
+                "boss",
+                "core",
+                "powerup",
+                "bomb_item",
+                "life_item",
+                "large",
+            ),
+        ),
+        (
+            "things",
+            ("walker", "bat", "hedgehog", "crumble", "secret_gem", "coin", "spring", "checkpoint", "goal", "platform"),
+        ),
+        ("hero", ("climb", "push", "duck", "look_up", "jump")),
+    ],
+)
 def test_bodies_are_in_one_piece(sheet, prefixes):
     for name, frame in load(sheet)[0].items():
         if name.startswith(prefixes):

@@ -10,9 +10,27 @@ from assets.levels import Map, cover_names
 from assets.tiles import TILE
 
 KINDS = {"solid", "one_way", "slope", "spikes", "decor"}
-TYPES = {"hero_start", "coin", "secret", "spring", "crate", "walker", "hedgehog", "bat", "platform", "belt", "crumble",
-         "ladder", "spikes", "goal", "sign", "checkpoint", "zone", "cover"}
-SOLID, THINGS, HINTS = 2, 4, 5                  # which layers hold objects
+TYPES = {
+    "hero_start",
+    "coin",
+    "secret",
+    "spring",
+    "crate",
+    "walker",
+    "hedgehog",
+    "bat",
+    "platform",
+    "belt",
+    "crumble",
+    "ladder",
+    "spikes",
+    "goal",
+    "sign",
+    "checkpoint",
+    "zone",
+    "cover",
+}
+SOLID, THINGS, HINTS = 2, 4, 5  # which layers hold objects
 
 
 @pytest.fixture(scope="module")
@@ -73,13 +91,18 @@ def test_objects_are_known_and_inside(tmj):
         assert 0 <= thing["x"] and thing["x"] + thing["width"] <= tmj["width"] * TILE
         assert 0 <= thing["y"] and thing["y"] + thing["height"] <= tmj["height"] * TILE
     assert len(things(tmj, "hero_start")) == 1 and len(things(tmj, "goal")) == 1
-    assert len(things(tmj, "coin")) >= 60 and len(things(tmj, "secret")) == 3 and 6 <= len(things(tmj, "checkpoint")) <= 9
+    assert (
+        len(things(tmj, "coin")) >= 60 and len(things(tmj, "secret")) == 3 and 6 <= len(things(tmj, "checkpoint")) <= 9
+    )
 
 
 def decks(tmj):
     """(left, top, right) of what carries and is no tile [px]."""
-    return [(thing["x"], thing["y"], thing["x"] + thing["width"]) for kind in ("platform", "crate", "belt")
-            for thing in things(tmj, kind)]
+    return [
+        (thing["x"], thing["y"], thing["x"] + thing["width"])
+        for kind in ("platform", "crate", "belt")
+        for thing in things(tmj, kind)
+    ]
 
 
 @pytest.mark.parametrize("kind", ["hero_start", "spring", "walker", "hedgehog", "crate", "goal", "checkpoint"])
@@ -89,7 +112,9 @@ def test_what_stands_has_ground_under_it(tmj, kind):
         assert bottom % TILE == 0
         middle = int(thing["x"] + thing["width"] / 2)
         carried = any(top == bottom and left <= middle < right for left, top, right in decks(tmj))
-        assert carried or kind_at(tmj, middle // TILE, bottom // TILE) == "solid", f"{kind} {thing['id']} hangs in the air"
+        assert carried or kind_at(tmj, middle // TILE, bottom // TILE) == "solid", (
+            f"{kind} {thing['id']} hangs in the air"
+        )
         assert kind_at(tmj, middle // TILE, bottom // TILE - 1) is None, f"{kind} {thing['id']} is in the ground"
 
 
@@ -113,8 +138,11 @@ def test_platforms_dock_flush_and_walkers_have_room(tmj):
         values = properties(platform)
         assert values["period"] > 0
         start, end = (platform["x"], platform["y"]), (values["to_x"], values["to_y"])
-        docks = ["solid" in (kind_at(tmj, x // TILE - 1, y // TILE), kind_at(tmj, (x + platform["width"]) // TILE, y // TILE))
-                 for x, y in (start, end)]
+        docks = [
+            "solid"
+            in (kind_at(tmj, x // TILE - 1, y // TILE), kind_at(tmj, (x + platform["width"]) // TILE, y // TILE))
+            for x, y in (start, end)
+        ]
         assert docks == [True, True]
     for kind in ("walker", "hedgehog"):
         assert all(properties(walker)["range"] >= TILE for walker in things(tmj, kind))
@@ -125,15 +153,19 @@ def test_each_secret_is_under_a_cover_that_looks_like_solid_ground(tmj):
     covers = things(tmj, "cover")
     cells = tmj["layers"][3]["data"]
     for gem in things(tmj, "secret"):
-        assert any(c["x"] <= gem["x"] and gem["x"] + gem["width"] <= c["x"] + c["width"]
-                   and c["y"] <= gem["y"] <= c["y"] + c["height"] for c in covers)
+        assert any(
+            c["x"] <= gem["x"]
+            and gem["x"] + gem["width"] <= c["x"] + c["width"]
+            and c["y"] <= gem["y"] <= c["y"] + c["height"]
+            for c in covers
+        )
         assert cells[(gem["y"] + 7) // TILE * tmj["width"] + (gem["x"] + 7) // TILE]
 
 
 def test_the_hints_lead_from_the_start_to_the_goal_by_all_secrets(tmj):
     hints = tmj["layers"][HINTS]["objects"]
     assert [properties(hint)["order"] for hint in hints] == list(range(len(hints)))
-    goal, = things(tmj, "goal")
+    (goal,) = things(tmj, "goal")
     assert abs(hints[-1]["x"] - goal["x"]) < 3 * TILE
     for gem in things(tmj, "secret"):
         assert any(abs(hint["x"] - gem["x"]) < 3 * TILE and abs(hint["y"] - gem["y"]) < 4 * TILE for hint in hints)
@@ -158,7 +190,7 @@ def test_level_text_is_checked():
 
 def test_walkers_stop_before_edges_and_walls():
     level = Map("[map]\n........\n..w....#\n########\n", "x.txt")
-    assert walking_range(level, 2, 1) == 2 * TILE   # outside the map counts as ground
+    assert walking_range(level, 2, 1) == 2 * TILE  # outside the map counts as ground
     level = Map("[map]\n#..w....\n####.###\n", "x.txt")
     assert walking_range(level, 3, 0) == 0
 

@@ -33,7 +33,7 @@ def test_shot_lies_on_the_canvas(scene, shot):
 
 def test_reduced_averages_blocks_of_the_part():
     pixels = np.zeros((810, 1440, 3), np.uint8)
-    pixels[30:36, 60:66] = 90    # the canvas pixels (20..21, 10..11)
+    pixels[30:36, 60:66] = 90  # the canvas pixels (20..21, 10..11)
     assert (filming.reduced(pixels, (20, 10, 160, 90), 1)[0, 0] == 90).all()
     half = filming.reduced(pixels, (20, 10, 320, 180), 2)
     assert half.shape == (90, 160, 3) and (half[0, 0] == 90).all() and not half[1:].any()

@@ -10,12 +10,39 @@ from assets.sounds import SOUNDS
 from assets.synth import PEAK, RATE, voice
 
 ISSUE = ("laser", "enemy_shot", "hit", "explosion", "coin", "powerup", "jump", "hurt")
-LATER = ("heavy_laser", "big_explosion", "spring", "land", "stomp", "blip", "confirm", "back", "goal", "bomb", "graze",
-         "warning", "crumble", "checkpoint", "secret", "crate", "ladder", "chain_break", "life")
-LONGEST = {"explosion": 1.0, "big_explosion": 1.5, "goal": 1.3, "bomb": 1.6, "warning": 1.4, "secret": 1.0, "life": 1.0}  # [s]
+LATER = (
+    "heavy_laser",
+    "big_explosion",
+    "spring",
+    "land",
+    "stomp",
+    "blip",
+    "confirm",
+    "back",
+    "goal",
+    "bomb",
+    "graze",
+    "warning",
+    "crumble",
+    "checkpoint",
+    "secret",
+    "crate",
+    "ladder",
+    "chain_break",
+    "life",
+)
+LONGEST = {
+    "explosion": 1.0,
+    "big_explosion": 1.5,
+    "goal": 1.3,
+    "bomb": 1.6,
+    "warning": 1.4,
+    "secret": 1.0,
+    "life": 1.0,
+}  # [s]
 BLASTS = ("explosion", "big_explosion", "bomb")
 OFTEN = ("laser", "enemy_shot", "hit", "land", "graze", "ladder", "crate", "coin", "jump", "blip")
-EDGES = 50.0 * 2.0 ** (np.arange(22) / 2.5)     # [Hz] bands from 50 Hz to 17 kHz, five to two octaves
+EDGES = 50.0 * 2.0 ** (np.arange(22) / 2.5)  # [Hz] bands from 50 Hz to 17 kHz, five to two octaves
 
 
 def read(name):
@@ -86,11 +113,16 @@ def test_no_sound_is_like_another():
         hertz, power = spectrum(samples)
         bands = [power[(hertz >= low) & (hertz < high)].sum() for low, high in zip(EDGES, EDGES[1:], strict=False)]
         bands = 10 * np.log10(np.array(bands) / power.sum() + 1e-4)
-        shape = [10 * np.log10(float(np.mean(part * part)) / samples.var() + 1e-3) for part in np.array_split(samples, 8)]
+        shape = [
+            10 * np.log10(float(np.mean(part * part)) / samples.var() + 1e-3) for part in np.array_split(samples, 8)
+        ]
         marks[name] = np.concatenate([bands, shape, [20 * np.log2(len(samples) / RATE)]])
     names = list(marks)
-    nearest = min((float(np.sqrt(np.mean((marks[a] - marks[b]) ** 2))), a, b)
-                  for index, a in enumerate(names) for b in names[:index])
+    nearest = min(
+        (float(np.sqrt(np.mean((marks[a] - marks[b]) ** 2))), a, b)
+        for index, a in enumerate(names)
+        for b in names[:index]
+    )
     assert nearest[0] > 2.0, nearest
 
 

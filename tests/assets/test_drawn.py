@@ -14,10 +14,17 @@ def test_parts_are_pictures_with_clear_dots():
     assert parts["left"][1, 0].tolist() == [0, 0, 0, 0]
 
 
-@pytest.mark.parametrize("text, said", [
-    ("ab\n", "rows before the first"), ("= one\nab\n= one\nab\n", "'one' is drawn twice"), ("= one\n= two\nab\n", "'one' has no rows"),
-    ("= one\nab\n= last\n", "'last' has no rows"), ("= one\nab\na\n", "row 2: 1 pixels"), ("= one\naz\n", "'z'"),
-])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("ab\n", "rows before the first"),
+        ("= one\nab\n= one\nab\n", "'one' is drawn twice"),
+        ("= one\n= two\nab\n", "'one' has no rows"),
+        ("= one\nab\n= last\n", "'last' has no rows"),
+        ("= one\nab\na\n", "row 2: 1 pixels"),
+        ("= one\naz\n", "'z'"),
+    ],
+)
 def test_a_mistake_is_named_by_source_and_part(text, said):
     with pytest.raises(ValueError, match="hand.txt") as error:
         read_parts(text, LETTERS, "hand.txt")

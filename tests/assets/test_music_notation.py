@@ -113,23 +113,33 @@ def test_a_file_is_named_without_its_folder(tmp_path):
 
 
 def bars(lead, second="", chords="C | F"):
-    lines = ["tempo 120", "key C major", "voice lead wave=pulse25", "voice second wave=pulse12", "section one",
-             f"chords {chords}", f"lead {lead}"]
+    lines = [
+        "tempo 120",
+        "key C major",
+        "voice lead wave=pulse25",
+        "voice second wave=pulse12",
+        "section one",
+        f"chords {chords}",
+        f"lead {lead}",
+    ]
     return parse_tune("\n".join([*lines, f"second {second}" if second else "", "order one"]))
 
 
-@pytest.mark.parametrize(("lead", "second", "complaint"), [
-    ("C5 - E5 - | F5 - C5 -", "", ""),
-    ("C5 - E5 - | G5 - F5 -", "", ""),                          # a suspension goes on by step
-    ("C5 - E5 - | B5 - F5 -", "", "83 stands out against F"),
-    ("C5 - - - | Eb5 - F5 -", "", "75 is not in the scale over F"),
-    ("C5 - - - | - - - -", "", ""),                             # a tone of both chords
-    ("E5 - - - | - - - -", "", "76 is held into F"),
-    ("C5 D5 E5 C5 E5 C5 G5 C5 | F5", "", ""),                   # passing by step
-    ("C5 A5 E5 C5 E5 C5 G5 C5 | F5", "", "81 is come to and left by leaps over C"),
-    ("C5 - E5 - | F5 - C5 -", "C4 | E4 F4 A4 F4", "lead and second are a semitone apart"),
-    ("G5 - E5 - | F5 - C5 -", "E4 | A4 - A4 -", ""),
-])
+@pytest.mark.parametrize(
+    ("lead", "second", "complaint"),
+    [
+        ("C5 - E5 - | F5 - C5 -", "", ""),
+        ("C5 - E5 - | G5 - F5 -", "", ""),  # a suspension goes on by step
+        ("C5 - E5 - | B5 - F5 -", "", "83 stands out against F"),
+        ("C5 - - - | Eb5 - F5 -", "", "75 is not in the scale over F"),
+        ("C5 - - - | - - - -", "", ""),  # a tone of both chords
+        ("E5 - - - | - - - -", "", "76 is held into F"),
+        ("C5 D5 E5 C5 E5 C5 G5 C5 | F5", "", ""),  # passing by step
+        ("C5 A5 E5 C5 E5 C5 G5 C5 | F5", "", "81 is come to and left by leaps over C"),
+        ("C5 - E5 - | F5 - C5 -", "C4 | E4 F4 A4 F4", "lead and second are a semitone apart"),
+        ("G5 - E5 - | F5 - C5 -", "E4 | A4 - A4 -", ""),
+    ],
+)
 def test_the_rules_of_harmony_hear_a_wrong_note(lead, second, complaint):
     found = [line for line in complaints(bars(lead, second)) if "second: " not in line]
     assert (complaint in " ".join(found)) if complaint else found == [], found

@@ -29,7 +29,9 @@ def shares(samples, *edges):
     """Shares of the power between neighbouring edges [Hz]."""
     power = np.abs(np.fft.rfft(samples)) ** 2
     hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
-    return [power[(hertz >= low) & (hertz < high)].sum() / power.sum() for low, high in zip(edges, edges[1:], strict=False)]
+    return [
+        power[(hertz >= low) & (hertz < high)].sum() / power.sum() for low, high in zip(edges, edges[1:], strict=False)
+    ]
 
 
 def test_every_tune_is_a_product_and_every_page_a_tune():
@@ -50,8 +52,10 @@ def test_a_tune_has_a_shape(name):
     assert len(set(parts)) >= 5 and all(a != b for a, b in zip(parts, parts[1:], strict=False))
     assert max(parts.count(part) for part in parts) <= 2
     bar = tune.beats * 4
-    sung = [sum(note.steps for note in tune.notes["lead"] if first <= note.start < first + steps) / steps
-            for _, first, steps in tune.parts]
+    sung = [
+        sum(note.steps for note in tune.notes["lead"] if first <= note.start < first + steps) / steps
+        for _, first, steps in tune.parts
+    ]
     assert max(sung) > 0.7 and min(sung) < 0.5, "the lead comes and goes"
     starts = {note.start // bar for note in tune.notes["lead"]}
     rests = [number for number in range(tune.steps // bar) if number not in starts]
@@ -60,7 +64,9 @@ def test_a_tune_has_a_shape(name):
     assert len(chords) >= 8
     for voice, notes in tune.notes.items():
         ends = [note.start + note.steps for note in notes]
-        assert all(end <= after.start for end, after in zip(ends, notes[1:], strict=False)), f"{voice} sings over itself"
+        assert all(end <= after.start for end, after in zip(ends, notes[1:], strict=False)), (
+            f"{voice} sings over itself"
+        )
     lead = [note.pitches[0] for note in tune.notes["lead"]]
     assert 60 <= min(lead) and max(lead) <= 90 and max(lead) - min(lead) >= 12
 
@@ -94,8 +100,10 @@ def test_the_file_is_as_long_as_the_tune_and_never_silent(name):
 @pytest.mark.parametrize("name", TUNES)
 def test_sections_differ_in_loudness_but_none_jumps_out(name):
     samples, tune = samples_of(name), tune_of(name)
-    levels = [decibels(samples[int(tune.seconds(first) * RATE) : int(tune.seconds(first + steps) * RATE)])
-              for _, first, steps in tune.parts]
+    levels = [
+        decibels(samples[int(tune.seconds(first) * RATE) : int(tune.seconds(first + steps) * RATE)])
+        for _, first, steps in tune.parts
+    ]
     assert 0.7 < max(levels) - min(levels) < 6.0
 
 
@@ -122,7 +130,7 @@ def test_the_seam_of_the_loop_has_no_click(name):
     samples = samples_of(name)
     steps = np.abs(np.diff(samples))
     assert abs(samples[0] - samples[-1]) <= np.percentile(steps, 99.5)
-    edge = np.abs(np.diff(np.roll(samples, RATE // 10)[: RATE // 5], 2))     # a click is a corner
+    edge = np.abs(np.diff(np.roll(samples, RATE // 10)[: RATE // 5], 2))  # a click is a corner
     usual = np.abs(np.diff(samples, 2))
     assert edge[RATE // 10 - 20 : RATE // 10].max() <= np.percentile(usual, 99.9)
 
@@ -169,8 +177,10 @@ def test_rendering_is_the_same_twice_and_a_jingle_regenerates():
 
 def test_no_aliases_among_the_harmonics():
     """A high pulse keeps its harmonics; what folds back from above the band is 40 dB below them."""
-    voice = parse_tune(RING.replace(" echo=0.5 delay=3", " bright=20000").replace("vibrato=20 ", "") + "one").voices["lead"]
-    samples = decimated(tone(voice, (93,), 1.0))[2000:18000]      # A6, 1,760 Hz
+    voice = parse_tune(RING.replace(" echo=0.5 delay=3", " bright=20000").replace("vibrato=20 ", "") + "one").voices[
+        "lead"
+    ]
+    samples = decimated(tone(voice, (93,), 1.0))[2000:18000]  # A6, 1,760 Hz
     power = np.abs(np.fft.rfft(samples * np.hanning(len(samples))))
     hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
     away = np.abs(hertz / 1760 - np.round(hertz / 1760)) * 1760

@@ -13,8 +13,8 @@ from tests.bench.timing import table
 
 SIZES = (100, 1000, 10_000, 50_000)
 BRUTE_LIMIT = 10_000
-SPACING = 22.0              # px between even bodies
-SPEED = 60.0                # px/s
+SPACING = 22.0  # px between even bodies
+SPEED = 60.0  # px/s
 
 
 def even(rng, n):
@@ -82,15 +82,29 @@ def run(quick=False):
                     world = make_world(make(), layout, n, moving)
                     times[n] = 1e6 * step_time(world, 3 if n > 5000 else 20)
                 ends = sorted(times)
-                growth = math.log(times[ends[-1]] / times[ends[1]]) / math.log(ends[-1] / ends[1]) if moving else float("nan")
-                rows.append([f"{layout}, {name}"] + [f"{times[n]:.0f}" if n in times else "-" for n in sizes]
-                            + ["" if math.isnan(growth) else f"n^{growth:.2f}"])
+                growth = (
+                    math.log(times[ends[-1]] / times[ends[1]]) / math.log(ends[-1] / ends[1])
+                    if moving
+                    else float("nan")
+                )
+                rows.append(
+                    [f"{layout}, {name}"]
+                    + [f"{times[n]:.0f}" if n in times else "-" for n in sizes]
+                    + ["" if math.isnan(growth) else f"n^{growth:.2f}"]
+                )
                 for n in times:
                     key = (label, layout, n)
                     best.setdefault(key, []).append((times[n], name))
         table(f"Broad phase, {label}: µs per step", ("layout, strategy", *map(str, sizes), "growth from 1,000"), rows)
-    rows = [[f"{label}, {layout}"] + [sorted(best[label, layout, n])[0][1] + " "
-                                      + f"({sorted(best[label, layout, n])[1][0] / sorted(best[label, layout, n])[0][0]:.1f}x)"
-                                      for n in sizes]
-            for label, layout in sorted({key[:2] for key in best}) if label != "nothing moving"]
+    rows = [
+        [f"{label}, {layout}"]
+        + [
+            sorted(best[label, layout, n])[0][1]
+            + " "
+            + f"({sorted(best[label, layout, n])[1][0] / sorted(best[label, layout, n])[0][0]:.1f}x)"
+            for n in sizes
+        ]
+        for label, layout in sorted({key[:2] for key in best})
+        if label != "nothing moving"
+    ]
     table("Fastest (and how much slower the next one is)", ("", *map(str, sizes)), rows)

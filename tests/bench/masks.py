@@ -19,8 +19,12 @@ def sprite_images(rng, count):
         width, height = (int(v) for v in rng.integers(24, 65, 2))
         image = pygame.Surface((width, height), pygame.SRCALPHA)
         pygame.draw.ellipse(image, (200, 200, 220), (width * 0.36, 0, width * 0.28, height))
-        pygame.draw.polygon(image, (90, 120, 220), [(width / 2, height * 0.3), (0, height * 0.75), (width - 1, height * 0.75)])
-        pygame.draw.polygon(image, (220, 90, 60), [(width / 2, height * 0.7), (width * 0.2, height - 1), (width * 0.8, height - 1)])
+        pygame.draw.polygon(
+            image, (90, 120, 220), [(width / 2, height * 0.3), (0, height * 0.75), (width - 1, height * 0.75)]
+        )
+        pygame.draw.polygon(
+            image, (220, 90, 60), [(width / 2, height * 0.7), (width * 0.2, height - 1), (width * 0.8, height - 1)]
+        )
         found.append(image)
     return found
 
@@ -41,6 +45,7 @@ def run(quick=False):
         def __init__(self, kind, corner):
             super().__init__()
             self.mask, self.rect = masks[kind], images[kind].get_rect(topleft=tuple(int(v) for v in corner))
+
     group = pygame.sprite.Group()
     sprites = [Sprite(kind, corner) for kind, corner in zip(which.tolist(), corners)]
     group.add(*sprites)
@@ -56,7 +61,9 @@ def run(quick=False):
         for number, sprite in enumerate(sprites):
             rect, mask = sprite.rect, sprite.mask
             for other in rect.collidelistall(rects):
-                if other > number and mask.overlap(sprites[other].mask, (rects[other].x - rect.x, rects[other].y - rect.y)):
+                if other > number and mask.overlap(
+                    sprites[other].mask, (rects[other].x - rect.x, rects[other].y - rect.y)
+                ):
                     found.add((number, other))
         return found
 
@@ -71,8 +78,10 @@ def run(quick=False):
     assert truth == with_groupcollide() if quick else True
     slow = best_of(1, with_groupcollide)
     fair = best_of(5, with_collidelistall)
-    rows = [["groupcollide(collide_mask)", len(with_groupcollide()), f"{slow * 1e3:.1f}", f"{fair / slow:.3f}", ""],
-            ["collidelistall + Mask.overlap", len(truth), f"{fair * 1e3:.1f}", "1.0", ""]]
+    rows = [
+        ["groupcollide(collide_mask)", len(with_groupcollide()), f"{slow * 1e3:.1f}", f"{fair / slow:.3f}", ""],
+        ["collidelistall + Mask.overlap", len(truth), f"{fair * 1e3:.1f}", "1.0", ""],
+    ]
     pairs = 0
     for strategy in (SpatialHashGrid, DynamicTree, SweepAndPrune, BruteForce):
         times = []
@@ -86,7 +95,17 @@ def run(quick=False):
             world.bodies["vx"], world.bodies["vy"] = velocities.T
 
             times.append(best_of(5 if strategy is BruteForce else 60, world.step))
-        rows.append([f"ours, {strategy.name}", len(truth), f"{times[0] * 1e3:.2f}", f"{fair / times[0]:.1f}",
-                     f"{times[1] * 1e3:.2f}"])
-    table(f"{count} sprites of 24-64 px, {pairs} candidate pairs, {len(truth)} mask hits; all moving",
-          ("per frame", "hits", "ms", "x collidelistall", "ms with area, point, normal, depth"), rows)
+        rows.append(
+            [
+                f"ours, {strategy.name}",
+                len(truth),
+                f"{times[0] * 1e3:.2f}",
+                f"{fair / times[0]:.1f}",
+                f"{times[1] * 1e3:.2f}",
+            ]
+        )
+    table(
+        f"{count} sprites of 24-64 px, {pairs} candidate pairs, {len(truth)} mask hits; all moving",
+        ("per frame", "hits", "ms", "x collidelistall", "ms with area, point, normal, depth"),
+        rows,
+    )

@@ -16,8 +16,8 @@ import numpy as np
 from physics import Effects, Material, Polygon, World
 from tests.bench.timing import table
 
-BOX, GAP, FRICTION, GRAVITY = 32.0, 3.2, 0.6, 320.0     # [px], [px] between boxes of a row, -, [px/s2]
-ROWS = (10, 20, 45, 80)                                 # 55, 210, 1,035, 3,240 boxes
+BOX, GAP, FRICTION, GRAVITY = 32.0, 3.2, 0.6, 320.0  # [px], [px] between boxes of a row, -, [px/s2]
+ROWS = (10, 20, 45, 80)  # 55, 210, 1,035, 3,240 boxes
 SECONDS, RATE = 10, 60
 PROJECTION_LIMIT = 20
 EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
@@ -25,8 +25,13 @@ EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, res
 
 def places(rows):
     """(n, 2) centres of the boxes, row by row from the ground."""
-    return np.array([((column - (rows - row - 1) / 2) * (BOX + GAP), -BOX / 2 - BOX * row)
-                     for row in range(rows) for column in range(rows - row)])
+    return np.array(
+        [
+            ((column - (rows - row - 1) / 2) * (BOX + GAP), -BOX / 2 - BOX * row)
+            for row in range(rows)
+            for column in range(rows - row)
+        ]
+    )
 
 
 class Ours:
@@ -36,7 +41,9 @@ class Ours:
         self.name = f"{solver} {substeps}" if solver != "projection" else solver
         self.world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
         width = 2.0 * rows * (BOX + GAP) + 20 * BOX
-        self.world.add_body(Polygon.box(width, 64.0, center=(0.0, 32.0)), kind="static", material=Material(friction=FRICTION))
+        self.world.add_body(
+            Polygon.box(width, 64.0, center=(0.0, 32.0)), kind="static", material=Material(friction=FRICTION)
+        )
         self.world.add_bodies(Polygon.box(BOX, BOX), places(rows), material=Material(friction=FRICTION))
         self.step = self.world.step
 
@@ -55,11 +62,14 @@ class Pymunk:
 
     def __init__(self, rows):
         import pymunk
+
         self.name = "pymunk"
         self.space = pymunk.Space()
         self.space.gravity = (0.0, GRAVITY)
         width = 2.0 * rows * (BOX + GAP) + 20 * BOX
-        ground = pymunk.Poly(self.space.static_body, [(-width / 2, 0), (width / 2, 0), (width / 2, 64), (-width / 2, 64)])
+        ground = pymunk.Poly(
+            self.space.static_body, [(-width / 2, 0), (width / 2, 0), (width / 2, 64), (-width / 2, 64)]
+        )
         ground.friction = FRICTION
         self.space.add(ground)
         self.bodies = []
@@ -75,8 +85,11 @@ class Pymunk:
         self.space.step(1 / RATE)
 
     def state(self):
-        return (np.array([body.position for body in self.bodies]).T, np.array([body.velocity for body in self.bodies]).T,
-                np.array([body.angular_velocity for body in self.bodies]))
+        return (
+            np.array([body.position for body in self.bodies]).T,
+            np.array([body.velocity for body in self.bodies]).T,
+            np.array([body.angular_velocity for body in self.bodies]),
+        )
 
     def depth(self):
         """By its own contact points, at the poses of now; asked outside of the timed steps."""
@@ -101,7 +114,7 @@ class Run:
     def _energy(self):
         """[px2/s2] per unit of mass, summed: of motion and of height."""
         (_, y), velocity, spin = self.pile.state()
-        return float((0.5 * (velocity ** 2).sum(axis=0) + 0.5 * spin ** 2 * BOX * BOX / 6.0 - GRAVITY * y).sum())
+        return float((0.5 * (velocity**2).sum(axis=0) + 0.5 * spin**2 * BOX * BOX / 6.0 - GRAVITY * y).sum())
 
     def advance(self, steps):
         clock, step = perf_counter, self.pile.step
@@ -122,12 +135,30 @@ class Run:
         sunk = int((y - self.start[1] > BOX / 2).sum())
         # Energy against that of the top box's height, so that all sizes read alike.
         scale = GRAVITY * (BOX * math.sqrt(2 * len(x))) * len(x)
-        return [self.pile.name, f"{ms:.3f}", f"{ms / reference:.2f}", f"{self.depth:.3f}", f"{sag:.2f}",
-                f"{np.abs(x - self.start[0]).max():.2f}", f"{float(np.sqrt((velocity ** 2).sum(axis=0).mean())):.3f}",
-                f"{100 * self.gain / scale:+.3f} %", sunk or ""]
+        return [
+            self.pile.name,
+            f"{ms:.3f}",
+            f"{ms / reference:.2f}",
+            f"{self.depth:.3f}",
+            f"{sag:.2f}",
+            f"{np.abs(x - self.start[0]).max():.2f}",
+            f"{float(np.sqrt((velocity**2).sum(axis=0).mean())):.3f}",
+            f"{100 * self.gain / scale:+.3f} %",
+            sunk or "",
+        ]
 
 
-HEADER = ("solver, substeps", "ms/step", "x pymunk", "overlap px", "top sinks px", "sway px", "speed px/s", "energy won", "sunk by half")
+HEADER = (
+    "solver, substeps",
+    "ms/step",
+    "x pymunk",
+    "overlap px",
+    "top sinks px",
+    "sway px",
+    "speed px/s",
+    "energy won",
+    "sunk by half",
+)
 
 
 def measure(rows, seconds):
@@ -137,7 +168,7 @@ def measure(rows, seconds):
         piles += [Ours(rows, solver, substeps) for substeps in (1, 2, 4, 8)]
     if rows <= PROJECTION_LIMIT:
         piles.append(Ours(rows, "projection", 1))
-    for pile in piles[1:]:                                  # compiled before the clock runs, on a world of its own
+    for pile in piles[1:]:  # compiled before the clock runs, on a world of its own
         Ours(3, pile.world.solver, 1).step()
     runs = [Run(pile) for pile in piles]
     for _ in range(seconds):
@@ -146,8 +177,11 @@ def measure(rows, seconds):
     for run in runs:
         run.settle()
     reference = 1e3 * median(runs[0].times)
-    table(f"Pyramid of {rows * (rows + 1) // 2:,} boxes of {BOX:.0f} px, {seconds} s: medians; overlap and speed at the end",
-          HEADER, [run.row(reference) for run in runs])
+    table(
+        f"Pyramid of {rows * (rows + 1) // 2:,} boxes of {BOX:.0f} px, {seconds} s: medians; overlap and speed at the end",
+        HEADER,
+        [run.row(reference) for run in runs],
+    )
 
 
 def measure_sleep(rows):
@@ -166,10 +200,20 @@ def measure_sleep(rows):
             for run in runs:
                 run.advance(RATE // 2)
         slow, fast = (1e3 * median(run.times) for run in runs)
-        lines.append([solver, f"{slow:.3f}", f"{fast:.4f}", f"{100 * fast / slow:.1f} %",
-                      int(asleep.world.bodies["awake"][1:].sum()) or ""])
-    table(f"{rows * (rows + 1) // 2:,} boxes awake, and asleep (at most 5 % of that)",
-          ("solver", "awake ms", "asleep ms", "share", "still awake"), lines)
+        lines.append(
+            [
+                solver,
+                f"{slow:.3f}",
+                f"{fast:.4f}",
+                f"{100 * fast / slow:.1f} %",
+                int(asleep.world.bodies["awake"][1:].sum()) or "",
+            ]
+        )
+    table(
+        f"{rows * (rows + 1) // 2:,} boxes awake, and asleep (at most 5 % of that)",
+        ("solver", "awake ms", "asleep ms", "share", "still awake"),
+        lines,
+    )
 
 
 def run(quick=False):

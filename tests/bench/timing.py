@@ -19,4 +19,8 @@ def table(title, header, rows):
     widths = [max(len(row[i]) for row in [list(header)] + rows) for i in range(len(header))]
     print(f"\n{title}")
     for row in [list(header)] + rows:
-        print("  ".join(cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(row, widths))))
+        print(
+            "  ".join(
+                cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(row, widths))
+            )
+        )

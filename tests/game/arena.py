@@ -34,8 +34,10 @@ class Arena(Scene):
         canvas.text(f"met {self.met}", 4, 4)
 
     def check(self):
-        return [Goal("they meet", 120, self.met > 0, f"{self.met} times"),
-                Goal("they meet twice", 10_000, self.met > 1)]
+        return [
+            Goal("they meet", 120, self.met > 0, f"{self.met} times"),
+            Goal("they meet twice", 10_000, self.met > 1),
+        ]
 
     def bot(self):
         return frozenset({"right"})

@@ -7,8 +7,8 @@ import pygame
 
 from game.drawing.draw import Canvas
 
-LEAST_CONTRAST = 4.5       # WCAG 2.1, 1.4.3
-SHARE = 0.9                # of the pixels around a text's letters that must be so far from it
+LEAST_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
+SHARE = 0.9  # of the pixels around a text's letters that must be so far from it
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -60,7 +60,9 @@ class Reader:
         for canvas, rect, line, color in self.lines:
             if any(box == rect and text == line for box, text in canvas.boxes) and line.strip():
                 share = share_that_stands_out(canvas.surface, rect, color)
-                assert share >= SHARE, f"{line!r} at {rect}: only {share:.0%} of its ground is {LEAST_CONTRAST}:1 from {color}"
+                assert share >= SHARE, (
+                    f"{line!r} at {rect}: only {share:.0%} of its ground is {LEAST_CONTRAST}:1 from {color}"
+                )
 
 
 def share_that_stands_out(surface, rect, color):

@@ -190,8 +190,18 @@ def test_focus_and_pad_lost_pause(drive):
 
 
 def test_a_scene_with_frames_ends_by_itself(drive, tmp_path, capsys):
-    d = drive("--scene", "arena", "--bot", "--frames", "20", "--json", "--record", str(tmp_path / "run.json"),
-              "--screenshot", str(tmp_path / "shot.png"))
+    d = drive(
+        "--scene",
+        "arena",
+        "--bot",
+        "--frames",
+        "20",
+        "--json",
+        "--record",
+        str(tmp_path / "run.json"),
+        "--screenshot",
+        str(tmp_path / "shot.png"),
+    )
     d.app.turn = lambda turn=d.app.turn: (setattr(d, "now", d.now + 1.0001 / 60), turn())
     assert d.app.run() == 0
     report = json.loads(capsys.readouterr().out)
@@ -241,8 +251,12 @@ def test_attract_mode_comes_and_goes(drive):
 
 
 def test_every_row_of_the_title_leads_somewhere(drive):
-    for label, name in (("Replays", "ReplaysScreen"), ("High scores", "ScoresScreen"), ("Settings", "SettingsScreen"),
-                        ("Tour of the overlays", "Tour")):
+    for label, name in (
+        ("Replays", "ReplaysScreen"),
+        ("High scores", "ScoresScreen"),
+        ("Settings", "SettingsScreen"),
+        ("Tour of the overlays", "Tour"),
+    ):
         d = drive()
         d.turns(2)
         d.mark(label)

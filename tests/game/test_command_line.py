@@ -26,8 +26,21 @@ def test_json_is_one_object_with_the_documented_names(capsys):
     code, out, _ = call(capsys, *HEADLESS, "--seed", "4", "--bot", "--json")
     report = json.loads(out)
     assert code == 0
-    assert set(report) == {"scene", "frames", "seed", "effects", "broadphase", "solver", "tier", "digest", "check",
-                           "counters", "stages_ms", "frame_ms", "events"}
+    assert set(report) == {
+        "scene",
+        "frames",
+        "seed",
+        "effects",
+        "broadphase",
+        "solver",
+        "tier",
+        "digest",
+        "check",
+        "counters",
+        "stages_ms",
+        "frame_ms",
+        "events",
+    }
     assert (report["scene"], report["frames"], report["seed"]) == ("arena", 90, 4)
     assert report["effects"] == ["narrowphase"]
     assert set(report["check"]) == {"ok", "failures", "pending"} and report["check"]["ok"]
@@ -50,6 +63,7 @@ def test_drawing_changes_nothing(capsys, tmp_path):
     drawn = json.loads(call(capsys, *HEADLESS, "--bot", "--json", "--overlay", "all", "--screenshot", str(picture))[1])
     assert plain["digest"] == drawn["digest"]
     import pygame
+
     assert pygame.image.load(str(picture)).get_size() == (1440, 810)
 
 
@@ -68,7 +82,8 @@ def test_record_and_replay(capsys, tmp_path):
 def test_list(capsys):
     code, out, _ = call(capsys, "--list", "--json")
     assert code == 0 and json.loads(out) == [
-        {"name": "arena", "title": "Arena", "effects": ["narrowphase"], "features": []}]
+        {"name": "arena", "title": "Arena", "effects": ["narrowphase"], "features": []}
+    ]
     assert "Arena" in call(capsys, "--list")[1]
 
 
@@ -85,7 +100,10 @@ def test_profile_prints_a_table(capsys):
 WRONG = [
     (["--scene", "shoter"], "no scene 'shoter'; valid: arena"),
     (["--scene", "arena", "--broadphase", "octree"], "valid: brute, sweep, hash, tree"),
-    (["--scene", "arena", "--solver", "soft_step"], "--solver: arena cannot use soft_step, which needs the effect stacking; "),
+    (
+        ["--scene", "arena", "--solver", "soft_step"],
+        "--solver: arena cannot use soft_step, which needs the effect stacking; ",
+    ),
     (["--scene", "arena", "--solver", "magic"], "no solver 'magic'; valid: "),
     (["--scene", "arena", "--overlay", "bounds,boxes"], "no overlay 'boxes'; valid: bounds, motion"),
     (["--scene", "arena", "--tier", "pixels"], "arena has no sprite bodies"),
@@ -112,8 +130,10 @@ def test_wrong_use_is_one_line_and_exit_2(capsys, arguments, line):
     assert len(lines) == 1 and line in lines[0] and lines[0].startswith("hitbox: ")
 
 
-@pytest.mark.parametrize("text, line", [("a mistake", "mine.json: line 1: has a mistake in it"),
-                                        (None, "mine.json: file: No such file or directory")])
+@pytest.mark.parametrize(
+    "text, line",
+    [("a mistake", "mine.json: line 1: has a mistake in it"), (None, "mine.json: file: No such file or directory")],
+)
 def test_a_level_with_a_mistake_is_one_line_and_exit_2(capsys, tmp_path, text, line):
     level = tmp_path / "mine.json"
     if text is not None:
@@ -158,8 +178,9 @@ def test_strict_fails_on_warnings(capsys, monkeypatch):
 
 def test_no_display_names_headless():
     environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
-    done = subprocess.run([sys.executable, "main.py"], cwd=ROOT, env=environment, capture_output=True, text=True,
-                          timeout=120)
+    done = subprocess.run(
+        [sys.executable, "main.py"], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120
+    )
     if done.returncode == 0:
         pytest.skip("this machine has a display")
     assert done.returncode == 2

@@ -81,9 +81,16 @@ def drive(frames, steps=None, scene=None):
 
 def path(start, end, steps):
     """Pointer frames from start to end, held."""
-    return [InputFrame(pointer=(round(start[0] + (end[0] - start[0]) * n / steps),
-                                round(start[1] + (end[1] - start[1]) * n / steps)), pointer_down=True)
-            for n in range(steps + 1)]
+    return [
+        InputFrame(
+            pointer=(
+                round(start[0] + (end[0] - start[0]) * n / steps),
+                round(start[1] + (end[1] - start[1]) * n / steps),
+            ),
+            pointer_down=True,
+        )
+        for n in range(steps + 1)
+    ]
 
 
 def test_the_grabbed_point_comes_to_the_pointer_and_stays_without_swinging():
@@ -188,8 +195,9 @@ def test_a_bot_never_drags_unless_it_says_so():
 def test_a_recorded_drag_comes_back_bit_for_bit(tmp_path, strategy):
     scene = Yard(seed=1)
     recorder = Recorder(scene)
-    script = ScriptSource(path((60, 224), (180, 60), 40) + [InputFrame(pointer=(180, 60))] * 10
-                          + path((290, 110), (400, 50), 30))
+    script = ScriptSource(
+        path((60, 224), (180, 60), 40) + [InputFrame(pointer=(180, 60))] * 10 + path((290, 110), (400, 50), 30)
+    )
     session = Session(scene, script, recorder)
     for _ in range(90):
         session.step()
@@ -232,7 +240,9 @@ class Sky(Yard):
 
 def test_where_nothing_is_pushed_a_held_body_follows_and_then_flies_on():
     scene = Sky(seed=1)
-    held = [InputFrame(pointer=(100, 100), pointer_down=True)] + [InputFrame(pointer=(220, 180), pointer_down=True)] * 60
+    held = [InputFrame(pointer=(100, 100), pointer_down=True)] + [
+        InputFrame(pointer=(220, 180), pointer_down=True)
+    ] * 60
     session = Session(scene, ScriptSource(held + [InputFrame(pointer=(220, 180))] * 3))
     for _ in range(61):
         session.step()

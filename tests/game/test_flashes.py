@@ -19,10 +19,10 @@ from game.screens.wipe import Wipe
 from scenes import SCENES
 from tests.game.reading import luminance
 
-BLOCK = 15             # [canvas px] the picture is looked at in squares of this size
-STEP = 0.1             # of full luminance, and
-DARK = 0.8             # its darker side: what counts as a change
-AREA = 0.25            # of the picture
+BLOCK = 15  # [canvas px] the picture is looked at in squares of this size
+STEP = 0.1  # of full luminance, and
+DARK = 0.8  # its darker side: what counts as a change
+AREA = 0.25  # of the picture
 
 
 def squares(surface):
@@ -36,7 +36,7 @@ class FlashMeter:
 
     def __init__(self):
         self.low = self.high = self.way = None
-        self.turns = []            # picture numbers at which a quarter of the picture turned at once
+        self.turns = []  # picture numbers at which a quarter of the picture turned at once
         self.now = 0
 
     def see(self, light):
@@ -115,8 +115,10 @@ def test_games_stay_within_three_flashes_a_second(name, flashing):
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("name, steps, flashing", [("shooter", 15000, True), ("platformer", 4800, True),
-                                                   ("shooter", 4000, False), ("platformer", 2400, False)])
+@pytest.mark.parametrize(
+    "name, steps, flashing",
+    [("shooter", 15000, True), ("platformer", 4800, True), ("shooter", 4000, False), ("platformer", 2400, False)],
+)
 def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):
     meter = lights_of(name, steps, Comfort(flashing=flashing))
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns

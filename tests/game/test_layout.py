@@ -4,7 +4,6 @@ import pygame
 import pytest
 
 import physics
-
 from game.devices import DeviceSource
 from game.drawing.picture import Picture
 from game.inputs import BotSource

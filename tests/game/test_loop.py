@@ -77,7 +77,7 @@ def test_what_is_loaded_is_set_aside_and_a_later_call_still_frees_what_was():
     assert gc.get_freeze_count() > 1000
     del first
     gc.collect()
-    assert gone() is not None          # set aside: a collection does not even look at it
+    assert gone() is not None  # set aside: a collection does not even look at it
     set_loaded_aside()
     assert gone() is None
     gc.unfreeze()

@@ -34,7 +34,9 @@ class Pile(Scene):
         world.add_body(TileGrid([[True, False, True]], 16, [[False, True, False]]), position=(250, 200), kind="static")
         world.add_body(Segment((300, 200), (460, 200)), kind="static")
         world.add_body(Polygon.box(1, 60), position=(440, 60), kind="static")
-        self.bullet = world.add_body(Circle(2.0), position=(20, 60), velocity=(14000.0, 0.0), gravity_scale=0.0, bullet=True)
+        self.bullet = world.add_body(
+            Circle(2.0), position=(20, 60), velocity=(14000.0, 0.0), gravity_scale=0.0, bullet=True
+        )
         for x in (60, 180, 320):
             world.add_body(Polygon.box(24, 16), position=(x, 190))
             world.add_body(Capsule((-8, 0), (8, 0), 5.0), position=(x, 176))
@@ -109,7 +111,7 @@ def test_ghosts_stay_for_a_while_and_go():
     for _ in range(60):
         scene.step(InputState())
         picture.draw_scene(scene, overlays)
-        picture.draw_scene(scene, overlays)      # drawn twice, noted once
+        picture.draw_scene(scene, overlays)  # drawn twice, noted once
         seen.append(sum(len(kept) for kept, _, _ in layer.kept.values()))
     assert max(seen) > 0 and all(later - earlier <= 2 for earlier, later in zip(seen, seen[1:]))
     scene.world.clear()
@@ -120,8 +122,14 @@ def test_ghosts_stay_for_a_while_and_go():
 
 
 def test_every_layer_says_what_it_left_out(monkeypatch):
-    for module, name in (("contacts", "CONTACT"), ("impulses", "IMPULSE"), ("colors", "COLOR"), ("centers", "CENTER"),
-                         ("outlines", "OUTLINE"), ("islands", "BODY")):
+    for module, name in (
+        ("contacts", "CONTACT"),
+        ("impulses", "IMPULSE"),
+        ("colors", "COLOR"),
+        ("centers", "CENTER"),
+        ("outlines", "OUTLINE"),
+        ("islands", "BODY"),
+    ):
         monkeypatch.setattr(f"game.overlays.layer_{module}.{name}_BUDGET", 2)
     scene = stepped(40)
     for name in ("contacts", "impulses", "colors", "centers", "outlines"):
@@ -145,14 +153,18 @@ def test_a_legend_too_long_for_the_picture_says_so():
     assert any("more lines" in text for _, text in frame.boxes)
 
 
-@pytest.mark.parametrize("points, radius", [([(3, 4)], 5.0), ([(-6, 0), (8, 2)], 4.0), ([(-9, -5), (9, -5), (9, 5), (-9, 5)], 3.0)])
+@pytest.mark.parametrize(
+    "points, radius", [([(3, 4)], 5.0), ([(-6, 0), (8, 2)], 4.0), ([(-9, -5), (9, -5), (9, 5), (-9, 5)], 3.0)]
+)
 def test_a_ring_is_the_rounded_hull(points, radius):
     corners = ring(points, radius, 4.0)
     for x, y in corners:
         nearest = min(hypot(x - px, y - py) for px, py in on_edges(points))
         assert nearest == pytest.approx(radius, abs=0.02)
-    turns = [(bx - ax) * (cy - by) - (by - ay) * (cx - bx) for (ax, ay), (bx, by), (cx, cy)
-             in zip(corners, corners[1:] + corners[:1], corners[2:] + corners[:2])]
+    turns = [
+        (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+        for (ax, ay), (bx, by), (cx, cy) in zip(corners, corners[1:] + corners[:1], corners[2:] + corners[:2])
+    ]
     assert min(turns) >= -1e-9, "convex, clockwise on the screen"
 
 
@@ -167,10 +179,12 @@ def test_outlines_move_with_their_body():
     def place(pose, x, y):
         return (pose[0] + cos(pose[2]) * x - sin(pose[2]) * y, pose[1] + sin(pose[2]) * x + cos(pose[2]) * y)
 
-    for make in (lambda pose: ("circle", *place(pose, 3, 4), 2.0),
-                 lambda pose: ("capsule", *place(pose, -3, 1), *place(pose, 5, 2), 2.0),
-                 lambda pose: ("rounded", np.array([place(pose, *p) for p in ((0, 0), (8, 0), (4, 6))]), 1.5),
-                 lambda pose: ("chain", np.array([place(pose, *p) for p in ((0, 0), (8, 1), (9, 6), (20, 7))]))):
+    for make in (
+        lambda pose: ("circle", *place(pose, 3, 4), 2.0),
+        lambda pose: ("capsule", *place(pose, -3, 1), *place(pose, 5, 2), 2.0),
+        lambda pose: ("rounded", np.array([place(pose, *p) for p in ((0, 0), (8, 0), (4, 6))]), 1.5),
+        lambda pose: ("chain", np.array([place(pose, *p) for p in ((0, 0), (8, 1), (9, 6), (20, 7))])),
+    ):
         there, _ = corners_of(moved(make(start), start, end), 2.0)
         wanted, _ = corners_of(make(end), 2.0)
         assert np.allclose(there, wanted, atol=0.02)

@@ -30,8 +30,9 @@ class Crowd(Scene):
     def build(self):
         self.add_world()
         for i in range(40):
-            self.world.add_body(Circle(9.0), position=(30 + i * 11, 60 + i % 3 * 7), velocity=(30.0, 5.0),
-                                filter=Filter(1 << i % 7))
+            self.world.add_body(
+                Circle(9.0), position=(30 + i * 11, 60 + i % 3 * 7), velocity=(30.0, 5.0), filter=Filter(1 << i % 7)
+            )
         for i in range(6):
             self.world.add_body(PixelMask.from_array(STAR), position=(60 + i * 11, 160), angle=0.3 * i)
         self.world.add_body(Polygon.box(300, 20), position=(240, 220), kind="static")
@@ -74,8 +75,10 @@ def test_layers_have_their_keys_and_names():
 
 
 # Those that show what a solver does are tested on a pile, in test_overlay_layers.py.
-@pytest.mark.parametrize("layer", ["bounds", "motion", "structure", "pairs", "masks", "contacts", "filters", "features",
-                                   "centers", "outlines"])
+@pytest.mark.parametrize(
+    "layer",
+    ["bounds", "motion", "structure", "pairs", "masks", "contacts", "filters", "features", "centers", "outlines"],
+)
 def test_each_layer_draws_and_only_reads(crowd, layer):
     before = scene_digest(crowd)
     plain = Picture().draw_scene(crowd, Overlays()).surface.copy()
@@ -103,7 +106,7 @@ def test_a_budget_is_never_silent(crowd, monkeypatch):
     monkeypatch.setattr("game.overlays.layer_pairs.PAIR_BUDGET", 2)
     overlays = Overlays(["pairs"])
     Picture().draw_scene(crowd, overlays)
-    (_, note), = overlays.legend()
+    ((_, note),) = overlays.legend()
     assert note.startswith("pairs 2 of ") and not note.startswith("pairs 2 of 2,")
 
 
@@ -112,6 +115,7 @@ def test_lit_pixels_are_those_the_masks_share(crowd):
     Picture().draw_scene(crowd, overlays)
     layer = next(each for each in overlays.layers if each.name == "masks")
     from physics import debug
+
     assert layer.lit == sum(int(shared.sum()) for _, _, shared in debug.mask_hits(crowd.world)) > 0
 
 
@@ -208,6 +212,7 @@ def test_panel_scrolls_when_rows_do_not_fit():
 
 def test_an_incomplete_scene_is_refused_where_it_is_defined():
     with pytest.raises(TypeError, match="Half must define draw, check, bot, state"):
+
         class Half(Scene):
             def build(self):
                 self.add_world()

@@ -21,7 +21,9 @@ EYES = {
     "deuteranopia": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
     "tritanopia": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
 }
-TO_XYZ = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]])
+TO_XYZ = np.array(
+    [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
+)
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -60,12 +62,14 @@ def drawn(palette, layers):
     return pygame.surfarray.array3d(Picture().draw_scene(scene, overlays).surface).astype(int)
 
 
-@pytest.mark.parametrize("layer", [name for name in LAYER_NAMES if name not in ("impulses", "colors", "ghosts", "islands")])
+@pytest.mark.parametrize(
+    "layer", [name for name in LAYER_NAMES if name not in ("impulses", "colors", "ghosts", "islands")]
+)
 def test_a_palette_is_seen_in_each_layer(layer):
     plain = drawn("standard", ())
     seen = {palette: drawn(palette, (layer,)) for palette in PALETTES}
     assert (seen["standard"] != plain).any()
-    if layer not in ("motion", "centers", "contacts"):         # these have hues that both palettes share
+    if layer not in ("motion", "centers", "contacts"):  # these have hues that both palettes share
         assert (seen["safe"] != seen["standard"]).any()
     assert (seen["contrast"] != seen["safe"]).any()
 

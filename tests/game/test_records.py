@@ -18,7 +18,12 @@ def test_most_points_first_and_then_the_faster():
     assert message == ""
     for points, seconds in ((100, 60.0), (300, 50.0), (100, 40.0), (200, 10.0)):
         records.add("shooter", "points", entry(points, seconds))
-    assert [(e.points, e.seconds) for e in records.entries("shooter")] == [(300, 50.0), (200, 10.0), (100, 40.0), (100, 60.0)]
+    assert [(e.points, e.seconds) for e in records.entries("shooter")] == [
+        (300, 50.0),
+        (200, 10.0),
+        (100, 40.0),
+        (100, 60.0),
+    ]
 
 
 def test_least_time_first():
@@ -59,11 +64,24 @@ def test_saved_tables_come_back():
 
 GOOD = {"name": "EVA", "points": 1, "seconds": 2.0, "date": "2026-01-31", "seed": 0, "assisted": False}
 DAMAGE = [
-    ("{", "line 1"), ("[]", "version"), ('{"version": 1}', "tables"),
+    ("{", "line 1"),
+    ("[]", "version"),
+    ('{"version": 1}', "tables"),
     ('{"version": 1, "tables": {"shooter": 3}}', "tables.shooter"),
-    *((json.dumps({"version": 1, "tables": {"shooter": [GOOD, {**GOOD, **bad}]}}), r"tables.shooter[1]") for bad in (
-        {"name": "TOOLONG"}, {"name": 3}, {"points": -1}, {"points": 1.5}, {"seconds": float("nan")}, {"seconds": "1"},
-        {"date": 5}, {"assisted": 1}, {"more": 1})),
+    *(
+        (json.dumps({"version": 1, "tables": {"shooter": [GOOD, {**GOOD, **bad}]}}), r"tables.shooter[1]")
+        for bad in (
+            {"name": "TOOLONG"},
+            {"name": 3},
+            {"points": -1},
+            {"points": 1.5},
+            {"seconds": float("nan")},
+            {"seconds": "1"},
+            {"date": 5},
+            {"assisted": 1},
+            {"more": 1},
+        )
+    ),
 ]
 
 
@@ -99,11 +117,18 @@ def test_the_fastest_run_is_the_ghost():
     assert not keep_ghost("dash", [], 1.0)
 
 
-@pytest.mark.parametrize("change, place", [
-    ({"version": 9}, "version"), ({"format": "x"}, "format"), ({"seconds": 0}, "seconds"), ({"rows": []}, "rows"),
-    ({"rows": [[1, 2, "run_0", 1], [1, 2, 3, 4]]}, "rows[1]"), ({"rows": [[1e300, 2, "run_0", 1]]}, "rows[0]"),
-    ({"rows": [[float("nan"), 2, "run_0", 1]]}, "rows[0]"),
-])
+@pytest.mark.parametrize(
+    "change, place",
+    [
+        ({"version": 9}, "version"),
+        ({"format": "x"}, "format"),
+        ({"seconds": 0}, "seconds"),
+        ({"rows": []}, "rows"),
+        ({"rows": [[1, 2, "run_0", 1], [1, 2, 3, 4]]}, "rows[1]"),
+        ({"rows": [[1e300, 2, "run_0", 1]]}, "rows[0]"),
+        ({"rows": [[float("nan"), 2, "run_0", 1]]}, "rows[0]"),
+    ],
+)
 def test_a_ghost_that_cannot_be_used_is_left_out_and_kept(change, place):
     keep_ghost("dash", TRAIL, 20.0)
     path = ghost_path("dash")

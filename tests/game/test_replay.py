@@ -49,8 +49,11 @@ def test_a_replay_does_not_depend_on_the_broad_phase(tmp_path, name):
 
 def test_changes_and_pointer_are_recorded(tmp_path):
     path = tmp_path / "run.json"
-    script = [InputFrame(frozenset({"right"}), (7, 9), True, -1, (("slider:speed", 120), ("broadphase", "tree"))),
-              *[InputFrame(frozenset({"right"}))] * 30, InputFrame(changes=(("restart", True),))]
+    script = [
+        InputFrame(frozenset({"right"}), (7, 9), True, -1, (("slider:speed", 120), ("broadphase", "tree"))),
+        *[InputFrame(frozenset({"right"}))] * 30,
+        InputFrame(changes=(("restart", True),)),
+    ]
     first = record(path, 40, ScriptSource(script))
     again = replay(path)
     assert again.values == {"speed": 120} and again.broadphase == "tree"
@@ -158,13 +161,29 @@ def test_digests_may_be_spaced_out(tmp_path):
 
 
 MISFITS = [
-    ({"scene": "elsewhere"}, "scene"), ({"broadphase": "octree"}, "broadphase"), ({"solver": "soft_step"}, "solver"),
-    ({"tier": "pixels"}, "tier"), ({"level": {"path": "x", "digest": "y"}}, "level"),
-    *(({"changes": [change]}, "frame 3") for change in (
-        ["slider:gravity", 1], ["slider:speed", "fast"], ["slider:speed", True], ["slider:speed", float("inf")],
-        ["slider:speed", [1]],
-        ["assist:invincible", True], ["broadphase", "octree"], ["broadphase", {}], ["solver", "blocking"], ["tier", None],
-        ["narrowphase", 1], ["fly", 1], [3, 1])),
+    ({"scene": "elsewhere"}, "scene"),
+    ({"broadphase": "octree"}, "broadphase"),
+    ({"solver": "soft_step"}, "solver"),
+    ({"tier": "pixels"}, "tier"),
+    ({"level": {"path": "x", "digest": "y"}}, "level"),
+    *(
+        ({"changes": [change]}, "frame 3")
+        for change in (
+            ["slider:gravity", 1],
+            ["slider:speed", "fast"],
+            ["slider:speed", True],
+            ["slider:speed", float("inf")],
+            ["slider:speed", [1]],
+            ["assist:invincible", True],
+            ["broadphase", "octree"],
+            ["broadphase", {}],
+            ["solver", "blocking"],
+            ["tier", None],
+            ["narrowphase", 1],
+            ["fly", 1],
+            [3, 1],
+        )
+    ),
 ]
 
 

@@ -28,8 +28,10 @@ def played(scene, settings=None):
 
 
 def steered(play, steps, *actions):
-    play.session.source = ScriptSource([InputFrame(frozenset(actions), changes=play.devices.next().changes)]
-                                       + [InputFrame(frozenset(actions))] * (steps - 1))
+    play.session.source = ScriptSource(
+        [InputFrame(frozenset(actions), changes=play.devices.next().changes)]
+        + [InputFrame(frozenset(actions))] * (steps - 1)
+    )
     for _ in range(steps):
         play.step()
 
@@ -53,10 +55,18 @@ def test_a_recording_after_a_restart_needs_nothing_of_the_run_before(tmp_path):
     assert scene.values["speed"] == 120 and scene.assist["invincible"]
 
 
-@pytest.mark.parametrize("settings, change, assisted", [
-    ({}, None, False), ({"invincible": True}, None, True), ({"speed": 0.9}, None, True), ({"hit_stop": False}, None, False),
-    ({}, ("slider:speed", 20), True), ({}, ("narrowphase", False), True), ({}, ("broadphase", "tree"), False),
-])
+@pytest.mark.parametrize(
+    "settings, change, assisted",
+    [
+        ({}, None, False),
+        ({"invincible": True}, None, True),
+        ({"speed": 0.9}, None, True),
+        ({"hit_stop": False}, None, False),
+        ({}, ("slider:speed", 20), True),
+        ({}, ("narrowphase", False), True),
+        ({}, ("broadphase", "tree"), False),
+    ],
+)
 def test_help_is_noticed(settings, change, assisted):
     play = played(Race(), Settings(**SEEN, **settings))
     if change:
@@ -80,7 +90,9 @@ def test_a_restart_begins_an_honest_run():
 
 
 def test_bots_and_recordings_are_not_helped_nor_kept():
-    play = Play(Race(), DeviceSource(), Sounds(silent=True), bot=True, settings=Settings(**SEEN, invincible=True, speed=0.5))
+    play = Play(
+        Race(), DeviceSource(), Sounds(silent=True), bot=True, settings=Settings(**SEEN, invincible=True, speed=0.5)
+    )
     assert play.devices.changes == [] and play.clock.pace == 1.0 and play.recorder is None and play.hint is None
 
 
@@ -238,8 +250,10 @@ def test_a_file_that_breaks_while_playing_is_a_message(drive, monkeypatch):
     assert d.name == "Menu"
 
 
-@pytest.mark.parametrize("text, place", [('{"version": 1', "line 1"), ('{"format": "hitbox replay", "version": 3}', "version"),
-                                         (None, "file")])
+@pytest.mark.parametrize(
+    "text, place",
+    [('{"version": 1', "line 1"), ('{"format": "hitbox replay", "version": 3}', "version"), (None, "file")],
+)
 def test_a_dropped_file_is_watched_or_refused_with_its_reason(drive, tmp_path, text, place):
     d = drive(settings=Settings(**SEEN))
     d.turns(2)

@@ -40,8 +40,10 @@ from tests.game.reading import Reader, assert_text_is_apart
 from tests.game.test_replay import record
 
 SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900)]
-LONG = ("/data/somebody/with/a/long/name/.local/share/hitbox/settings.json: version: must be 1; "
-        "defaults are used, the old file is kept as settings.json.damaged-1")
+LONG = (
+    "/data/somebody/with/a/long/name/.local/share/hitbox/settings.json: version: must be 1; "
+    "defaults are used, the old file is kept as settings.json.damaged-1"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -131,8 +133,10 @@ def test_every_page_and_row_of_the_settings(page, inside):
     screen.waiting_for = ("buttons", "bomb")
     check(screen)
     screen.waiting_for = None
-    screen.message = ("right: B. bomb now has pad \u2192. fire keeps X. focus now has R stick. And one more line of text, "
-                      "so that there are three of them.")
+    screen.message = (
+        "right: B. bomb now has pad \u2192. fire keeps X. focus now has R stick. And one more line of text, "
+        "so that there are three of them."
+    )
     check(screen)
 
 
@@ -143,10 +147,18 @@ def test_settings_over_a_game():
     check(screen)
 
 
-@pytest.mark.parametrize("message", ["", "The controller is gone. Plug it in again, or play on with the keyboard.",
-                                     "Saved as platformer-20261121-160209-12.json"])
+@pytest.mark.parametrize(
+    "message",
+    [
+        "",
+        "The controller is gone. Plug it in again, or play on with the keyboard.",
+        "Saved as platformer-20261121-160209-12.json",
+    ],
+)
 def test_pause_menu(message):
-    menu = PauseMenu(Race(), True, message, (("arrows", "drive"), ("L shift", "a very long thing to do"), ("X", "bomb")) * 3)
+    menu = PauseMenu(
+        Race(), True, message, (("arrows", "drive"), ("L shift", "a very long thing to do"), ("X", "bomb")) * 3
+    )
     for mark in range(7):
         menu.list.mark = mark
         check(menu)
@@ -158,8 +170,16 @@ def test_result(place, won):
     entered = []
     lines = ("a line that is far too long to stand in one line of the box of the result", "b", "c")
     result = Result(won, 123456789, 5999.99, lines)
-    screen = ResultScreen(Race(), result, place, "WWW", entered.append, True,
-                          ["your fastest: it will run beside you as a ghost", LONG], True)
+    screen = ResultScreen(
+        Race(),
+        result,
+        place,
+        "WWW",
+        entered.append,
+        True,
+        ["your fastest: it will run beside you as a ghost", LONG],
+        True,
+    )
     settled(screen)
     for at in range(4 if place else 0):
         screen.initials.at = at
@@ -194,10 +214,20 @@ def test_replays(tmp_path):
             record(folder / f"{name}-with-a-name-that-is-longer-than-the-list-is-wide.json", 130)
     next(replays_folder().glob("damaged*")).write_text('{"version": 1')
     path = next(replays_folder().glob("other*"))
-    path.write_text(json.dumps({**json.loads(path.read_text()), "scene": "elsewhere", "level": {"path": LONG, "digest": "1"}}))
+    path.write_text(
+        json.dumps({**json.loads(path.read_text()), "scene": "elsewhere", "level": {"path": LONG, "digest": "1"}})
+    )
     path = next(replays_folder().glob("kept*"))
-    path.write_text(json.dumps({**json.loads(path.read_text()), "scene": "race", "level": {"path": LONG, "digest": "1"},
-                                "result": {"won": True, "points": 123456789, "seconds": 5999.99}}))
+    path.write_text(
+        json.dumps(
+            {
+                **json.loads(path.read_text()),
+                "scene": "race",
+                "level": {"path": LONG, "digest": "1"},
+                "result": {"won": True, "points": 123456789, "seconds": 5999.99},
+            }
+        )
+    )
     screen = ReplaysScreen(Registry(GAMES))
     check(screen)
     settled(screen)
@@ -273,6 +303,7 @@ def test_first_hint_and_lines_over_a_game():
 
 def test_a_text_that_sinks_into_its_ground_is_found():
     """The measure itself: grey on grey fails, and so does text that something covers."""
+
     def grey(canvas, alpha):
         canvas.surface.fill((90, 90, 90))
         canvas.text("can you read this", 10, 10, (120, 120, 120))

@@ -53,13 +53,31 @@ def test_the_first_version_is_read(path):
 
 
 BAD = [
-    ("music", 7), ("effects", "loud"), ("master", True), ("master", float("nan")), ("window_scale", 2.5), ("window_scale", 99),
-    ("fullscreen", 1), ("vsync", None), ("shake", -0.1), ("speed", 0.2), ("palette", "pink"), ("palette", 3),
-    ("frame_cap", 61), ("frame_cap", False), ("initials", "AB"), ("initials", "ab?"), ("keys", {}),
-    ("keys", {"left": ["nokey"]}), ("keys", {**default_table("keys"), "left": ["right"]}),
-    ("keys", {**default_table("keys"), "left": ["escape"]}), ("keys", {**default_table("keys"), "left": []}),
-    ("keys", {**default_table("keys"), "left": ["nokey"]}), ("buttons", {**default_table("buttons"), "fire": ["start"]}),
-    ("buttons", {**default_table("buttons"), "fire": ["trigger"]}), ("buttons", 5),
+    ("music", 7),
+    ("effects", "loud"),
+    ("master", True),
+    ("master", float("nan")),
+    ("window_scale", 2.5),
+    ("window_scale", 99),
+    ("fullscreen", 1),
+    ("vsync", None),
+    ("shake", -0.1),
+    ("speed", 0.2),
+    ("palette", "pink"),
+    ("palette", 3),
+    ("frame_cap", 61),
+    ("frame_cap", False),
+    ("initials", "AB"),
+    ("initials", "ab?"),
+    ("keys", {}),
+    ("keys", {"left": ["nokey"]}),
+    ("keys", {**default_table("keys"), "left": ["right"]}),
+    ("keys", {**default_table("keys"), "left": ["escape"]}),
+    ("keys", {**default_table("keys"), "left": []}),
+    ("keys", {**default_table("keys"), "left": ["nokey"]}),
+    ("buttons", {**default_table("buttons"), "fire": ["start"]}),
+    ("buttons", {**default_table("buttons"), "fire": ["trigger"]}),
+    ("buttons", 5),
 ]
 
 
@@ -124,17 +142,29 @@ def test_actions_of_different_games_share_a_key():
     assert keys["jump"][0] == "z" and "z" in keys["fire"]
 
 
-@pytest.mark.parametrize("device, control", [
-    ("keys", "escape"), ("keys", "p"), ("keys", "tab"), ("keys", "f11"), ("keys", None),
-    ("buttons", "start"), ("buttons", "y"), ("buttons", "back")])
+@pytest.mark.parametrize(
+    "device, control",
+    [
+        ("keys", "escape"),
+        ("keys", "p"),
+        ("keys", "tab"),
+        ("keys", "f11"),
+        ("keys", None),
+        ("buttons", "start"),
+        ("buttons", "y"),
+        ("buttons", "back"),
+    ],
+)
 def test_what_always_does_the_same_cannot_be_taken(device, control):
     table = default_table(device)
     assert "cannot be taken" in rebind(table, device, "left", control) or control is None
     assert table == default_table(device)
 
 
-@pytest.mark.parametrize("device, names", [("keys", [*"abcdefghijkl", "left", "right", "up", "space", "left shift", "tab"]),
-                                           ("buttons", list(BUTTON_NAMES))])
+@pytest.mark.parametrize(
+    "device, names",
+    [("keys", [*"abcdefghijkl", "left", "right", "up", "space", "left shift", "tab"]), ("buttons", list(BUTTON_NAMES))],
+)
 def test_however_keys_are_given_away_every_action_has_one_of_its_own(device, names):
     random, table = Random(7), default_table(device)
     for _ in range(1500):

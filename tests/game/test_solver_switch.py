@@ -53,8 +53,10 @@ def test_key_switches_every_world_to_the_next_solver_and_prepares_it_first():
 
 
 def test_panel_has_the_row_where_there_is_a_choice():
-    titles = [[row.label for row in play_rows(Play(kind(seed=1), DeviceSource(), Sounds(silent=True)))]
-              for kind in (Pile, OwnSolvers, Arena)]
+    titles = [
+        [row.label for row in play_rows(Play(kind(seed=1), DeviceSource(), Sounds(silent=True)))]
+        for kind in (Pile, OwnSolvers, Arena)
+    ]
     assert ["Solver" in each for each in titles] == [True, False, False]
 
 

@@ -73,7 +73,7 @@ def test_voices_of_one_sound_are_limited_and_the_oldest_gives_way(sounds):
 
 
 def test_hurt_is_never_lost_to_shots(sounds):
-    for number in range(CHANNELS):          # every channel is taken by something that matters more than a shot
+    for number in range(CHANNELS):  # every channel is taken by something that matters more than a shot
         sounds.samples[f"thing_{number}"] = np.zeros(RATE * 5, np.int16)
         assert sounds.later(f"thing_{number}")
     assert not sounds.later("laser"), "what matters less waits"

@@ -118,10 +118,10 @@ def test_a_jingle_plays_once_and_the_tune_comes_back(sounds):
     sounds.jingle("victory")
     volumes = run(sounds, 0.3)
     assert sounds.player.playing == "victory" and volumes[-1] == pytest.approx(0.4, abs=0.01)
-    sounds.tune("title")                     # the next screen: its tune waits for the end
+    sounds.tune("title")  # the next screen: its tune waits for the end
     run(sounds, 1.0)
     assert sounds.player.playing == "victory"
-    pygame.mixer.music.stop()                # as at its end
+    pygame.mixer.music.stop()  # as at its end
     run(sounds, 1.0)
     assert sounds.player.playing == "title" and pygame.mixer.music.get_busy()
 

@@ -12,22 +12,52 @@ from game.drawing.tilemap import load_tilemap
 from game.errors import FileError
 
 LEVEL = {
-    "type": "map", "orientation": "orthogonal", "infinite": False, "width": 3, "height": 2, "tilewidth": 16,
+    "type": "map",
+    "orientation": "orthogonal",
+    "infinite": False,
+    "width": 3,
+    "height": 2,
+    "tilewidth": 16,
     "tileheight": 16,
-    "tilesets": [{"firstgid": 1, "tilecount": 8, "columns": 4, "image": "tiles.png", "tiles": [
-        {"id": 0, "properties": [{"name": "kind", "value": "solid"}]},
-        {"id": 1, "properties": [{"name": "kind", "value": "one_way"}]},
-        {"id": 2, "properties": [{"name": "kind", "value": "slope"}, {"name": "left", "value": 0},
-                                 {"name": "right", "value": 0.5}]},
-        {"id": 3, "properties": [{"name": "kind", "value": "spikes"}]},
-    ]}],
+    "tilesets": [
+        {
+            "firstgid": 1,
+            "tilecount": 8,
+            "columns": 4,
+            "image": "tiles.png",
+            "tiles": [
+                {"id": 0, "properties": [{"name": "kind", "value": "solid"}]},
+                {"id": 1, "properties": [{"name": "kind", "value": "one_way"}]},
+                {
+                    "id": 2,
+                    "properties": [
+                        {"name": "kind", "value": "slope"},
+                        {"name": "left", "value": 0},
+                        {"name": "right", "value": 0.5},
+                    ],
+                },
+                {"id": 3, "properties": [{"name": "kind", "value": "spikes"}]},
+            ],
+        }
+    ],
     "layers": [
         {"type": "tilelayer", "name": "solid", "data": [0, 2, 3, 1, 1, 4 | 0x80000000]},
-        {"type": "objectgroup", "name": "things", "objects": [
-            {"type": "coin", "name": "", "x": 8, "y": 4.5, "width": 0, "height": 0,
-             "properties": [{"name": "worth", "value": 3}]},
-            {"class": "goal", "x": 1, "y": 2, "width": 3, "height": 4},
-        ]},
+        {
+            "type": "objectgroup",
+            "name": "things",
+            "objects": [
+                {
+                    "type": "coin",
+                    "name": "",
+                    "x": 8,
+                    "y": 4.5,
+                    "width": 0,
+                    "height": 0,
+                    "properties": [{"name": "worth", "value": 3}],
+                },
+                {"class": "goal", "x": 1, "y": 2, "width": 3, "height": 4},
+            ],
+        },
     ],
 }
 
@@ -46,7 +76,7 @@ def test_tiles_kinds_and_things(tmp_path):
     assert grid.slopes[0, 2].tolist() == [0.0, 0.5]
     assert level.cells("spikes") == [(2, 1)]
     assert level.flips["solid"][1, 2] == 0x80000000
-    coin, = level.things_of("coin")
+    (coin,) = level.things_of("coin")
     assert (coin.x, coin.y, coin.properties) == (8, 4.5, {"worth": 3})
     assert level.one("goal").width == 3
     assert level.size == (48, 32)
@@ -90,7 +120,7 @@ def test_damage_is_named(tmp_path, spoil, place, reason):
     assert "level.tmj" in message and place in message and reason in message
 
 
-@pytest.mark.parametrize("text, place", [("{\n \"width\": ,", "line 2"), ("[]", "map"), ("", "line 1")])
+@pytest.mark.parametrize("text, place", [('{\n "width": ,', "line 2"), ("[]", "map"), ("", "line 1")])
 def test_not_a_map(tmp_path, text, place):
     with pytest.raises(FileError, match=place):
         load(tmp_path, text)

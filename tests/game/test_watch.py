@@ -25,9 +25,19 @@ LENGTH = 1000
 
 def recorded(path, frames=LENGTH, scene=None):
     scene = scene or Arena(seed=3)
-    source = BotSource() if type(scene) is not Arena else ScriptSource(
-        [InputFrame(frozenset({"right"} if n % 90 < 50 else {"left"}),
-                    changes=(("slider:speed", 10 + n % 150),) * (n % 7 == 0)) for n in range(frames)])
+    source = (
+        BotSource()
+        if type(scene) is not Arena
+        else ScriptSource(
+            [
+                InputFrame(
+                    frozenset({"right"} if n % 90 < 50 else {"left"}),
+                    changes=(("slider:speed", 10 + n % 150),) * (n % 7 == 0),
+                )
+                for n in range(frames)
+            ]
+        )
+    )
     recorder = Recorder(scene, every=30)
     session = Session(scene, source, recorder)
     digests = [scene_digest(scene)]
@@ -73,7 +83,7 @@ def test_key_frames_are_spaced_out_in_long_recordings(tape):
     assert tape.spacing == 60 * KEY_SECONDS
     tape.seek(LENGTH)
     assert sorted(tape.keys) == [0, 300, 600, 900]
-    tape.recording.inputs = tape.recording.inputs * 60       # a quarter of an hour
+    tape.recording.inputs = tape.recording.inputs * 60  # a quarter of an hour
     long = Tape(lambda: Arena(seed=3), tape.recording)
     assert long.spacing == 60 * 21 and long.length // long.spacing < MOST_KEYS
 
@@ -148,7 +158,11 @@ def test_overlays_and_panel_only_look(watch):
     watch.panel.mark = 0
     press(watch, pygame.K_b, pygame.K_n, pygame.K_r, pygame.K_t, pygame.K_v)
     labels = [row.label for row in watch.panel.rows()]
-    assert "Restart" not in labels and "Broad phase" not in labels and any("key frames every 5 s" in each for each in labels)
+    assert (
+        "Restart" not in labels
+        and "Broad phase" not in labels
+        and any("key frames every 5 s" in each for each in labels)
+    )
     assert watch.devices.changes == []
     assert scene_digest(watch.tape.scene) == watch.tape.expected[watch.tape.position]
 

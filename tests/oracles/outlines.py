@@ -31,8 +31,14 @@ def bounds_of(geometry):
 
 def pixels(solid, left, top):
     """The union of pixel squares."""
-    return unary_union([box(left + i, top + j, left + i + 1, top + j + 1)
-                        for j, row in enumerate(solid) for i, pixel in enumerate(row) if pixel])
+    return unary_union(
+        [
+            box(left + i, top + j, left + i + 1, top + j + 1)
+            for j, row in enumerate(solid)
+            for i, pixel in enumerate(row)
+            if pixel
+        ]
+    )
 
 
 def tiles(solid, slopes, size, x, y):
@@ -43,8 +49,11 @@ def tiles(solid, slopes, size, x, y):
             left, right = (1.0, 1.0) if full else slopes[j][i]
             if left > 0.0 or right > 0.0:
                 a, b, bottom = x + i * size, x + (i + 1) * size, y + (j + 1) * size
-                parts.append(MultiPoint([(a, bottom), (b, bottom), (a, bottom - left * size),
-                                         (b, bottom - right * size)]).convex_hull)
+                parts.append(
+                    MultiPoint(
+                        [(a, bottom), (b, bottom), (a, bottom - left * size), (b, bottom - right * size)]
+                    ).convex_hull
+                )
     return unary_union(parts)
 
 

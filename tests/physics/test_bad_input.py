@@ -8,17 +8,47 @@ import math
 import numpy as np
 import pytest
 
-from physics import (BROADPHASES, Bounds, BruteForce, Character, Circle, DynamicTree, Effects, Filter, Material,
-                     PixelMask, Polygon, Snapshot, SpatialHashGrid, SweepAndPrune, TileGrid, World, collide, fit, mass_of)
+from physics import (
+    BROADPHASES,
+    Bounds,
+    BruteForce,
+    Character,
+    Circle,
+    DynamicTree,
+    Effects,
+    Filter,
+    Material,
+    PixelMask,
+    Polygon,
+    Snapshot,
+    SpatialHashGrid,
+    SweepAndPrune,
+    TileGrid,
+    World,
+    collide,
+    fit,
+    mass_of,
+)
 
 NAN, INF = math.nan, math.inf
 BOX, BALL = Polygon.box(4, 4), Circle(3.0)
-ALL = Effects(response=True, gravity=True, drag=True, wind=True, rotation=True, friction=True, restitution=True,
-              continuous=True, sensors=True, persist=True, one_way=True)
+ALL = Effects(
+    response=True,
+    gravity=True,
+    drag=True,
+    wind=True,
+    rotation=True,
+    friction=True,
+    restitution=True,
+    continuous=True,
+    sensors=True,
+    persist=True,
+    one_way=True,
+)
 NO_NUMBER = ["1", None, [1], (1, 2), {}, 1j, True]
-NOT_FINITE = [NAN, INF, -INF, 10 ** 400]
+NOT_FINITE = [NAN, INF, -INF, 10**400]
 NUMBER = NO_NUMBER + NOT_FINITE
-VECTOR = [1.0, "ab", None, (1,), (1, 2, 3), (NAN, 0), (0, INF), ("1", 2), (1, None), {}, (10 ** 400, 0)]
+VECTOR = [1.0, "ab", None, (1,), (1, 2, 3), (NAN, 0), (0, INF), ("1", 2), (1, None), {}, (10**400, 0)]
 FLAG = [1, 0, "yes", None, [True]]
 ARRAY = ["ab", None, [[1, 2, 3]], [[NAN, 0]], [[0, INF]], [1, 2], [["a", "b"]], [[1j, 0]], [("1", "2")], 5]
 
@@ -35,9 +65,24 @@ def world_of_three():
 
 def state(world):
     """Everything that an argument may not have touched."""
-    return (world.digest(), world.bodies.tobytes(), world.shapes.tobytes(), world.characters.rows.tobytes(),
-            world.gravity, world.wind, world.solver, world.dt, world.drag, world.broadphase, world._next_body, world._next_shape,
-            str(world.random.bit_generator.state), len(world._shapes_of), len(world._users), len(world._tiers))
+    return (
+        world.digest(),
+        world.bodies.tobytes(),
+        world.shapes.tobytes(),
+        world.characters.rows.tobytes(),
+        world.gravity,
+        world.wind,
+        world.solver,
+        world.dt,
+        world.drag,
+        world.broadphase,
+        world._next_body,
+        world._next_shape,
+        str(world.random.bit_generator.state),
+        len(world._shapes_of),
+        len(world._users),
+        len(world._tiers),
+    )
 
 
 def refused(name, value, call):
@@ -53,8 +98,22 @@ def refused(name, value, call):
 CONSTRUCTORS = [
     ("radius", lambda v: Circle(v), NUMBER + [0, -1.0]),
     ("center", lambda v: Circle(1.0, v), VECTOR),
-    ("points", lambda v: Polygon(v), ["ab", None, 5, [], [(0, 0)], [(0, 0), (1, 0), (NAN, 1)], [(0, 0), (1, 0), (INF, 1)],
-                                      [(0, 0, 0)] * 3, [("0", "0"), ("1", "0"), ("0", "1")], [(0, 0), (1, 0), (2, 0)]]),
+    (
+        "points",
+        lambda v: Polygon(v),
+        [
+            "ab",
+            None,
+            5,
+            [],
+            [(0, 0)],
+            [(0, 0), (1, 0), (NAN, 1)],
+            [(0, 0), (1, 0), (INF, 1)],
+            [(0, 0, 0)] * 3,
+            [("0", "0"), ("1", "0"), ("0", "1")],
+            [(0, 0), (1, 0), (2, 0)],
+        ],
+    ),
     ("width", lambda v: Polygon.box(v, 1), NUMBER + [0, -2]),
     ("height", lambda v: Polygon.box(1, v), NUMBER + [0, -2]),
     ("center", lambda v: Polygon.box(1, 1, v), VECTOR),
@@ -63,7 +122,11 @@ CONSTRUCTORS = [
     ("solid", lambda v: TileGrid(v, 8), [None, "x", [1, 0], 5, [[0.5]], [[1, 0], [1]], [["a"]], [[NAN]]]),
     ("tile_size", lambda v: TileGrid([[True]], v), NUMBER + [0, -8]),
     ("one_way", lambda v: TileGrid([[True]], 8, one_way=v), ["x", [1], [[True, True]], [[0.5]], 5]),
-    ("slopes", lambda v: TileGrid([[False]], 8, slopes=v), ["x", [1], [[[0, 2]]], [[[-0.1, 0]]], [[[NAN, 0]]], [[(0, 1, 1)]], 5]),
+    (
+        "slopes",
+        lambda v: TileGrid([[False]], 8, slopes=v),
+        ["x", [1], [[[0, 2]]], [[[-0.1, 0]]], [[[NAN, 0]]], [[(0, 1, 1)]], 5],
+    ),
     ("cell", lambda v: TileGrid([[True]], 8, one_way=v), [[[True]]]),
     ("solid", lambda v: PixelMask(v), [None, "x", [1, 0], 5, [[0.5]], [[1, 0], [1]], [[NAN]], [["a"]]]),
     ("solid", lambda v: PixelMask.from_array(v), [None, [[[1]]], [[0.5]]]),
@@ -84,7 +147,11 @@ CONSTRUCTORS = [
     ("shapes", lambda v: mass_of(v, 1.0), [None, 5, "x", [BALL, 5]]),
     ("shape_a", lambda v: collide(v, (0, 0, 0), BALL, (0, 0, 0)), [None, 5, "x", Material()]),
     ("shape_b", lambda v: collide(BALL, (0, 0, 0), v, (0, 0, 0)), [None, 5, "x"]),
-    ("pose_a", lambda v: collide(BALL, v, BALL, (0, 0, 0)), [None, 5, (0, 0), (0, 0, NAN), (INF, 0, 0), ("0", 0, 0), "abc"]),
+    (
+        "pose_a",
+        lambda v: collide(BALL, v, BALL, (0, 0, 0)),
+        [None, 5, (0, 0), (0, 0, NAN), (INF, 0, 0), ("0", 0, 0), "abc"],
+    ),
     ("pose_b", lambda v: collide(BALL, (0, 0, 0), TileGrid([[True]], 8), v), [(0, 0, 0.1), (0, 0), (0, NAN, 0)]),
     ("margin", lambda v: collide(BALL, (0, 0, 0), BALL, (0, 0, 0), v), NUMBER + [-1]),
     ("mask", lambda v: fit(v, "circle"), [None, BALL, np.ones((2, 2))]),
@@ -98,12 +165,14 @@ CONSTRUCTORS = [
     ("wind", lambda v: World(ALL, wind=v), VECTOR),
     ("pixels_per_meter", lambda v: World(ALL, pixels_per_meter=v), NUMBER + [0, -1]),
     ("dt", lambda v: World(ALL, dt=v), NUMBER + [0, -1]),
-    ("seed", lambda v: World(ALL, seed=v), [-1, 1.5, "1", None, NAN, 2 ** 63, True]),
+    ("seed", lambda v: World(ALL, seed=v), [-1, 1.5, "1", None, NAN, 2**63, True]),
     ("effect gravity", lambda v: Effects(gravity=v), [1, 0, None, "x", np.bool_(True)]),
 ]
 
 
-@pytest.mark.parametrize("name, call, values", CONSTRUCTORS, ids=[f"{n}-{i}" for i, (n, _, _) in enumerate(CONSTRUCTORS)])
+@pytest.mark.parametrize(
+    "name, call, values", CONSTRUCTORS, ids=[f"{n}-{i}" for i, (n, _, _) in enumerate(CONSTRUCTORS)]
+)
 def test_wrong_arguments_of_values_and_functions_are_named(name, call, values):
     for value in values:
         refused(name, value, lambda: call(value))
@@ -130,8 +199,16 @@ CHANGES = [
     ("TileGrid", lambda w, v: w.add_body(TileGrid([[True]], 8), kind=v), ["dynamic"]),
     ("angle", lambda w, v: w.add_body(TileGrid([[True]], 8), kind="static", angle=v), [0.5]),
     ("positions", lambda w, v: w.add_bodies(BALL, v), ARRAY),
-    ("velocities", lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], v), [a for a in ARRAY if a is not None] + [[(1, 1)]]),
-    ("angles", lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], None, v), ["ab", [1], [NAN, 1], [[1], [2]], ["1", "2"], 5]),
+    (
+        "velocities",
+        lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], v),
+        [a for a in ARRAY if a is not None] + [[(1, 1)]],
+    ),
+    (
+        "angles",
+        lambda w, v: w.add_bodies(BALL, [(0, 0), (1, 1)], None, v),
+        ["ab", [1], [NAN, 1], [[1], [2]], ["1", "2"], 5],
+    ),
     ("kind", lambda w, v: w.add_bodies(BALL, [(0, 0)], kind=v), ["moving", 5]),
     ("shapes", lambda w, v: w.add_bodies(v, [(0, 0)]), [None, 5]),
     ("ids", lambda w, v: w.remove_bodies(v), [[0, 0], [1.7], ["x"], "x", [NAN], [True], None, [None]]),
@@ -162,7 +239,11 @@ CHANGES = [
     ("shapes", lambda w, v: w.body(0).set_shapes(v), [None, 5, "x"]),
     ("TileGrid", lambda w, v: w.body(0).set_shapes(v), [TileGrid([[True]], 8)]),
     ("kind", lambda w, v: w.body(0).set_kind(v), ["x", None, 1]),
-    ("shape", lambda w, v: Character(w, v, (0, 0)), [None, BALL, 5, Polygon.box(4, 4, angle=0.2), Polygon([(0, 0), (5, 0), (0, 5)])]),
+    (
+        "shape",
+        lambda w, v: Character(w, v, (0, 0)),
+        [None, BALL, 5, Polygon.box(4, 4, angle=0.2), Polygon([(0, 0), (5, 0), (0, 5)])],
+    ),
     ("position", lambda w, v: Character(w, BOX, v), VECTOR + [(1e300, 0)]),
     ("filter", lambda w, v: Character(w, BOX, (0, 0), filter=v), [None, 5]),
     ("pushable", lambda w, v: Character(w, BOX, (0, 0), pushable=v), FLAG),
@@ -204,10 +285,14 @@ def test_moves_of_a_character_are_checked():
 
 
 UNDECLARED = [
-    ("sensors", lambda w: w.add_body(BALL, sensor=True)), ("continuous", lambda w: w.add_body(BALL, continuous="swept")),
-    ("rotation", lambda w: w.add_body(BALL, angular_velocity=1.0)), ("response", lambda w: Character(w, BOX, (0, 0))),
-    ("continuous", lambda w: w.add_body(BALL, continuous="ray")), ("rotation", lambda w: w.body(0).apply_torque(1.0)),
-    ("rotation", lambda w: setattr(w.body(0), "angular_velocity", 1.0)), ("response", lambda w: w.body(0).apply_force((1, 0))),
+    ("sensors", lambda w: w.add_body(BALL, sensor=True)),
+    ("continuous", lambda w: w.add_body(BALL, continuous="swept")),
+    ("rotation", lambda w: w.add_body(BALL, angular_velocity=1.0)),
+    ("response", lambda w: Character(w, BOX, (0, 0))),
+    ("continuous", lambda w: w.add_body(BALL, continuous="ray")),
+    ("rotation", lambda w: w.body(0).apply_torque(1.0)),
+    ("rotation", lambda w: setattr(w.body(0), "angular_velocity", 1.0)),
+    ("response", lambda w: w.body(0).apply_force((1, 0))),
 ]
 
 
@@ -233,8 +318,16 @@ def test_removed_bodies_and_strange_handles_say_so():
     world, other = world_of_three(), world_of_three()
     body = world.body(0)
     world.remove_body(body)
-    for call in (lambda: body.position, lambda: body.apply_impulse((1, 0)), lambda: world.remove_body(body), lambda: world.body(0),
-                 lambda: body.move_to((0, 0)), lambda: body.set_shapes(BALL), lambda: body.shapes, lambda: body.tier):
+    for call in (
+        lambda: body.position,
+        lambda: body.apply_impulse((1, 0)),
+        lambda: world.remove_body(body),
+        lambda: world.body(0),
+        lambda: body.move_to((0, 0)),
+        lambda: body.set_shapes(BALL),
+        lambda: body.shapes,
+        lambda: body.tier,
+    ):
         with pytest.raises(KeyError, match="0"):
             call()
     before = state(world)
@@ -248,16 +341,36 @@ def test_changing_a_world_during_its_step_raises():
     world = world_of_three()
     hero = Character(world, BOX, (50, 50))
     body, taken = world.body(0), world.snapshot()
-    calls = [lambda: world.add_body(BALL), lambda: world.add_bodies(BALL, [(0, 0)]), lambda: world.remove_body(1),
-             lambda: world.clear(), lambda: world.step(), lambda: body.move_to((0, 0)), lambda: body.apply_impulse((1, 0)),
-             lambda: body.apply_force((1, 0)), lambda: body.apply_torque(1.0), lambda: setattr(body, "velocity", (1, 0)),
-             lambda: setattr(body, "angular_velocity", 1.0), lambda: setattr(body, "filter", Filter()),
-             lambda: body.set_shapes(BALL), lambda: body.set_kind("static"), lambda: setattr(world, "gravity", (0, 0)),
-             lambda: setattr(world, "wind", (0, 0)), lambda: setattr(world, "solver", "blocking"), lambda: hero.move(1, 0),
-             lambda: setattr(world, "broadphase", BruteForce()), lambda: world.restore(taken), lambda: body.restore(),
-             lambda: hero.move_to((0, 0)), lambda: hero.remove(), lambda: setattr(body, "gravity_scale", 2.0),
-             lambda: world.set_narrowphase(False), lambda: setattr(world.body(2), "tier", "obb"), lambda: setattr(world, "dt", 1.0),
-             lambda: setattr(world, "drag", 1.0)]
+    calls = [
+        lambda: world.add_body(BALL),
+        lambda: world.add_bodies(BALL, [(0, 0)]),
+        lambda: world.remove_body(1),
+        lambda: world.clear(),
+        lambda: world.step(),
+        lambda: body.move_to((0, 0)),
+        lambda: body.apply_impulse((1, 0)),
+        lambda: body.apply_force((1, 0)),
+        lambda: body.apply_torque(1.0),
+        lambda: setattr(body, "velocity", (1, 0)),
+        lambda: setattr(body, "angular_velocity", 1.0),
+        lambda: setattr(body, "filter", Filter()),
+        lambda: body.set_shapes(BALL),
+        lambda: body.set_kind("static"),
+        lambda: setattr(world, "gravity", (0, 0)),
+        lambda: setattr(world, "wind", (0, 0)),
+        lambda: setattr(world, "solver", "blocking"),
+        lambda: hero.move(1, 0),
+        lambda: setattr(world, "broadphase", BruteForce()),
+        lambda: world.restore(taken),
+        lambda: body.restore(),
+        lambda: hero.move_to((0, 0)),
+        lambda: hero.remove(),
+        lambda: setattr(body, "gravity_scale", 2.0),
+        lambda: world.set_narrowphase(False),
+        lambda: setattr(world.body(2), "tier", "obb"),
+        lambda: setattr(world, "dt", 1.0),
+        lambda: setattr(world, "drag", 1.0),
+    ]
     raised = []
 
     class Meddler(BruteForce):
@@ -271,6 +384,7 @@ def test_changing_a_world_during_its_step_raises():
 
         def fresh(self):
             return self
+
     world.broadphase = Meddler()
     world.step()
     assert len(raised) >= len(calls)
@@ -287,6 +401,7 @@ def test_error_inside_a_step_leaves_the_world_usable():
 
         def fresh(self):
             return self
+
     world.broadphase = Broken()
     with pytest.raises(ZeroDivisionError):
         world.step()
@@ -313,8 +428,16 @@ def test_empty_worlds_and_worlds_of_statics_step(name):
     assert len(world.add_bodies(BALL, [])) == 0 and len(world.add_bodies(BALL, np.zeros((0, 2)), kind="static")) == 0
 
 
-@pytest.mark.parametrize("make", [lambda a: a.tolist(), lambda a: a.astype(np.float32), np.asfortranarray,
-                                  lambda a: np.repeat(a, 2, axis=0)[::2], lambda a: a.astype(np.int32)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda a: a.tolist(),
+        lambda a: a.astype(np.float32),
+        np.asfortranarray,
+        lambda a: np.repeat(a, 2, axis=0)[::2],
+        lambda a: a.astype(np.int32),
+    ],
+)
 def test_any_array_of_numbers_gives_the_same_world(make):
     at = np.array([(0, 0), (6, 1), (11, -3), (4, 4)], float)
     worlds = [World(ALL), World(ALL)]

@@ -5,10 +5,26 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, BruteForce, Circle, DynamicTree, Effects, Filter, Polygon, SpatialHashGrid, SweepAndPrune, World
+from physics import (
+    JIT,
+    BruteForce,
+    Circle,
+    DynamicTree,
+    Effects,
+    Filter,
+    Polygon,
+    SpatialHashGrid,
+    SweepAndPrune,
+    World,
+)
 
-STRATEGIES = {"brute": BruteForce, "sweep": SweepAndPrune, "both": lambda: SweepAndPrune(axes="both"),
-              "hash": SpatialHashGrid, "tree": DynamicTree}
+STRATEGIES = {
+    "brute": BruteForce,
+    "sweep": SweepAndPrune,
+    "both": lambda: SweepAndPrune(axes="both"),
+    "hash": SpatialHashGrid,
+    "tree": DynamicTree,
+}
 every_strategy = pytest.mark.parametrize("make", STRATEGIES.values(), ids=STRATEGIES.keys())
 
 
@@ -33,7 +49,9 @@ def test_nothing_moved_tests_nothing(make, spacing):
     world, _ = field(make, 100, spacing)
     world.step()
     used = counters(world)
-    assert (used["pairs_tested"], used["nodes_visited"], used["swaps"], used["reinserts"], used["cells_touched"]) == (0,) * 5
+    assert (used["pairs_tested"], used["nodes_visited"], used["swaps"], used["reinserts"], used["cells_touched"]) == (
+        0,
+    ) * 5
     assert used["candidates"] == len(world.candidates) == (0 if spacing == 20.0 else 342)
 
 
@@ -47,14 +65,22 @@ def test_moving_one_of_many_tests_few(make):
     assert 0 < counters(world)["pairs_tested"] + counters(world)["nodes_visited"] <= limit
 
 
-@pytest.mark.parametrize("name, counter", [("hash", "cells_touched"), ("hash", "reinserts"), ("tree", "reinserts"),
-                                           ("tree", "nodes_visited"), ("sweep", "swaps")])
+@pytest.mark.parametrize(
+    "name, counter",
+    [
+        ("hash", "cells_touched"),
+        ("hash", "reinserts"),
+        ("tree", "reinserts"),
+        ("tree", "nodes_visited"),
+        ("sweep", "swaps"),
+    ],
+)
 def test_work_grows_with_the_moved_and_not_with_all(name, counter):
     work = {}
     for n in (400, 1600) if JIT else (64, 256):
         for k in (8, 32):
             world, ids = field(STRATEGIES[name], n)
-            rows = world.rows(ids[::n // k][:k])
+            rows = world.rows(ids[:: n // k][:k])
             world.bodies["x"][rows] += 23.0
             world.step()
             work[n, k] = counters(world)[counter]
@@ -72,7 +98,7 @@ def test_fast_body_finds_all_in_its_path_and_touches_no_more_than_its_path_is_lo
     n = 1600 if JIT else 400
     world, _ = field(make, n, spacing=16.0, radius=4.0, kind="static")
     fast = world.add_body(Circle(4.0), position=(-8.0, 72.0))
-    world.step()                                  # tables have grown: what is counted is the flight alone
+    world.step()  # tables have grown: what is counted is the flight alone
     fast.velocity = (50 * 16.0 * 60, 0.0)
     world.step()
     side = math.ceil(math.sqrt(n))
@@ -95,7 +121,9 @@ def test_cells_of_a_fast_body_grow_with_its_path(direction):
         world.step()
         fast.velocity = (reach * direction[0], reach * direction[1])
         world.step()
-        seen.append(counters(world)["cells_touched"] + counters(world)["nodes_visited"] + counters(world)["pairs_tested"])
+        seen.append(
+            counters(world)["cells_touched"] + counters(world)["nodes_visited"] + counters(world)["pairs_tested"]
+        )
     assert seen[2] <= 4.0 * seen[0] + 400 and seen[0] <= 16 * 50 + 400, seen
 
 
@@ -122,9 +150,14 @@ def test_tree_stays_low_through_ten_thousand_changes():
     for number in range(changes):
         choice = rng.random()
         if choice < 0.5 or len(ids) < 3:
-            x = number * 3.0 if number % 3 else rng.uniform(0, 1e4)        # also sorted insertions, the worst for a tree
-            ids.append(world.add_body(Circle(rng.uniform(0.5, 20.0)), position=(x, rng.uniform(0, 100)),
-                                      kind="static" if rng.random() < 0.3 else "kinematic").id)
+            x = number * 3.0 if number % 3 else rng.uniform(0, 1e4)  # also sorted insertions, the worst for a tree
+            ids.append(
+                world.add_body(
+                    Circle(rng.uniform(0.5, 20.0)),
+                    position=(x, rng.uniform(0, 100)),
+                    kind="static" if rng.random() < 0.3 else "kinematic",
+                ).id
+            )
         elif choice < 0.7:
             world.remove_body(ids.pop(int(rng.integers(len(ids)))))
         else:
@@ -166,8 +199,12 @@ def test_spawning_and_despawning_for_ever_keeps_the_structure_small(make):
             world.remove_bodies(live[:10])
             live = live[10:]
         world.step()
-        arrays = [a for holder in (world.pairs, world.pairs.arena, world.broadphase) for a in vars(holder).values()
-                  if isinstance(a, np.ndarray)]
+        arrays = [
+            a
+            for holder in (world.pairs, world.pairs.arena, world.broadphase)
+            for a in vars(holder).values()
+            if isinstance(a, np.ndarray)
+        ]
         sizes.append(sum(a.nbytes for a in arrays) + 8 * len(world.pairs.free) + 8 * len(world.pairs.freed))
     assert sizes[-1] <= 1.5 * sizes[100]
 

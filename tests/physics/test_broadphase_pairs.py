@@ -6,9 +6,16 @@ import pytest
 from physics import JIT, BruteForce, DynamicTree, SpatialHashGrid, SweepAndPrune
 from tests.oracles.boxes import touching_pairs
 
-STRATEGIES = {"brute": BruteForce(), "sweep": SweepAndPrune(), "both": SweepAndPrune(axes="both"),
-              "hash": SpatialHashGrid(), "hash_fine": SpatialHashGrid(0.37), "hash_coarse": SpatialHashGrid(500.0),
-              "tree": DynamicTree(), "tree_tight": DynamicTree(0.0)}
+STRATEGIES = {
+    "brute": BruteForce(),
+    "sweep": SweepAndPrune(),
+    "both": SweepAndPrune(axes="both"),
+    "hash": SpatialHashGrid(),
+    "hash_fine": SpatialHashGrid(0.37),
+    "hash_coarse": SpatialHashGrid(500.0),
+    "tree": DynamicTree(),
+    "tree_tight": DynamicTree(0.0),
+}
 every_strategy = pytest.mark.parametrize("strategy", STRATEGIES.values(), ids=STRATEGIES.keys())
 
 
@@ -49,16 +56,29 @@ AWKWARD = {
     "negative": [(-30, -30, -20, -20), (-20, -20, -10, -10), (-25, -25, 5, 5), (-10, -10, 0, 0), (0, 0, 1, 1)],
     "minus zero": [(-0.0, -0.0, 1, 1), (-1, -1, 0.0, 0.0), (-1, -1, -0.0, -0.0)],
     "cell borders": [(16 * i, 16 * j, 16 * i + 16, 16 * j + 16) for i in range(-3, 3) for j in range(-3, 3)],
-    "huge": [(1e12, 1e12, 1e12 + 5, 1e12 + 5), (1e12 + 5, 1e12, 1e12 + 9, 1e12 + 9), (-1e12, -1e12, 1e12, 1e12),
-             (1e12 + 6, 1e12 + 6, 1e12 + 7, 1e12 + 7), (0, 0, 1, 1)],
+    "huge": [
+        (1e12, 1e12, 1e12 + 5, 1e12 + 5),
+        (1e12 + 5, 1e12, 1e12 + 9, 1e12 + 9),
+        (-1e12, -1e12, 1e12, 1e12),
+        (1e12 + 6, 1e12 + 6, 1e12 + 7, 1e12 + 7),
+        (0, 0, 1, 1),
+    ],
     "huge spread": [(-1e12, 0, -1e12 + 1, 1), (1e12, 0, 1e12 + 1, 1), (-2e12, 0, 2e12, 1), (0, 0, 1, 1)] * 2,
     "tiny": [(0, 0, 1e-12, 1e-12), (1e-12, 0, 2e-12, 1e-12), (3e-12, 0, 4e-12, 1e-12), (0, 0, 1, 1)],
     "denormal": [(0, 0, 5e-324, 5e-324), (5e-324, 0, 1e-320, 5e-324), (-1, -1, 0, 0)],
-    "infinite": [(-np.inf, -np.inf, np.inf, np.inf), (0, 0, 1, 1), (np.inf, 0, np.inf, 1), (-np.inf, 0.5, 0, 0.5),
-                 (5, 5, 6, np.inf), (5.5, 100, 6, 101), (2, 2, 3, 3)],
+    "infinite": [
+        (-np.inf, -np.inf, np.inf, np.inf),
+        (0, 0, 1, 1),
+        (np.inf, 0, np.inf, 1),
+        (-np.inf, 0.5, 0, 0.5),
+        (5, 5, 6, np.inf),
+        (5.5, 100, 6, 101),
+        (2, 2, 3, 3),
+    ],
     "all infinite": [(-np.inf, -np.inf, np.inf, np.inf)] * 4,
     "largest doubles": [(-1.7e308, -1.7e308, 1.7e308, 1.7e308), (1e308, 1e308, 1.7e308, 1.7e308), (0, 0, 1, 1)],
-    "thin and long": [(0, 7 * i, 4000, 7 * i + 0.1) for i in range(8)] + [(500 * i, 0, 500 * i + 0.1, 60) for i in range(8)],
+    "thin and long": [(0, 7 * i, 4000, 7 * i + 0.1) for i in range(8)]
+    + [(500 * i, 0, 500 * i + 0.1, 60) for i in range(8)],
 }
 
 
@@ -118,15 +138,24 @@ def test_lists_float32_and_strided_arrays_give_the_same_pairs(strategy):
     lower, upper = np.array([(0, 0), (1, 1), (5, 5)]), np.array([(1, 1), (2, 2), (6, 6)])
     wide = np.zeros((6, 4))
     wide[::2, ::2] = lower
-    for low in (lower.tolist(), lower.astype(np.float32), lower.astype(np.int8), wide[::2, ::2], np.asfortranarray(lower)):
+    for low in (
+        lower.tolist(),
+        lower.astype(np.float32),
+        lower.astype(np.int8),
+        wide[::2, ::2],
+        np.asfortranarray(lower),
+    ):
         assert found(strategy, low, upper) == [(0, 1)]
 
 
 def test_boxes_of_every_size_pair_under_hypothesis():
     hypothesis = pytest.importorskip("hypothesis")
     from hypothesis import strategies as st
+
     number = st.one_of(st.integers(-40, 40).map(float), st.floats(-1e3, 1e3), st.sampled_from([0.0, 16.0, 1e9, -1e9]))
-    box = st.tuples(number, number, st.sampled_from([0.0, 1.0, 16.0, 33.0, 1e6]), st.sampled_from([0.0, 1.0, 16.0, 1e7]))
+    box = st.tuples(
+        number, number, st.sampled_from([0.0, 1.0, 16.0, 33.0, 1e6]), st.sampled_from([0.0, 1.0, 16.0, 1e7])
+    )
 
     @hypothesis.settings(derandomize=True, deadline=None, max_examples=150 if JIT else 25, database=None)
     @hypothesis.given(st.lists(box, max_size=24))
@@ -136,4 +165,5 @@ def test_boxes_of_every_size_pair_under_hypothesis():
         wanted = touching_pairs(lower.tolist(), upper.tolist())
         for name, strategy in STRATEGIES.items():
             assert found(strategy, lower, upper) == wanted, name
+
     check()

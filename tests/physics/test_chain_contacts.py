@@ -5,16 +5,23 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, Bounds, Capsule, Chain, Circle, Material, PixelMask, Polygon, Segment, TileGrid, World, collide)
+from physics import JIT, Bounds, Capsule, Chain, Circle, Material, PixelMask, Polygon, Segment, TileGrid, World, collide
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import hull_of, surface_gap  # noqa: E402
 
 COUNT = 200 if JIT else 30
 FLAT = Chain([(10.0 * k, 0.0) for k in range(21)])
-MOVERS = {"box": Polygon.box(9, 6), "circle": Circle(4), "capsule": Capsule((-4, 0), (4, 0), 3),
-          "upright capsule": Capsule((0, -4), (0, 4), 3), "rounded": Polygon(Polygon.box(6, 4).points, 1.5),
-          "triangle": Polygon([(-6, 3), (6, 3), (0, -5)]), "segment": Segment((-6, 0), (5, 0)), "bounds": Bounds(Circle(4))}
+MOVERS = {
+    "box": Polygon.box(9, 6),
+    "circle": Circle(4),
+    "capsule": Capsule((-4, 0), (4, 0), 3),
+    "upright capsule": Capsule((0, -4), (0, 4), 3),
+    "rounded": Polygon(Polygon.box(6, 4).points, 1.5),
+    "triangle": Polygon([(-6, 3), (6, 3), (0, -5)]),
+    "segment": Segment((-6, 0), (5, 0)),
+    "bounds": Bounds(Circle(4)),
+}
 
 
 def half_height(shape, angle=0.0):
@@ -57,14 +64,16 @@ def test_a_turned_chain_is_as_flat_as_a_straight_one():
                 up = half_height(MOVERS[name]) - 0.01
                 pose = (5 + t * along[0] + up * normal[0], 7 + t * along[1] + up * normal[1], angle)
                 found = collide(FLAT, (5, 7, angle), MOVERS[name], pose)
-                assert found.normal == pytest.approx(normal, abs=1e-9) and found.separations.min() == pytest.approx(-0.01, abs=1e-9)
+                assert found.normal == pytest.approx(normal, abs=1e-9) and found.separations.min() == pytest.approx(
+                    -0.01, abs=1e-9
+                )
 
 
 def test_only_the_front_is_met():
     for name, shape in MOVERS.items():
         assert len(collide(FLAT, (0, 0, 0), shape, (95, -1.0, 0))) > 0 or name == "segment"
         assert len(collide(FLAT, (0, 0, 0), shape, (95, 1.0, 0))) == 0
-    room = Chain([(0, 0), (0, 100), (100, 100), (100, 0)], loop=True)       # counter-clockwise on the screen
+    room = Chain([(0, 0), (0, 100), (100, 100), (100, 0)], loop=True)  # counter-clockwise on the screen
     island = Chain([(0, 0), (100, 0), (100, 100), (0, 100)], loop=True)
     for at, inward in (((50, 3), (0, 1)), ((97, 50), (-1, 0)), ((50, 97), (0, -1)), ((3, 50), (1, 0))):
         assert collide(room, (0, 0, 0), Circle(4), (*at, 0)).normal == pytest.approx(inward)
@@ -133,8 +142,13 @@ def test_a_circle_over_rough_ground_is_exact():
         assert (len(found) > 0) == (gap <= 0.5) or abs(gap - 0.5) < 1e-9
         if len(found):
             assert found.separations.min() == pytest.approx(gap, abs=1e-9)
-            assert surface_gap((np.array([[x, y]]), 4.0), *(found.points[0] + np.array(found.normal) * found.separations[0] / 2)) \
-                == pytest.approx(0, abs=1e-9) or len(found) > 1
+            assert (
+                surface_gap(
+                    (np.array([[x, y]]), 4.0), *(found.points[0] + np.array(found.normal) * found.separations[0] / 2)
+                )
+                == pytest.approx(0, abs=1e-9)
+                or len(found) > 1
+            )
 
 
 def test_open_ends_turn_a_quarter_and_ghosts_smooth():
@@ -144,8 +158,12 @@ def test_open_ends_turn_a_quarter_and_ghosts_smooth():
     assert len(collide(line, (0, 0, 0), Circle(5), (-3, 0.5, 0))) == 0, "behind the line"
     smooth = Chain([(0, 0), (100, 0)], ghosts=((-50, 0), (150, 50)))
     assert len(collide(smooth, (0, 0, 0), Circle(5), (-3, -3, 0))) == 0, "a flat ghost: the corner is not felt"
-    assert collide(smooth, (0, 0, 0), Circle(5), (101, -4, 0)).normal == pytest.approx((1 / math.sqrt(17), -4 / math.sqrt(17)))
-    assert len(collide(smooth, (0, 0, 0), Circle(5), (104, -2, 0))) == 0, "beyond the bend the ghost has nothing that is met"
+    assert collide(smooth, (0, 0, 0), Circle(5), (101, -4, 0)).normal == pytest.approx(
+        (1 / math.sqrt(17), -4 / math.sqrt(17))
+    )
+    assert len(collide(smooth, (0, 0, 0), Circle(5), (104, -2, 0))) == 0, (
+        "beyond the bend the ghost has nothing that is met"
+    )
     box = Polygon.box(10, 10)
     assert collide(line, (0, 0, 0), box, (104, -2, 0)).normal == (1.0, 0.0), "a box is pushed off an open end sideways"
     assert collide(smooth, (0, 0, 0), box, (-4.99, -4, 0)).normal == (0.0, -1.0)
@@ -174,7 +192,9 @@ def test_links_report_themselves_in_worlds():
     for x in (50, 150):
         world.add_body(Polygon.box(10, 10), position=(x, -5), kind="dynamic", gravity_scale=0.0)
     world.step()
-    assert [sorted(set((world.contacts["feature"][world.contacts["body_b"] == body] // 4096).tolist())) for body in (1, 2)] == [[0], [1]]
+    assert [
+        sorted(set((world.contacts["feature"][world.contacts["body_b"] == body] // 4096).tolist())) for body in (1, 2)
+    ] == [[0], [1]]
     links = world.library.tables.links
     assert links["friction"][:2].tolist() == [0.6, 0.0] and links["surface_speed"][:2].tolist() == [0.0, 50.0]
 

@@ -101,7 +101,9 @@ def test_walls_are_felt_on_their_side():
     assert (left.wall, left.x, hero.position[0]) == (-1, -38, 21) and left.grounded
 
 
-@pytest.mark.parametrize("velocity", [(90.0, 0.0), (-77.0, 0.0), (0.0, 55.0), (0.0, -60.0), (50.0, -33.0), (-41.0, 29.0)])
+@pytest.mark.parametrize(
+    "velocity", [(90.0, 0.0), (-77.0, 0.0), (0.0, 55.0), (0.0, -60.0), (50.0, -33.0), (-41.0, 29.0)]
+)
 def test_platform_carries_its_rider_exactly(velocity):
     world = World(EFFECTS)
     platform = world.add_body(Polygon.box(64, 16), position=(32, 72), kind="kinematic", velocity=velocity)
@@ -127,7 +129,12 @@ def test_rider_with_gravity_stays_on_a_platform_that_turns_around():
 
 
 def test_solid_pushes_what_is_in_its_way_in_both_axes():
-    for velocity, start in (((120.0, 0.0), (0, 0)), ((-120.0, 0.0), (200, 0)), ((0.0, 120.0), (100, -100)), ((0.0, -120.0), (100, 100))):
+    for velocity, start in (
+        ((120.0, 0.0), (0, 0)),
+        ((-120.0, 0.0), (200, 0)),
+        ((0.0, 120.0), (100, -100)),
+        ((0.0, -120.0), (100, 100)),
+    ):
         world = World(EFFECTS)
         piston = world.add_body(Polygon.box(40, 40), position=start, kind="kinematic", velocity=velocity)
         hero = Character(world, BOX, (100, 0))
@@ -167,9 +174,14 @@ def test_one_way_opens_from_below_and_drops_on_demand():
     assert inside.move(6, 0).x == 6 and inside.move(0, 2).y == 2, "what is inside it goes through"
 
 
-@pytest.mark.parametrize("rows, slope", [([".......", ".......", "....###", "../####", "#######"], 1.0),
-                                         ([".......", "....../", "...../#", "..../##", "#######"], 1.0),
-                                         ([".......", ".......", ".......", "..12###", "#######"], 0.5)])
+@pytest.mark.parametrize(
+    "rows, slope",
+    [
+        ([".......", ".......", "....###", "../####", "#######"], 1.0),
+        ([".......", "....../", "...../#", "..../##", "#######"], 1.0),
+        ([".......", ".......", ".......", "..12###", "#######"], 0.5),
+    ],
+)
 def test_slopes_are_walked_up_and_down_without_leaving_the_ground(rows, slope):
     for mirrored in (False, True):
         turn = str.maketrans("/\\1234", "\\/4321")
@@ -185,7 +197,9 @@ def test_slopes_are_walked_up_and_down_without_leaving_the_ground(rows, slope):
             moved = hero.move(step, 0)
             heights.append(hero.position[1])
             seen.add(abs(moved.slope))
-            assert moved.grounded and not inside_ground(solid, slopes, 16, int(hero.position[0] - 5), int(hero.position[1] - 10), 10, 20)
+            assert moved.grounded and not inside_ground(
+                solid, slopes, 16, int(hero.position[0] - 5), int(hero.position[1] - 10), 10, 20
+            )
         assert slope in seen and min(heights) <= 54 - 16
         while 10 < hero.position[0] < width - 10:
             moved = hero.move(-step, 0)

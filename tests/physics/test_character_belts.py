@@ -59,7 +59,7 @@ def test_each_link_of_a_chain_has_its_own_speed():
     links = [Material(), belt(90.0), Material()]
     one = stand(world, Chain([(0.0, 200.0), (100.0, 200.0), (200.0, 200.0), (400.0, 200.0)], materials=links), x=120.0)
     walk_for(world, one, 240)
-    assert 199.0 <= one.position[0] <= 203.0       # off the running link, and no further
+    assert 199.0 <= one.position[0] <= 203.0  # off the running link, and no further
     other = stand(World(STACKS), Chain([(0.0, 200.0), (100.0, 200.0), (200.0, 200.0)], materials=links[:2]), x=50.0)
     assert other.surface_speed == 0.0
 
@@ -67,9 +67,9 @@ def test_each_link_of_a_chain_has_its_own_speed():
 def test_he_walks_against_it_and_loses_its_speed_beside_it():
     world = World(CARRIES)
     one = stand(world, Polygon.box(400, 20), x=0.0, position=(0.0, 210.0), material=belt(60.0))
-    walk_for(world, one, 60, dx=-1.0)              # 60 px/s against 60 px/s
+    walk_for(world, one, 60, dx=-1.0)  # 60 px/s against 60 px/s
     assert one.position[0] == pytest.approx(0.0, abs=1.0)
-    one.move(0.0, -5.0)                            # in the air
+    one.move(0.0, -5.0)  # in the air
     place = one.position[0]
     for _ in range(20):
         one.move(0.0, 0.0)
@@ -101,8 +101,9 @@ def test_he_takes_along_who_stands_on_him():
 
 def test_a_belt_that_moves_carries_by_both():
     world = World(CARRIES)
-    lift = world.add_body(Polygon.box(400, 20), kind="kinematic", position=(0.0, 210.0), velocity=(60.0, 0.0),
-                          material=belt(30.0))
+    lift = world.add_body(
+        Polygon.box(400, 20), kind="kinematic", position=(0.0, 210.0), velocity=(60.0, 0.0), material=belt(30.0)
+    )
     one = Character(world, Polygon.box(10, 20), (0.0, 190.0))
     walk_for(world, one, 60)
     assert lift.position[0] == pytest.approx(60.0) and one.position[0] == pytest.approx(90.0, abs=1.0)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from physics import (Capsule, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World)
+from physics import Capsule, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World
 
 EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, one_way=True)
 BOX = Polygon.box(10, 20)
@@ -34,9 +34,13 @@ def play(world, steps, hero, dx=0.0, dy=2.0):
     return told
 
 
-SHAPES = {"box": (Polygon.box(32, 32), 16.0), "circle": (Circle(16), 16.0), "capsule": (Capsule((-12, 0), (12, 0), 10), 10.0),
-          "rounded": (Polygon.box(20, 20, angle=0.0) if False else Polygon([(-8, -8), (8, -8), (8, 8), (-8, 8)], 6), 14.0),
-          "mask": (PixelMask(np.ones((20, 30), bool)), 10.0)}
+SHAPES = {
+    "box": (Polygon.box(32, 32), 16.0),
+    "circle": (Circle(16), 16.0),
+    "capsule": (Capsule((-12, 0), (12, 0), 10), 10.0),
+    "rounded": (Polygon.box(20, 20, angle=0.0) if False else Polygon([(-8, -8), (8, -8), (8, 8), (-8, 8)], 6), 14.0),
+    "mask": (PixelMask(np.ones((20, 30), bool)), 10.0),
+}
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -61,7 +65,7 @@ def test_turned_and_round_bodies_block_where_they_are_and_not_where_their_boxes_
     hero.move(100, 0)
     tip = -14 * math.sqrt(2)
     assert tip - 1 <= hero.position[0] + 5 <= tip
-    beside = Character(world, BOX, (-60, -60 - 10 - 12))       # its feet pass over the sloping flank
+    beside = Character(world, BOX, (-60, -60 - 10 - 12))  # its feet pass over the sloping flank
     beside.move(48, 0)
     assert beside.position[0] == -12
 
@@ -142,7 +146,7 @@ def test_pushes_a_crate_at_the_speed_of_the_move_and_never_faster(speed):
         if n == 89:
             start = crate.position[0]
     assert fastest <= speed * (1 + 1e-9)
-    rubbed = 0.6 * G / 60           # what friction takes in each step, before he pushes again
+    rubbed = 0.6 * G / 60  # what friction takes in each step, before he pushes again
     assert crate.position[0] - start == pytest.approx(speed - rubbed, abs=2.5), "a second of pushing"
     assert abs(crate.angle) < 0.01
     assert hero.position[0] + 5 > crate.position[0] - 12 - 2.5, "and he is right behind it"
@@ -190,6 +194,7 @@ def test_a_plank_tips_under_his_weight():
         hero = Character(world, BOX, (x, -29))
         play(world, 40, hero)
         return plank.angle, hero, plank
+
     left, right = tip(-60)[0], tip(60)[0]
     assert left < -0.05 and right > 0.05
     assert left == pytest.approx(-right, rel=0.3)
@@ -200,13 +205,16 @@ def test_weight_is_mass_times_gravity_and_is_told_in_the_contacts():
     crate = world.add_body(Polygon.box(32, 32), position=(0, -16))
     hero = standing(world, 0, -32, mass=500.0)
     play(world, 60, hero)
-    mine = world.contacts[(world.contacts["body_a"] == crate.id) & (world.contacts["body_b"] == hero.body.id)
-                          | (world.contacts["body_b"] == crate.id) & (world.contacts["body_a"] == hero.body.id)]
+    mine = world.contacts[
+        (world.contacts["body_a"] == crate.id) & (world.contacts["body_b"] == hero.body.id)
+        | (world.contacts["body_b"] == crate.id) & (world.contacts["body_a"] == hero.body.id)
+    ]
     assert mine["normal_impulse"].sum() == pytest.approx(500.0 * G / 60)
     ground = world.contacts[(world.contacts["body_b"] == crate.id) & (world.contacts["body_a"] != hero.body.id)]
     per_second = (32 * 32 + 500.0) * G
-    assert ground["normal_impulse"].sum() == pytest.approx(per_second / 60 * 1.0, rel=0.02) or \
-        ground["normal_impulse"].sum() == pytest.approx(per_second / 15, rel=0.02)
+    assert ground["normal_impulse"].sum() == pytest.approx(per_second / 60 * 1.0, rel=0.02) or ground[
+        "normal_impulse"
+    ].sum() == pytest.approx(per_second / 15, rel=0.02)
 
 
 def test_landing_hands_on_his_momentum():
@@ -252,7 +260,9 @@ def test_a_lift_raises_him_and_the_crate_on_his_head_and_squeezes_him_under_a_ce
     lift.velocity = (0.0, -40.0)
     told = play(world, 90, hero, dy=1.0)
     assert not any(each.squeezed for each in told)
-    assert crate.position[1] == pytest.approx(hero.position[1] - 20, abs=1.5) and hero.position[1] == pytest.approx(-178, abs=1.5)
+    assert crate.position[1] == pytest.approx(hero.position[1] - 20, abs=1.5) and hero.position[1] == pytest.approx(
+        -178, abs=1.5
+    )
     world.add_body(Polygon.box(200, 20), position=(0, crate.position[1] - 30), kind="static")
     assert any(each.squeezed for each in play(world, 30, hero, dy=1.0))
 
@@ -287,7 +297,9 @@ def test_a_crate_that_is_raised_under_a_ceiling_squeezes_him():
 
 def test_one_way_tiles_hold_a_crate_and_a_hero_alike():
     world = World(EFFECTS, gravity=(0, G))
-    world.add_body(TileGrid(np.zeros((1, 10), bool), 16, one_way=np.ones((1, 10), bool)), position=(0, 0), kind="static")
+    world.add_body(
+        TileGrid(np.zeros((1, 10), bool), 16, one_way=np.ones((1, 10), bool)), position=(0, 0), kind="static"
+    )
     crate = world.add_body(Polygon.box(16, 16), position=(40, 40), velocity=(0.0, -400.0), fixed_rotation=True)
     hero = Character(world, BOX, (110, 40))
     speed = -400.0
@@ -329,6 +341,7 @@ def test_snapshot_and_digest_hold_what_a_walk_among_bodies_depends_on():
             world.step()
             digests.append(world.digest())
         return digests
+
     first, second = make(), make()
     assert run(*first, 90) == run(*second, 90)
     taken = first[0].snapshot()

@@ -139,4 +139,6 @@ def test_round_and_turned_solids_stop_a_character_within_a_pixel():
         moved = hero.move(0, 100)
         bottom = hero.position[1] + 10
         assert moved.grounded and -reach - 1 <= bottom <= 0
-        assert not world.overlap(Polygon.box(9, 19), (*hero.position, 0), filter=Filter.ALL)[:-1] or bottom <= -reach + 6
+        assert (
+            not world.overlap(Polygon.box(9, 19), (*hero.position, 0), filter=Filter.ALL)[:-1] or bottom <= -reach + 6
+        )

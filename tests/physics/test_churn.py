@@ -8,11 +8,19 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, BruteForce, Circle, DynamicTree, Effects, Filter, SpatialHashGrid, SweepAndPrune, World)
+from physics import JIT, BruteForce, Circle, DynamicTree, Effects, Filter, SpatialHashGrid, SweepAndPrune, World
 from tests.oracles.boxes import agree
 
 SLOP, DT = 0.16, 1 / 60
-FILTERS = [(1, 0xFFFFFFFF), (2, 0xFFFFFFFF), (4, 1), (4, 6), (0, 0xFFFFFFFF), (1 << 31, 1 << 31), (0xFFFFFFFF, 0xFFFFFFFF)]
+FILTERS = [
+    (1, 0xFFFFFFFF),
+    (2, 0xFFFFFFFF),
+    (4, 1),
+    (4, 6),
+    (0, 0xFFFFFFFF),
+    (1 << 31, 1 << 31),
+    (0xFFFFFFFF, 0xFFFFFFFF),
+]
 MAKERS = (BruteForce, SweepAndPrune, lambda: SweepAndPrune(axes="both"), SpatialHashGrid, DynamicTree)
 
 
@@ -20,21 +28,31 @@ class Twin:
     """What the world should know, in plain lists."""
 
     def __init__(self):
-        self.bodies = {}            # id -> [x, y, vx, vy, radius, kind, filter]
+        self.bodies = {}  # id -> [x, y, vx, vy, radius, kind, filter]
         self.touching = set()
 
     def rectangle(self, body):
         x, y, vx, vy, radius, kind, _ = body
         margin = 0.0 if kind == "static" else SLOP
-        return (min(x, x + DT * vx) - radius - margin, min(y, y + DT * vy) - radius - margin,
-                max(x, x + DT * vx) + radius + margin, max(y, y + DT * vy) + radius + margin)
+        return (
+            min(x, x + DT * vx) - radius - margin,
+            min(y, y + DT * vy) - radius - margin,
+            max(x, x + DT * vx) + radius + margin,
+            max(y, y + DT * vy) + radius + margin,
+        )
 
     def candidates(self):
         found, items = [], [(i, b, self.rectangle(b)) for i, b in sorted(self.bodies.items())]
         for at, (i, b, p) in enumerate(items):
-            for j, c, q in items[at + 1:]:
-                if (p[0] <= q[2] and q[0] <= p[2] and p[1] <= q[3] and q[1] <= p[3]
-                        and not (b[5] == c[5] == "static") and agree(b[6], c[6])):
+            for j, c, q in items[at + 1 :]:
+                if (
+                    p[0] <= q[2]
+                    and q[0] <= p[2]
+                    and p[1] <= q[3]
+                    and q[1] <= p[3]
+                    and not (b[5] == c[5] == "static")
+                    and agree(b[6], c[6])
+                ):
                     found.append((i, j))
         return found
 
@@ -81,7 +99,7 @@ def change(rng, twin, worlds, most):
             world.body(identity).move_to((body[0], body[1]))
     elif choice < 0.75:
         body[0], body[1] = rng.uniform(-40, 40, 2).tolist()
-        for world in worlds:                       # through the column
+        for world in worlds:  # through the column
             row = world.rows([identity])[0]
             world.bodies["x"][row], world.bodies["y"][row] = body[:2]
     elif choice < 0.85:

@@ -29,7 +29,7 @@ def test_boxes_face_to_face_have_two_points():
 @pytest.mark.parametrize("exponent", range(-12, -3))
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_faces_keep_two_points_and_their_normal(exponent, sign):
-    angle = sign * 10.0 ** exponent
+    angle = sign * 10.0**exponent
     found = collide(Polygon.box(1, 1), (0, 0, 0), Polygon.box(1, 1), (0.9, 0, angle))
     assert len(found) == 2
     assert math.hypot(found.normal[0] - 1.0, found.normal[1]) <= abs(angle) + 1e-12
@@ -79,11 +79,19 @@ def test_deep_box_leaves_by_the_nearest_side():
 
 def test_masses_in_closed_form():
     disc, box = mass_of(Circle(3.0, (5, -1)), 2.0), mass_of(Polygon.box(4, 6, (1, 2), 0.7), 3.0)
-    assert (disc.mass, disc.center, disc.inertia) == (2 * math.pi * 9, (5, -1), pytest.approx(2 * math.pi * 81 / 2, rel=1e-14))
+    assert (disc.mass, disc.center, disc.inertia) == (
+        2 * math.pi * 9,
+        (5, -1),
+        pytest.approx(2 * math.pi * 81 / 2, rel=1e-14),
+    )
     assert box.mass == pytest.approx(72) and box.center == pytest.approx((1, 2))
     assert box.inertia == pytest.approx(72 * (16 + 36) / 12, rel=1e-12)
     far = mass_of(Polygon.box(2, 2, (1e8, -1e8)), 1.0)
-    assert (far.mass, far.center, far.inertia) == (pytest.approx(4), pytest.approx((1e8, -1e8)), pytest.approx(8 / 3, rel=1e-9))
+    assert (far.mass, far.center, far.inertia) == (
+        pytest.approx(4),
+        pytest.approx((1e8, -1e8)),
+        pytest.approx(8 / 3, rel=1e-9),
+    )
     both = mass_of((Circle(1.0, (-3, 0)), Circle(1.0, (3, 0))), 1.0)
     assert both.center == (0, 0) and both.inertia == pytest.approx(2 * (math.pi / 2 + 9 * math.pi), rel=1e-14)
     assert mass_of(TileGrid(np.ones((2, 2), bool), 8), 1.0).mass == 0.0
@@ -97,12 +105,19 @@ def test_polygons_of_either_winding_are_the_same_shape():
         assert collide(shape, (0, 0, 0), Circle(1), (5, 5.5, 0)).normal == (0.0, 1.0)
 
 
-@pytest.mark.parametrize("corners, word", [
-    ([(0, 0), (1, 0)], "3..16"), ([(math.cos(t), math.sin(t)) for t in range(17)], "3..16"),
-    ([(0, 0), (10, 0), (5, 2), (5, 10)], "convex"), ([(0, 0), (1, 1), (2, 2)], "line"),
-    ([(0, 0), (1, 0), (1, 0), (0, 1)], "equal"), ([(0, 0), (5, 0), (10, 0), (5, 8)], "line"),
-    ([(math.cos(4 * k * math.pi / 5), math.sin(4 * k * math.pi / 5)) for k in range(5)], "convex"),
-    ([(0, 0), (10, 10), (10, 0), (0, 10)], "convex")])
+@pytest.mark.parametrize(
+    "corners, word",
+    [
+        ([(0, 0), (1, 0)], "3..16"),
+        ([(math.cos(t), math.sin(t)) for t in range(17)], "3..16"),
+        ([(0, 0), (10, 0), (5, 2), (5, 10)], "convex"),
+        ([(0, 0), (1, 1), (2, 2)], "line"),
+        ([(0, 0), (1, 0), (1, 0), (0, 1)], "equal"),
+        ([(0, 0), (5, 0), (10, 0), (5, 8)], "line"),
+        ([(math.cos(4 * k * math.pi / 5), math.sin(4 * k * math.pi / 5)) for k in range(5)], "convex"),
+        ([(0, 0), (10, 10), (10, 0), (0, 10)], "convex"),
+    ],
+)
 def test_polygons_that_are_none_are_refused(corners, word):
     with pytest.raises(ValueError, match=word):
         Polygon(corners)
@@ -111,7 +126,7 @@ def test_polygons_that_are_none_are_refused(corners, word):
 def test_narrowphase_off_makes_a_contact_of_every_aabb_overlap():
     world = World(Effects(narrowphase=False))
     world.add_body(Circle(5.0))
-    world.add_body(Circle(5.0), position=(9.0, 8.0))             # apart as discs
+    world.add_body(Circle(5.0), position=(9.0, 8.0))  # apart as discs
     world.step()
     (contact,) = world.contacts
     assert (contact["normal_x"], contact["normal_y"], contact["separation"]) == (1.0, 0.0, -1.0)

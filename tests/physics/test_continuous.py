@@ -22,7 +22,7 @@ def test_disc_meets_disc_at_the_closed_form_time():
     world.step(1.0)
     assert mover.position[0] == pytest.approx(-3.0 + 200 * 0.012401923788647, abs=1e-12 * 200)
     assert math.hypot(*mover.position) == pytest.approx(0.6, abs=1e-12)
-    assert mover.velocity[0] == pytest.approx(200 - 200 * (0.6 ** 2 - 0.3 ** 2) / 0.36, abs=1e-9), "the tangent is kept"
+    assert mover.velocity[0] == pytest.approx(200 - 200 * (0.6**2 - 0.3**2) / 0.36, abs=1e-9), "the tangent is kept"
 
 
 def test_two_discs_meet_at_nine_tenths():
@@ -46,16 +46,20 @@ def test_disc_meets_box_corner_at_the_closed_form_time():
 @pytest.mark.parametrize("wall", ["box", "tiles", "bounds"])
 def test_box_stops_at_a_wall_where_it_touches(angle, wall):
     world = still_world()
-    shape = {"box": Polygon.box(2, 200), "bounds": Bounds(Polygon.box(2, 200)),
-             "tiles": TileGrid(np.ones((25, 1), bool), 8.0)}[wall]
+    shape = {
+        "box": Polygon.box(2, 200),
+        "bounds": Bounds(Polygon.box(2, 200)),
+        "tiles": TileGrid(np.ones((25, 1), bool), 8.0),
+    }[wall]
     face = 50.0 if wall == "tiles" else 49.0
     world.add_body(shape, position=(50.0, -100.0 if wall == "tiles" else 0.0), kind="static")
     box = world.add_body(Polygon.box(6, 4), angle=angle, velocity=(60 * 300.0, 0.0), continuous="swept")
     world.step()
     reach = 3 * abs(math.cos(angle)) + 2 * abs(math.sin(angle))
     assert box.position == pytest.approx((face - reach, 0.0), abs=1e-9)
-    assert len(world.events.begin) == 1 and world.events.begin["normal_x"][0] == pytest.approx(1.0 * (
-        1 if world.events.begin["body_a"][0] == box.id else -1))
+    assert len(world.events.begin) == 1 and world.events.begin["normal_x"][0] == pytest.approx(
+        1.0 * (1 if world.events.begin["body_a"][0] == box.id else -1)
+    )
     assert world.events.hits["speed"].tolist() == pytest.approx([60 * 300.0])
 
 
@@ -74,8 +78,15 @@ def random_shots(mode, seed, kind, effects=FAST, count=1000):
             world.add_body(Circle(3.0), position=(0.0, y), kind="static")
         shape = Circle(float(rng.uniform(0.1, 2))) if rng.random() < 0.5 else Polygon.box(*rng.uniform(0.2, 2.5, 2))
         speed = rng.uniform(30, 3000) * 60
-        behind.append(world.add_body(shape, position=(-20.0 - rng.uniform(0, 30), y + rng.uniform(-0.5, 0.5)),
-                                     angle=rng.uniform(0, 7), velocity=(speed, 0.0), continuous=mode).id)
+        behind.append(
+            world.add_body(
+                shape,
+                position=(-20.0 - rng.uniform(0, 30), y + rng.uniform(-0.5, 0.5)),
+                angle=rng.uniform(0, 7),
+                velocity=(speed, 0.0),
+                continuous=mode,
+            ).id
+        )
     met = set()
     for _ in range(4):
         world.step()
@@ -140,7 +151,9 @@ def test_landing_at_an_angle_keeps_the_speed_along_the_floor(speed):
     ball = world.add_body(Circle(4.0), position=(100.0, -60.0), velocity=(speed, speed))
     for _ in range(30):
         world.step()
-    assert ball.velocity == pytest.approx((speed, 0.0), abs=1e-6 * speed) and ball.position[1] == pytest.approx(-4, abs=0.2)
+    assert ball.velocity == pytest.approx((speed, 0.0), abs=1e-6 * speed) and ball.position[1] == pytest.approx(
+        -4, abs=0.2
+    )
 
 
 def test_fast_body_that_starts_in_contact_moves_away_freely():

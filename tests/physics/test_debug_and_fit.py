@@ -5,7 +5,20 @@ import math
 import numpy as np
 import pytest
 
-from physics import BROADPHASES, Bounds, Circle, Effects, PixelMask, Polygon, SweepAndPrune, TileGrid, World, debug, fit, warmup
+from physics import (
+    BROADPHASES,
+    Bounds,
+    Circle,
+    Effects,
+    PixelMask,
+    Polygon,
+    SweepAndPrune,
+    TileGrid,
+    World,
+    debug,
+    fit,
+    warmup,
+)
 
 
 def ragged(seed, shape=(19, 27)):
@@ -17,7 +30,9 @@ def ragged(seed, shape=(19, 27)):
 
 def corners_of(mask):
     rows, columns = np.nonzero(mask.solid)
-    return np.concatenate([np.stack([columns + i, rows + j], axis=1) for i in (0, 1) for j in (0, 1)]) - np.array(mask.origin)
+    return np.concatenate([np.stack([columns + i, rows + j], axis=1) for i in (0, 1) for j in (0, 1)]) - np.array(
+        mask.origin
+    )
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -74,7 +89,11 @@ def test_structures_cover_what_they_keep(name):
     assert structure.kind == name and len(motion) == len(world.bodies)
     middles = (motion[:, :2] + motion[:, 2:]) / 2
     if name in ("hash", "tree"):
-        held = ((structure.rects[:, None, :2] <= middles) & (structure.rects[:, None, 2:] >= middles)).all(axis=2).any(axis=0)
+        held = (
+            ((structure.rects[:, None, :2] <= middles) & (structure.rects[:, None, 2:] >= middles))
+            .all(axis=2)
+            .any(axis=0)
+        )
         assert held.all() and len(structure.rects) == len(structure.depth)
     if name == "sweep":
         for axis in (0, 1):
@@ -116,6 +135,10 @@ def test_outlines_of_every_kind_of_shape():
 def test_warm_up_reports_each_piece_and_the_end(effects):
     seen = []
     warmup(effects, "hash", progress=lambda done, total, name: seen.append((done, total, name)))
-    assert [done for done, _, _ in seen] == list(range(len(seen))) and seen[-1] == (len(seen) - 1, len(seen) - 1, "ready")
+    assert [done for done, _, _ in seen] == list(range(len(seen))) and seen[-1] == (
+        len(seen) - 1,
+        len(seen) - 1,
+        "ready",
+    )
     with pytest.raises(KeyError):
         warmup(effects, "quadtree")

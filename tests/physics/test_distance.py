@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, collide, distance)
+from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, collide, distance
 from physics.distance import gjk_steps
-from physics.narrowphase.gjk import (AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_room, walk_to_nearest)
+from physics.narrowphase.gjk import AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_room, walk_to_nearest
 from physics.narrowphase.separation import separate
 from tests.oracles import hulls
 
@@ -16,7 +16,7 @@ ORIGIN = (0.0, 0.0, 0.0)
 
 def room_for(points):
     padded = np.zeros((16, 2))
-    padded[:len(points)] = points
+    padded[: len(points)] = points
     return padded
 
 
@@ -26,7 +26,7 @@ def gap_of(a, b, room=None, start=(0, 0)):
     found = separate(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, *start, room)
     gap = room.gap
     assert room.state[CAPPED] == 0
-    return float(found), gap[NX:NY + 1].copy(), gap[AX:AY + 1].copy(), gap[BX:BY + 1].copy()
+    return float(found), gap[NX : NY + 1].copy(), gap[AX : AY + 1].copy(), gap[BX : BY + 1].copy()
 
 
 def check_certificates(a, b, room):
@@ -36,7 +36,9 @@ def check_certificates(a, b, room):
     assert abs(math.hypot(*normal) - 1.0) <= 1e-12
     assert abs(hulls.projected_gap(a, b, normal) - found) <= 1e-12 * size, "the normal parts them by the distance"
     for point, outline in ((on_a, a), (on_b, b)):
-        assert (point >= outline.min(axis=0) - 1e-12 * size).all() and (point <= outline.max(axis=0) + 1e-12 * size).all()
+        assert (point >= outline.min(axis=0) - 1e-12 * size).all() and (
+            point <= outline.max(axis=0) + 1e-12 * size
+        ).all()
     if found > 0.0:
         assert found <= math.hypot(*(on_b - on_a)) + 1e-12 * size
         assert abs(found - hulls.corner_to_edge(a, b)) <= 1e-12 * size
@@ -50,8 +52,12 @@ def fuzz(seed, pairs, slimmest):
     """C13: random pairs; returns the share of hits and the rounds of those that are apart."""
     rng, room, hits, rounds = np.random.default_rng(seed), new_gap_room(), 0, []
     for _ in range(pairs):
-        a, b = (hulls.random_outline(rng, rng.integers(3, 17), 10.0 ** -rng.uniform(0, slimmest), 10.0 ** rng.uniform(-0.5, 0.5))
-                for _ in range(2))
+        a, b = (
+            hulls.random_outline(
+                rng, rng.integers(3, 17), 10.0 ** -rng.uniform(0, slimmest), 10.0 ** rng.uniform(-0.5, 0.5)
+            )
+            for _ in range(2)
+        )
         hit = check_certificates(a, b + rng.uniform(-1.1, 1.1, 2), room)
         hits += hit
         if not hit:
@@ -84,13 +90,16 @@ def test_point_beyond_the_short_edge_of_a_plank(half):
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_small_gaps_and_overlaps_keep_sign_and_normal(exponent, sign):
     """C3, C9: a gap down to 1e-15 has a unit normal, its face's, and is exact to 1e-12 of the size."""
-    gap = sign * 10.0 ** exponent
+    gap = sign * 10.0**exponent
     box, disc = Polygon.box(2, 2), Circle(1.0)
     for a, pose_a, b, pose_b, normal in (
-            (box, ORIGIN, box, (2.0 + gap, 0.25, 0.0), (1, 0)), (box, ORIGIN, disc, (0.25, 2.0 + gap, 0.0), (0, 1)),
-            (disc, ORIGIN, disc, (2.0 + gap, 0.0, 0.0), (1, 0)), (box, (0, 0, math.pi / 2), box, (0.3, -2.0 - gap, 0.0), (0, -1)),
-            (Polygon([(-1, -1), (1, -1), (1, 1), (0, 1.5), (-1, 1)]), ORIGIN, box, (2.0 + gap, -0.5, 0.0), (1, 0)),
-            (Capsule((0, -1), (0, 1), 1.0), ORIGIN, box, (2.0 + gap, 0.0, 0.0), (1, 0))):
+        (box, ORIGIN, box, (2.0 + gap, 0.25, 0.0), (1, 0)),
+        (box, ORIGIN, disc, (0.25, 2.0 + gap, 0.0), (0, 1)),
+        (disc, ORIGIN, disc, (2.0 + gap, 0.0, 0.0), (1, 0)),
+        (box, (0, 0, math.pi / 2), box, (0.3, -2.0 - gap, 0.0), (0, -1)),
+        (Polygon([(-1, -1), (1, -1), (1, 1), (0, 1.5), (-1, 1)]), ORIGIN, box, (2.0 + gap, -0.5, 0.0), (1, 0)),
+        (Capsule((0, -1), (0, 1), 1.0), ORIGIN, box, (2.0 + gap, 0.0, 0.0), (1, 0)),
+    ):
         found = distance(a, pose_a, b, pose_b)
         assert found.distance == pytest.approx(gap, abs=2e-12)
         assert found.normal == pytest.approx(normal, abs=1e-9) and abs(math.hypot(*found.normal) - 1.0) < 1e-12
@@ -99,7 +108,7 @@ def test_small_gaps_and_overlaps_keep_sign_and_normal(exponent, sign):
 
 def test_signed_distance_is_monotone_through_touching():
     box, hexagon = Polygon.box(2, 2), Polygon([(math.cos(k), math.sin(k)) for k in np.arange(6) * math.pi / 3])
-    gaps = sorted([0.0] + [s * 10.0 ** -k for k in range(1, 16) for s in (-1, 1)])
+    gaps = sorted([0.0] + [s * 10.0**-k for k in range(1, 16) for s in (-1, 1)])
     for a, b, reach in ((box, box, 2.0), (box, Circle(1.0), 2.0), (hexagon, box, 2.0), (hexagon, hexagon, 2.0)):
         found = [distance(a, ORIGIN, b, (reach + gap, 0.0, 0.0)).distance for gap in gaps]
         assert all(p <= q for p, q in zip(found, found[1:]))
@@ -116,9 +125,17 @@ def test_squares_overlap_alike_from_every_start():
                 assert found == pytest.approx(-0.1, abs=1e-15) and normal.tolist() == [0.0, 1.0]
 
 
-@pytest.mark.parametrize("shape, depth", [(Polygon.box(2, 6), 2.0), (Circle(3.0), 6.0), (Capsule((-5, 0), (5, 0), 2.0), 4.0),
-                                          (Polygon([(0, 0), (4, 0), (0, 3)]), 2.4), (Segment((-5, 0), (5, 1)), 0.0),
-                                          (Polygon([(-1, -3), (1, -3), (1, 3), (-1, 3)], 0.5), 3.0)])
+@pytest.mark.parametrize(
+    "shape, depth",
+    [
+        (Polygon.box(2, 6), 2.0),
+        (Circle(3.0), 6.0),
+        (Capsule((-5, 0), (5, 0), 2.0), 4.0),
+        (Polygon([(0, 0), (4, 0), (0, 3)]), 2.4),
+        (Segment((-5, 0), (5, 1)), 0.0),
+        (Polygon([(-1, -3), (1, -3), (1, 3), (-1, 3)], 0.5), 3.0),
+    ],
+)
 def test_identical_shapes_at_one_place(shape, depth):
     """C7, B6: the depth is the least width, with a unit normal."""
     for pose in (ORIGIN, (3.0, -7.0, 0.7)):
@@ -130,9 +147,16 @@ def test_identical_shapes_at_one_place(shape, depth):
 def test_hulls_on_one_line_and_points():
     """Minkowski differences without area."""
     line, point = np.array([(-1.0, 0.0), (1.0, 0.0)]), np.zeros((1, 2))
-    for a, b, gap in ((line, line + (3.0, 0.0), 1.0), (line, line + (2.0, 0.0), 0.0), (line, line + (0.5, 0.0), 0.0),
-                      (line, point, 0.0), (point, point, 0.0), (point, line + (0.0, 1e-300), 1e-300), (line, line, 0.0),
-                      (line * 1e-12, line * 1e-12 + (1.0, 0.0), 1.0 - 2e-12)):
+    for a, b, gap in (
+        (line, line + (3.0, 0.0), 1.0),
+        (line, line + (2.0, 0.0), 0.0),
+        (line, line + (0.5, 0.0), 0.0),
+        (line, point, 0.0),
+        (point, point, 0.0),
+        (point, line + (0.0, 1e-300), 1e-300),
+        (line, line, 0.0),
+        (line * 1e-12, line * 1e-12 + (1.0, 0.0), 1.0 - 2e-12),
+    ):
         found, normal, _, _ = gap_of(a, b)
         assert found == pytest.approx(gap, abs=1e-15) and abs(math.hypot(*normal) - 1.0) < 1e-12
 
@@ -176,9 +200,16 @@ def test_disc_and_box_in_closed_form(angle):
     """C14: deep, edge and corner, just touching, under turns: 1e-9 on all counts."""
     box, disc, radius = Polygon.box(6.0, 4.0), Circle(1.5), 1.5
     c, s = math.cos(angle), math.sin(angle)
-    for u, v, gap, normal in ((5.0, 0.5, 0.5, (1, 0)), (4.51, 0.0, 0.01, (1, 0)), (4.49, 0.0, -0.01, (1, 0)),
-                              (2.0, 0.1, -2.5, (1, 0)), (0.0, -1.0, -2.5, (0, -1)), (4.0, 3.0, math.sqrt(2) - 1.5, (0.5 ** 0.5, 0.5 ** 0.5)),
-                              (-3.0, -5.0, 1.5, (0, -1)), (-6.0, -6.0, 5.0 - radius, (-0.6, -0.8))):
+    for u, v, gap, normal in (
+        (5.0, 0.5, 0.5, (1, 0)),
+        (4.51, 0.0, 0.01, (1, 0)),
+        (4.49, 0.0, -0.01, (1, 0)),
+        (2.0, 0.1, -2.5, (1, 0)),
+        (0.0, -1.0, -2.5, (0, -1)),
+        (4.0, 3.0, math.sqrt(2) - 1.5, (0.5**0.5, 0.5**0.5)),
+        (-3.0, -5.0, 1.5, (0, -1)),
+        (-6.0, -6.0, 5.0 - radius, (-0.6, -0.8)),
+    ):
         x, y = 3.0 + c * u - s * v, -4.0 + s * u + c * v
         found = distance(box, (3.0, -4.0, angle), disc, (x, y, 1.0))
         assert found.distance == pytest.approx(gap, abs=1e-9)
@@ -191,7 +222,9 @@ def test_unit_box_in_a_big_one_leaves_by_the_least_translation():
     big, small = Polygon.box(100, 100), Polygon.box(1, 1)
     assert distance(big, ORIGIN, small, ORIGIN).distance == pytest.approx(-50.5, abs=1e-9)
     for x, y in rng.uniform(-49, 49, (40, 2)):
-        assert distance(big, ORIGIN, small, (x, y, 0.0)).distance == pytest.approx(-(50.5 - max(abs(x), abs(y))), abs=1e-9)
+        assert distance(big, ORIGIN, small, (x, y, 0.0)).distance == pytest.approx(
+            -(50.5 - max(abs(x), abs(y))), abs=1e-9
+        )
 
 
 def shape_of(kind, rng):
@@ -244,13 +277,16 @@ def test_distance_is_not_positive_exactly_where_collide_finds_a_contact(kind_a, 
         assert turned.normal == (0.0 - found.normal[0], 0.0 - found.normal[1]), case
         assert abs(math.hypot(*found.normal) - 1.0) <= 1e-12
         if math.isfinite(found.distance):
-            assert found.point_b == pytest.approx(np.add(found.point_a, np.multiply(found.distance, found.normal)), abs=1e-12)
+            assert found.point_b == pytest.approx(
+                np.add(found.point_a, np.multiply(found.distance, found.normal)), abs=1e-12
+            )
 
 
 def outline_of(shape, pose):
     from shapely.geometry import LineString, MultiLineString, Point
 
     from tests.oracles import outlines
+
     if isinstance(shape, Circle):
         return Point(*outlines.placed([shape.center], pose)[0]), shape.radius
     if isinstance(shape, Polygon):
@@ -263,8 +299,11 @@ def outline_of(shape, pose):
     if isinstance(shape, TileGrid):
         return outlines.tiles(shape.solid.tolist(), shape.slopes.tolist(), shape.tile_size, *pose[:2]), 0.0
     turned = shape.turned(pose[2])
-    return outlines.pixels(turned.solid.tolist(), math.floor(pose[0] - turned.origin[0] + 0.5),
-                           math.floor(pose[1] - turned.origin[1] + 0.5)), 0.0
+    return outlines.pixels(
+        turned.solid.tolist(),
+        math.floor(pose[0] - turned.origin[0] + 0.5),
+        math.floor(pose[1] - turned.origin[1] + 0.5),
+    ), 0.0
 
 
 @pytest.mark.parametrize("kind_a", KINDS[:-1])
@@ -300,7 +339,7 @@ def test_chain_has_only_a_front_and_an_empty_mask_is_nowhere():
 
 @pytest.mark.parametrize("exponent", [-20, -3, 20])
 def test_scaled_by_a_power_of_two_distances_scale_to_the_bit(exponent):
-    rng, scale = np.random.default_rng(9), 2.0 ** exponent
+    rng, scale = np.random.default_rng(9), 2.0**exponent
     room = new_gap_room()
     for _ in range(300 if JIT else 40):
         a, b = (hulls.random_outline(rng, rng.integers(1, 17), 10.0 ** -rng.uniform(0, 3)) for _ in range(2))
@@ -321,7 +360,8 @@ def test_gjk_steps_end_at_the_distance():
     hexagon, box = Polygon([(5 * math.cos(k), 5 * math.sin(k)) for k in np.arange(6) * math.pi / 3]), Polygon.box(4, 4)
     apart, deep = gjk_steps(hexagon, ORIGIN, box, (9, 2, 0.4)), gjk_steps(hexagon, ORIGIN, box, (3, 2, 0.4))
     assert {each["phase"] for each in apart} == {"gjk"} and apart[-1]["distance"] == pytest.approx(
-        distance(hexagon, ORIGIN, box, (9, 2, 0.4)).distance)
+        distance(hexagon, ORIGIN, box, (9, 2, 0.4)).distance
+    )
     assert [each["phase"] for each in deep] == sorted((each["phase"] for each in deep), reverse=True)
     assert deep[-1]["distance"] == pytest.approx(distance(hexagon, ORIGIN, box, (3, 2, 0.4)).distance)
     assert len(deep[-1]["polytope"]) >= 3
@@ -334,9 +374,15 @@ def test_gjk_steps_end_at_the_distance():
         gjk_steps(Chain([(0, 0), (1, 0)]), ORIGIN, box, ORIGIN)
 
 
-@pytest.mark.parametrize("a, pose, error, words", [
-    ("ball", ORIGIN, TypeError, "shape_a"), (Circle(1), (0, 0), TypeError, "pose_a"), (Circle(1), (0, math.nan, 0), ValueError, "pose_a"),
-    (TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 0.1), ValueError, "pose_a")])
+@pytest.mark.parametrize(
+    "a, pose, error, words",
+    [
+        ("ball", ORIGIN, TypeError, "shape_a"),
+        (Circle(1), (0, 0), TypeError, "pose_a"),
+        (Circle(1), (0, math.nan, 0), ValueError, "pose_a"),
+        (TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 0.1), ValueError, "pose_a"),
+    ],
+)
 def test_wrong_arguments_are_named(a, pose, error, words):
     with pytest.raises(error, match=words):
         distance(a, pose, Circle(1), ORIGIN)

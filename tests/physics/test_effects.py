@@ -12,12 +12,23 @@ import pytest
 from physics import JIT, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World
 
 ROOT = Path(__file__).resolve().parents[2]
-NEEDED = {"gravity": "integrate_velocities", "drag": "integrate_velocities", "wind": "integrate_velocities",
-          "continuous": "time_of_impact", "response": "projection"}
+NEEDED = {
+    "gravity": "integrate_velocities",
+    "drag": "integrate_velocities",
+    "wind": "integrate_velocities",
+    "continuous": "time_of_impact",
+    "response": "projection",
+}
 
 
 def test_a_stage_that_no_effect_needs_is_absent():
-    assert World(Effects()).stages == ["motion_rectangles", "broad_phase", "integrate_positions", "narrow_phase", "events"]
+    assert World(Effects()).stages == [
+        "motion_rectangles",
+        "broad_phase",
+        "integrate_positions",
+        "narrow_phase",
+        "events",
+    ]
     for effect, stage in NEEDED.items():
         assert stage in World(Effects(**{effect: True})).stages and stage not in World(Effects()).stages
     blocking = World(Effects(response=True), solver="blocking")
@@ -32,10 +43,16 @@ def crowd(effects, steps=30, **options):
     world = World(effects, gravity=(0, 0), **options)
     rng = np.random.default_rng(3)
     smooth = Material(friction=0.0, restitution=0.0)
-    world.add_bodies(Circle(6.0), rng.uniform(0, 90, (25, 2)), rng.uniform(-40, 40, (25, 2)), material=smooth,
-                     fixed_rotation=True)
-    world.add_bodies(PixelMask(np.ones((6, 5), bool)), rng.uniform(0, 90, (8, 2)), rng.uniform(-40, 40, (8, 2)),
-                     material=smooth, fixed_rotation=True)
+    world.add_bodies(
+        Circle(6.0), rng.uniform(0, 90, (25, 2)), rng.uniform(-40, 40, (25, 2)), material=smooth, fixed_rotation=True
+    )
+    world.add_bodies(
+        PixelMask(np.ones((6, 5), bool)),
+        rng.uniform(0, 90, (8, 2)),
+        rng.uniform(-40, 40, (8, 2)),
+        material=smooth,
+        fixed_rotation=True,
+    )
     world.add_body(TileGrid(np.ones((1, 6), bool), 16), position=(0, 95), kind="static", material=smooth)
     digests = []
     for _ in range(steps if JIT else 8):
@@ -45,8 +62,10 @@ def crowd(effects, steps=30, **options):
 
 
 @pytest.mark.parametrize("base", [Effects(), Effects(response=True)], ids=["detection", "response"])
-@pytest.mark.parametrize("unused", ["gravity", "drag", "wind", "rotation", "continuous", "sensors", "persist", "friction",
-                                    "restitution", "one_way"])
+@pytest.mark.parametrize(
+    "unused",
+    ["gravity", "drag", "wind", "rotation", "continuous", "sensors", "persist", "friction", "restitution", "one_way"],
+)
 def test_an_effect_that_is_declared_and_not_used_changes_no_bit(base, unused):
     if unused in ("friction", "restitution", "one_way") and not base.response:
         pytest.skip("needs response")
@@ -78,8 +97,19 @@ def two_circles(world):
 
 def test_counters_of_what_is_not_declared_are_zero():
     used = counters_of(Effects(), two_circles)
-    for name in ("toi_calls", "solver_rows", "tangent_rows", "restitution_rows", "mask_tests", "sensor_tests", "gjk_iterations",
-                 "joints_solved", "islands", "carved_pixels", "cap_hits"):
+    for name in (
+        "toi_calls",
+        "solver_rows",
+        "tangent_rows",
+        "restitution_rows",
+        "mask_tests",
+        "sensor_tests",
+        "gjk_iterations",
+        "joints_solved",
+        "islands",
+        "carved_pixels",
+        "cap_hits",
+    ):
         assert used[name] == 0, name
     assert used["narrow_tests"] == used["candidates"] == used["contacts"] == 1 and used["bodies_integrated"] == 2
 
@@ -90,7 +120,9 @@ def test_counters_follow_use_and_not_declaration():
     plain = counters_of(rough, lambda w: w.add_bodies(Circle(5.0), [(0, 0), (8, 0)], material=smooth), gravity=(0, 0))
     assert plain["tangent_rows"] == plain["restitution_rows"] == plain["toi_calls"] == plain["sensor_tests"] == 0
     assert plain["solver_rows"] > 0 and plain["mask_tests"] == 0
-    rubbing = counters_of(rough, lambda w: w.add_bodies(Circle(5.0), [(0, 0), (8, 0)], [(300, 0), (0, 0)]), steps=1, gravity=(0, 0))
+    rubbing = counters_of(
+        rough, lambda w: w.add_bodies(Circle(5.0), [(0, 0), (8, 0)], [(300, 0), (0, 0)]), steps=1, gravity=(0, 0)
+    )
     assert rubbing["tangent_rows"] > 0
     watched = counters_of(rough, lambda w: w.add_bodies(Circle(5.0), [(0, 0), (8, 0)], sensor=True), gravity=(0, 0))
     assert watched["sensor_tests"] == 1 and watched["solver_rows"] == 0
@@ -99,9 +131,26 @@ def test_counters_follow_use_and_not_declaration():
 
 
 def test_every_counter_is_always_there():
-    names = {"bodies_integrated", "nodes_visited", "pairs_tested", "candidates", "filtered", "narrow_tests", "mask_tests",
-             "contacts", "toi_calls", "solver_rows", "tangent_rows", "restitution_rows", "gjk_iterations", "cap_hits",
-             "sensor_tests", "joints_solved", "islands", "carved_pixels"}
+    names = {
+        "bodies_integrated",
+        "nodes_visited",
+        "pairs_tested",
+        "candidates",
+        "filtered",
+        "narrow_tests",
+        "mask_tests",
+        "contacts",
+        "toi_calls",
+        "solver_rows",
+        "tangent_rows",
+        "restitution_rows",
+        "gjk_iterations",
+        "cap_hits",
+        "sensor_tests",
+        "joints_solved",
+        "islands",
+        "carved_pixels",
+    }
     for world in (World(Effects()), World()):
         assert names <= set(world.profile.counters)
         assert all(isinstance(v, int) and v == 0 for v in world.profile.counters.values())
@@ -146,8 +195,14 @@ print(json.dumps(sorted({f.py_func.__name__ for f in jit.registry if f.signature
 
 
 def compiled(effects, shapes="circles"):
-    found = subprocess.run([sys.executable, "-c", SCRIPT, json.dumps(effects), shapes], cwd=ROOT, capture_output=True, text=True,
-                           env={**os.environ, "PYTHONPATH": str(ROOT)}, timeout=300)
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT, json.dumps(effects), shapes],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        timeout=300,
+    )
     assert found.returncode == 0, found.stderr
     return set(json.loads(found.stdout))
 
@@ -156,9 +211,22 @@ def compiled(effects, shapes="circles"):
 def test_kernels_of_absent_stages_are_not_compiled():
     lean = compiled({})
     assert "find_all" in lean and "collide_circle_pairs" in lean
-    for name in ("integrate_velocities", "project", "find_impacts", "stop_at_impacts", "stay_behind", "carry_and_push", "walk",
-                 "collide_mask_pairs", "collide_polygon_pairs", "collide_grid_pairs", "find_in_trees", "find_in_cells",
-                 "sweep_one", "cast_ray_at_rows"):
+    for name in (
+        "integrate_velocities",
+        "project",
+        "find_impacts",
+        "stop_at_impacts",
+        "stay_behind",
+        "carry_and_push",
+        "walk",
+        "collide_mask_pairs",
+        "collide_polygon_pairs",
+        "collide_grid_pairs",
+        "find_in_trees",
+        "find_in_cells",
+        "sweep_one",
+        "cast_ray_at_rows",
+    ):
         assert name not in lean, name
     full = compiled({"response": True, "gravity": True, "continuous": True}, "masks")
     assert {"integrate_velocities", "project", "find_impacts", "collide_mask_pairs"} <= full

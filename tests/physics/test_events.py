@@ -3,7 +3,18 @@
 import numpy as np
 import pytest
 
-from physics import (JIT, BruteForce, Circle, DynamicTree, Effects, Filter, Polygon, SpatialHashGrid, SweepAndPrune, World)
+from physics import (
+    JIT,
+    BruteForce,
+    Circle,
+    DynamicTree,
+    Effects,
+    Filter,
+    Polygon,
+    SpatialHashGrid,
+    SweepAndPrune,
+    World,
+)
 
 WATCH = Effects(response=True, sensors=True, persist=True, continuous=True, restitution=True)
 
@@ -21,19 +32,28 @@ def test_every_begin_has_exactly_one_end(effects, seed):
     for step in range(150 if JIT else 40):
         if len(world.bodies) < 25:
             shape = Circle(float(rng.uniform(2, 9))) if rng.random() < 0.5 else Polygon.box(*rng.uniform(3, 16, 2))
-            world.add_body(shape, position=tuple(rng.uniform(0, 70, 2)), velocity=tuple(rng.normal(0, 200, 2)),
-                           sensor=bool(rng.random() < 0.3), kind="kinematic" if rng.random() < 0.2 else "dynamic")
+            world.add_body(
+                shape,
+                position=tuple(rng.uniform(0, 70, 2)),
+                velocity=tuple(rng.normal(0, 200, 2)),
+                sensor=bool(rng.random() < 0.3),
+                kind="kinematic" if rng.random() < 0.2 else "dynamic",
+            )
         if rng.random() < 0.3 and len(world.bodies) > 5:
             world.remove_body(int(rng.choice(world.bodies["id"])))
         if rng.random() < 0.2:
             world.body(int(rng.choice(world.bodies["id"]))).set_shapes(Circle(6.0))
         if rng.random() < 0.2:
-            world.body(int(rng.choice(world.bodies["id"]))).filter = Filter(int(rng.integers(0, 4)), int(rng.integers(1, 4)))
+            world.body(int(rng.choice(world.bodies["id"]))).filter = Filter(
+                int(rng.integers(0, 4)), int(rng.integers(1, 4))
+            )
         if step == 60:
             world.restore(world.snapshot())
         world.step()
-        for kept, begin, end in ((touching, world.events.begin, world.events.end),
-                                 (sensing, world.events.sensor_begin, world.events.sensor_end)):
+        for kept, begin, end in (
+            (touching, world.events.begin, world.events.end),
+            (sensing, world.events.sensor_begin, world.events.sensor_end),
+        ):
             begin, end = keys(begin), keys(end)
             assert len(set(begin)) == len(begin) and len(set(end)) == len(end) and not set(begin) & set(end)
             assert begin == sorted(begin) and end == sorted(end) and all(a < b for a, b in begin)
@@ -166,13 +186,16 @@ def test_undeclared_events_are_empty_arrays_of_their_type():
 
 def test_contacts_describe_the_final_poses():
     from physics import collide
+
     world = World(Effects())
     world.add_body(Circle(5), velocity=(60, 0))
     world.add_body(Polygon.box(10, 10), position=(11, 1), angle=0.4)
     world.step()
     found = collide(Circle(5), (1, 0, 0), Polygon.box(10, 10), (11, 1, 0.4))
     (contact,) = world.contacts
-    assert contact["separation"] == found.separations[0] and (contact["point_x"], contact["point_y"]) == tuple(found.points[0])
+    assert contact["separation"] == found.separations[0] and (contact["point_x"], contact["point_y"]) == tuple(
+        found.points[0]
+    )
 
 
 def test_reading_events_later_does_not_change_them():

@@ -100,7 +100,9 @@ def test_depth_and_gap_are_exact_and_the_points_lie_between_the_surfaces(kinds):
     assert 0.1 * COUNT < hits
 
 
-@pytest.mark.parametrize("kinds", [("capsule", "segment"), ("rounded", "capsule"), ("polygon", "segment")], ids="-".join)
+@pytest.mark.parametrize(
+    "kinds", [("capsule", "segment"), ("rounded", "capsule"), ("polygon", "segment")], ids="-".join
+)
 @pytest.mark.parametrize("turns", [1, 3])
 def test_quarter_turns_turn_the_manifold(kinds, turns):
     rng = np.random.default_rng(turns)
@@ -130,8 +132,11 @@ def test_boxes_far_away_have_the_same_manifold():
     assert len(found) == 2 and found.separations == pytest.approx([-0.1, -0.1], abs=1e-8)
 
 
-@pytest.mark.parametrize("shape", [Polygon.box(10, 4), Polygon.box(10, 4).__class__(Polygon.box(10, 4).points, 1.0),
-                                   Capsule((-5, 0), (5, 0), 2)], ids=["box", "rounded", "capsule"])
+@pytest.mark.parametrize(
+    "shape",
+    [Polygon.box(10, 4), Polygon.box(10, 4).__class__(Polygon.box(10, 4).points, 1.0), Capsule((-5, 0), (5, 0), 2)],
+    ids=["box", "rounded", "capsule"],
+)
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
     """B2, over all orders of magnitude, lying on each other with the overhang on either side."""
@@ -139,9 +144,9 @@ def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
     for shift in (0.0, 3.0, -3.0):
         features = set()
         for exponent in range(-12, -2):
-            found = collide(shape, (0, 0, 0), shape, (shift, thick - 0.1, sign * 10.0 ** exponent))
+            found = collide(shape, (0, 0, 0), shape, (shift, thick - 0.1, sign * 10.0**exponent))
             assert len(found) == 2, exponent
-            assert math.hypot(found.normal[0], found.normal[1] - 1) <= 10.0 ** exponent + 1e-12
+            assert math.hypot(found.normal[0], found.normal[1] - 1) <= 10.0**exponent + 1e-12
             features.add(tuple(sorted(found.features.tolist())))
         assert len(features) <= 2
 
@@ -149,7 +154,9 @@ def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
 def test_features_persist_while_a_body_slides():
     ground, found = Polygon.box(200, 10), set()
     for shape in (Polygon.box(8, 8), Capsule((-4, 0), (4, 0), 4), Polygon(Polygon.box(6, 6).points, 1.0)):
-        seen = {tuple(collide(ground, (0, 0, 0), shape, (x, -8.9, 0)).features.tolist()) for x in np.linspace(-80, 80, 50)}
+        seen = {
+            tuple(collide(ground, (0, 0, 0), shape, (x, -8.9, 0)).features.tolist()) for x in np.linspace(-80, 80, 50)
+        }
         assert len(seen) == 1
         found |= seen
     assert found
@@ -181,7 +188,9 @@ def test_lines_end_to_end_touch_only_where_they_meet():
             at = along * (10 + gap)
             assert len(collide(line, (0, 0, angle), line, (*at, angle))) == 0
             near = collide(line, (0, 0, angle), line, (*at, angle), margin=gap + 1e-6)
-            assert near.separations == pytest.approx([gap], abs=1e-9) and near.normal == pytest.approx(tuple(along), abs=1e-5)
+            assert near.separations == pytest.approx([gap], abs=1e-9) and near.normal == pytest.approx(
+                tuple(along), abs=1e-5
+            )
     assert len(collide(line, (0, 0, 0), line, (10, 0, 0))) >= 1
     assert collide(Segment((-1, 1), (-1, -1)), (0, 0, 0), Segment((2, 0), (1, 0)), (0, 0, 0), 9).separations.min() == 2
 
@@ -189,10 +198,15 @@ def test_lines_end_to_end_touch_only_where_they_meet():
 def test_needles_never_miss_each_other():
     """B10: thin shapes at small angles, against exact arithmetic over their corners."""
     from fractions import Fraction
+
     rng = np.random.default_rng(4)
     needle = Polygon.box(100, 0.001)
     for _ in range(COUNT):
-        pose = (float(rng.uniform(-0.01, 0.01)), float(rng.uniform(-0.002, 0.002)), math.radians(float(rng.choice([0.001, 1e-4, 0.01]))))
+        pose = (
+            float(rng.uniform(-0.01, 0.01)),
+            float(rng.uniform(-0.002, 0.002)),
+            math.radians(float(rng.choice([0.001, 1e-4, 0.01]))),
+        )
         p, q = hull_of(needle, (0, 0, 0))[0], hull_of(needle, pose)[0]
         apart = False
         for one, two in ((p, q), (q, p)):
@@ -222,7 +236,7 @@ def test_rounded_corners_meet_at_the_distance_of_their_cores():
 
 @pytest.mark.parametrize("power", [-40, -20, 20])
 def test_scaling_by_a_power_of_two_scales_the_manifold_to_the_bit(power):
-    rng, scale = np.random.default_rng(9), 2.0 ** power
+    rng, scale = np.random.default_rng(9), 2.0**power
     for kinds in PAIRS:
         a, b = (random_shape(kind, rng) for kind in kinds)
         pose_a, pose_b = ((*rng.uniform(-4, 4, 2), float(rng.uniform(-7, 7))) for _ in range(2))

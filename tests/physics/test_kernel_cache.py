@@ -24,8 +24,14 @@ print(sum(sum(each.stats.cache_hits.values()) for each in registry),
 
 
 def hits_and_misses(folder, cache):
-    run = subprocess.run([sys.executable, "-c", ASK], cwd=folder, capture_output=True, text=True, check=True,
-                         env={**os.environ, "PYTHONPATH": str(folder), "HITBOX_CACHE_DIR": str(cache)})
+    run = subprocess.run(
+        [sys.executable, "-c", ASK],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": str(folder), "HITBOX_CACHE_DIR": str(cache)},
+    )
     return [int(word) for word in run.stdout.split()[-2:]]
 
 
@@ -34,12 +40,14 @@ def hits_and_misses(folder, cache):
 def test_a_copy_elsewhere_finds_what_was_compiled(tmp_path):
     first, second, cache = tmp_path / "first", tmp_path / "second", tmp_path / "cache"
     for folder in (first, second):
-        shutil.copytree(SOURCES, folder / "physics", ignore=shutil.ignore_patterns("__pycache__"), copy_function=shutil.copy)
+        shutil.copytree(
+            SOURCES, folder / "physics", ignore=shutil.ignore_patterns("__pycache__"), copy_function=shutil.copy
+        )
     for path in second.rglob("*.py"):
         os.utime(path, (1, 1))
     hits, misses = hits_and_misses(first, cache)
     assert hits == 0 and misses > 5
-    found, anew = hits_and_misses(second, cache)       # what a kernel calls comes with it: fewer are looked for
+    found, anew = hits_and_misses(second, cache)  # what a kernel calls comes with it: fewer are looked for
     assert found > 5 and anew == 0
     changed = second / "physics" / "jit.py"
     changed.write_text(changed.read_text() + "\n# another version\n")

@@ -87,8 +87,10 @@ def test_mask_and_polygon_area_counts_the_pixels_that_share_area(seed):
         at = (*rng.uniform(-6, 12, 2), 0.0)
         pentagon = outlines.polygon(corners, at)
         left, top = pose[0] - mask.origin[0], pose[1] - mask.origin[1]
-        shared = [outlines.box(left + i, top + j, left + i + 1, top + j + 1).intersection(pentagon).area
-                  for j, i in zip(*np.nonzero(mask.solid))]
+        shared = [
+            outlines.box(left + i, top + j, left + i + 1, top + j + 1).intersection(pentagon).area
+            for j, i in zip(*np.nonzero(mask.solid))
+        ]
         if all(a == 0.0 or a > 1e-9 for a in shared):
             assert collide(mask, pose, Polygon(corners), at).area == sum(a > 0.0 for a in shared)
 

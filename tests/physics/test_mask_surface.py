@@ -89,8 +89,16 @@ def test_later_changes_of_surface_or_array_do_not_reach_the_mask():
         mask.solid[0, 0] = False
 
 
-@pytest.mark.parametrize("make", [lambda a: a.tolist(), lambda a: a.astype(np.uint8), lambda a: a.astype(np.int64) * 5,
-                                  np.asfortranarray, lambda a: np.repeat(np.repeat(a, 2, 0), 2, 1)[::2, ::2]])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda a: a.tolist(),
+        lambda a: a.astype(np.uint8),
+        lambda a: a.astype(np.int64) * 5,
+        np.asfortranarray,
+        lambda a: np.repeat(np.repeat(a, 2, 0), 2, 1)[::2, ::2],
+    ],
+)
 def test_any_array_of_truth_makes_the_same_mask(make):
     solid = np.random.default_rng(1).random((9, 70)) < 0.5
     solid_again = make(solid)

@@ -34,8 +34,9 @@ def check_pair(a, a_left, a_top, b, b_left, b_top):
     depth = -float(found.separations.min())
     assert 0.0 < depth <= least_overlap(bounds(a.tolist(), a_left, a_top), bounds(b.tolist(), b_left, b_top))
     x, y, angle = at(mask_b, b_left, b_top)
-    out = collide(mask_a, at(mask_a, a_left, a_top), mask_b,
-                  (x + depth * found.normal[0], y + depth * found.normal[1], angle))
+    out = collide(
+        mask_a, at(mask_a, a_left, a_top), mask_b, (x + depth * found.normal[0], y + depth * found.normal[1], angle)
+    )
     assert len(out) == 0, f"moving B by {depth} along {found.normal} does not end the overlap"
     return True
 
@@ -46,7 +47,9 @@ def test_random_masks_hit_as_the_double_loop_says(seed):
     hits = 0
     count = 250 if JIT else 12
     for _ in range(count):
-        wa, ha, wb, hb = (int(rng.choice(WIDTHS[:7])) if rng.random() < 0.5 else int(rng.integers(1, 40)) for _ in range(4))
+        wa, ha, wb, hb = (
+            int(rng.choice(WIDTHS[:7])) if rng.random() < 0.5 else int(rng.integers(1, 40)) for _ in range(4)
+        )
         density = rng.choice([0.02, 0.2, 0.5, 0.9, 1.0], 2)
         a, b = rng.random((ha, wa)) < density[0], rng.random((hb, wb)) < density[1]
         hits += check_pair(a, 0, 0, b, int(rng.integers(-wb - 2, wa + 3)), int(rng.integers(-hb - 2, ha + 3)))
@@ -124,8 +127,8 @@ def test_whole_pixel_tier_misses_its_known_share_of_true_overlaps():
     n = 40_000 if JIT else 3_000
     positions = rng.uniform(-32, 32, (n, 2))
     probe = [bool(max(abs(math.floor(x + 0.5)), abs(math.floor(y + 0.5))) < 32) for x, y in positions]
-    seen = [len(collide(square, (0, 0, 0), square, (x, y, 0))) > 0 for x, y in positions[:300 if JIT else 100]]
-    assert seen == probe[:len(seen)]
+    seen = [len(collide(square, (0, 0, 0), square, (x, y, 0))) > 0 for x, y in positions[: 300 if JIT else 100]]
+    assert seen == probe[: len(seen)]
     missed = 1.0 - sum(probe) / n
     assert missed == pytest.approx(1 - (63 / 64) ** 2, abs=3.5 * math.sqrt(0.031 * 0.969 / n))
 
@@ -168,8 +171,8 @@ def test_large_masks_count_and_weigh_without_overflow():
     assert collide(big, at(big, 0, 0), big, at(big, 0, 0)).area == 4096 * 4096
     world = World(Effects())
     body = world.add_body(big)
-    assert body.mass == 4096.0 ** 2
-    assert body.inertia == pytest.approx(4096.0 ** 4 / 6.0, rel=1e-12)
+    assert body.mass == 4096.0**2
+    assert body.inertia == pytest.approx(4096.0**4 / 6.0, rel=1e-12)
 
 
 def test_world_and_collide_find_the_same_mask_hits():

@@ -13,7 +13,7 @@ def drawn(mask, angle, size=120):
     turned = mask.turned(angle)
     canvas = np.zeros((size, size), bool)
     left, top = size // 2 - round(turned.origin[0]), size // 2 - round(turned.origin[1])
-    canvas[top:top + turned.solid.shape[0], left:left + turned.solid.shape[1]] = turned.solid
+    canvas[top : top + turned.solid.shape[0], left : left + turned.solid.shape[1]] = turned.solid
     return canvas
 
 
@@ -45,7 +45,7 @@ def test_quarter_turns_are_exact(turns):
 
 def test_quarter_turn_carries_the_origin_along():
     solid = np.zeros((4, 6), bool)
-    solid[0, 5] = True                       # top right: its centre is (5.5, 0.5), from the origin (4.5, -1.5)
+    solid[0, 5] = True  # top right: its centre is (5.5, 0.5), from the origin (4.5, -1.5)
     mask = PixelMask(solid, origin=(1.0, 2.0))
     for turns in range(4):
         turned = mask.turned(turns * math.pi / 2)

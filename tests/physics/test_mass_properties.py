@@ -8,7 +8,7 @@ import pytest
 from physics import Capsule, Circle, Material, PixelMask, Polygon, Segment, World, mass_of
 from tests.stability.piles import floor, metres, pile_effects
 
-pytest.importorskip("shapely")         # the outlines' oracle stands on it
+pytest.importorskip("shapely")  # the outlines' oracle stands on it
 from tests.oracles import outlines  # noqa: E402
 
 NAN, INF = math.nan, math.inf
@@ -25,26 +25,32 @@ def test_disc_and_box_in_closed_form_wherever_they_are(center):
     close(mass_of((Circle(1.0, center),), 1.0), math.pi, center, math.pi / 2)
     for angle in (0.0, 0.7):
         found = mass_of((Polygon.box(2, 2, center, angle),), 1.0)
-        assert found.mass == pytest.approx(4.0, rel=1e-12) and found.inertia == pytest.approx(8 / 3, rel=1e-9 if center[0] > 99 else 1e-12)
+        assert found.mass == pytest.approx(4.0, rel=1e-12) and found.inertia == pytest.approx(
+            8 / 3, rel=1e-9 if center[0] > 99 else 1e-12
+        )
     assert mass_of((Polygon.box(3, 0.5),), 2.0).inertia == pytest.approx(3.0 * (9 + 0.25) / 12, rel=1e-12)
 
 
 def test_offset_box_is_the_box_about_its_own_centre():
     plain, moved = mass_of((Polygon.box(3, 1),), 1.0), mass_of((Polygon.box(3, 1, (40, -20)),), 1.0)
-    assert moved.inertia == pytest.approx(plain.inertia, rel=1e-12) and moved.center == pytest.approx((40, -20), rel=1e-14)
+    assert moved.inertia == pytest.approx(plain.inertia, rel=1e-12) and moved.center == pytest.approx(
+        (40, -20), rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("length, radius", [(2.0, 1.0), (10.0, 0.25), (1e-3, 1.0), (300.0, 1.5)])
 def test_capsule_in_closed_form_and_between_its_bounds(length, radius):
     found = mass_of((Capsule((0, 0), (length, 0), radius),), 1.0)
-    box, disc = 2 * radius * length, math.pi * radius ** 2
+    box, disc = 2 * radius * length, math.pi * radius**2
     half = 4 * radius / (3 * math.pi)
-    cap = disc / 2 * (radius ** 2 / 2 - half ** 2 + (length / 2 + half) ** 2)
-    close(found, box + disc, (length / 2, 0), box * (length ** 2 + 4 * radius ** 2) / 12 + 2 * cap)
+    cap = disc / 2 * (radius**2 / 2 - half**2 + (length / 2 + half) ** 2)
+    close(found, box + disc, (length / 2, 0), box * (length**2 + 4 * radius**2) / 12 + 2 * cap)
     inner, outer = (mass_of((Polygon.box(each, 2 * radius),), 1.0) for each in (length, length + 2 * radius))
     assert inner.mass < found.mass < outer.mass and inner.inertia < found.inertia < outer.inertia
     turned = mass_of((Capsule((5, 5), (5 + length * 0.6, 5 - length * 0.8), radius),), 1.0)
-    assert turned.inertia == pytest.approx(found.inertia, rel=1e-11) and turned.mass == pytest.approx(found.mass, rel=1e-12)
+    assert turned.inertia == pytest.approx(found.inertia, rel=1e-11) and turned.mass == pytest.approx(
+        found.mass, rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -68,12 +74,20 @@ def test_polygons_equal_the_fan_of_their_triangles(seed):
 @pytest.mark.parametrize("width, height, radius", [(2.0, 1.0, 0.25), (4.0, 4.0, 2.0), (1.0, 0.1, 0.01)])
 def test_rounded_box_is_core_strips_and_quarters(width, height, radius):
     found = mass_of((Polygon([(0, 0), (width, 0), (width, height), (0, height)], radius=radius),), 1.0)
-    core = width * height * (width ** 2 + height ** 2) / 12
-    strips = sum(2 * a * radius * ((a ** 2 + radius ** 2) / 12 + ((b + radius) / 2) ** 2) for a, b in ((width, height), (height, width)))
-    quarter, off = math.pi * radius ** 2 / 4, 4 * radius / (3 * math.pi)
-    own = quarter * radius ** 2 / 2 - 2 * quarter * off ** 2
+    core = width * height * (width**2 + height**2) / 12
+    strips = sum(
+        2 * a * radius * ((a**2 + radius**2) / 12 + ((b + radius) / 2) ** 2)
+        for a, b in ((width, height), (height, width))
+    )
+    quarter, off = math.pi * radius**2 / 4, 4 * radius / (3 * math.pi)
+    own = quarter * radius**2 / 2 - 2 * quarter * off**2
     corners = 4 * (own + quarter * ((width / 2 + off) ** 2 + (height / 2 + off) ** 2))
-    close(found, width * height + 2 * (width + height) * radius + math.pi * radius ** 2, (width / 2, height / 2), core + strips + corners)
+    close(
+        found,
+        width * height + 2 * (width + height) * radius + math.pi * radius**2,
+        (width / 2, height / 2),
+        core + strips + corners,
+    )
 
 
 def test_parts_of_one_body_add_up_about_their_common_centre():
@@ -82,7 +96,9 @@ def test_parts_of_one_body_add_up_about_their_common_centre():
     close(parts, whole.mass, whole.center, whole.inertia)
     world = metres(gravity=(0, 0))
     body = world.add_body(Circle(1.0, (-3, 0)), Circle(1.0, (3, 0)), position=(10, 5), angle=0.5)
-    assert body.center == pytest.approx((10, 5), abs=1e-12) and body.inertia == pytest.approx(math.pi + 2 * math.pi * 9, rel=1e-12)
+    assert body.center == pytest.approx((10, 5), abs=1e-12) and body.inertia == pytest.approx(
+        math.pi + 2 * math.pi * 9, rel=1e-12
+    )
     body.apply_impulse((0.0, body.mass), (10 + 3 * math.cos(0.5), 5 + 3 * math.sin(0.5)))
     assert body.angular_velocity == pytest.approx(3 * math.cos(0.5) * body.mass / body.inertia, rel=1e-12)
 
@@ -91,7 +107,7 @@ def test_parts_of_one_body_add_up_about_their_common_centre():
 def test_rectangle_of_pixels_weighs_as_a_box(width, height):
     """Pixels are squares, not points: each adds a^4 / 6."""
     found = mass_of((PixelMask(np.ones((height, width), bool)),), 2.0)
-    close(found, 2.0 * width * height, (0.0, 0.0), 2.0 * width * height * (width ** 2 + height ** 2) / 12)
+    close(found, 2.0 * width * height, (0.0, 0.0), 2.0 * width * height * (width**2 + height**2) / 12)
 
 
 def test_mask_weighs_as_the_union_of_its_squares():
@@ -99,9 +115,16 @@ def test_mask_weighs_as_the_union_of_its_squares():
     solid = rng.random((9, 14)) < 0.6
     found = mass_of((PixelMask(solid, origin=(0, 0)),), 1.0)
     truth = outlines.pixels(solid, 0, 0)
-    assert found.mass == pytest.approx(truth.area, rel=1e-12) and found.center == pytest.approx((truth.centroid.x, truth.centroid.y), rel=1e-12)
+    assert found.mass == pytest.approx(truth.area, rel=1e-12) and found.center == pytest.approx(
+        (truth.centroid.x, truth.centroid.y), rel=1e-12
+    )
     cx, cy = found.center
-    own = sum(1 / 6 + (i + 0.5 - cx) ** 2 + (j + 0.5 - cy) ** 2 for j, row in enumerate(solid) for i, on in enumerate(row) if on)
+    own = sum(
+        1 / 6 + (i + 0.5 - cx) ** 2 + (j + 0.5 - cy) ** 2
+        for j, row in enumerate(solid)
+        for i, on in enumerate(row)
+        if on
+    )
     assert found.inertia == pytest.approx(own, rel=1e-12)
 
 

@@ -150,7 +150,10 @@ def test_quarter_turn_of_both_turns_the_manifold(pair, turns):
         a = Circle(4.0, (1, 2)) if pair == "circles" else Polygon.box(7, 3)
         b = Polygon.box(4, 4, (1, 0)) if pair == "boxes" else Circle(3.0)
         pose_a, pose_b = random_pose(rng, 4), random_pose(rng, 4)
-        one, two = collide(a, pose_a, b, pose_b), collide(a, turned_quarter(pose_a, turns), b, turned_quarter(pose_b, turns))
+        one, two = (
+            collide(a, pose_a, b, pose_b),
+            collide(a, turned_quarter(pose_a, turns), b, turned_quarter(pose_b, turns)),
+        )
         assert len(one) == len(two)
         if len(one):
             assert two.separations == pytest.approx(one.separations, abs=1e-12)
@@ -165,7 +168,7 @@ def test_moving_both_far_away_changes_the_manifold_by_rounding_only():
     for _ in range(COUNT // 3):
         a, b, pose_a, pose_b = Polygon.box(9, 5), Polygon.box(6, 6), random_pose(rng, 4), random_pose(rng, 4)
         one = collide(a, pose_a, b, pose_b)
-        far = [(p[0] + 2.0 ** 23, p[1] - 2.0 ** 23, p[2]) for p in (pose_a, pose_b)]
+        far = [(p[0] + 2.0**23, p[1] - 2.0**23, p[2]) for p in (pose_a, pose_b)]
         two = collide(a, far[0], b, far[1])
         if len(one) and one.separations.min() < -1e-6:
             assert two.normal == pytest.approx(one.normal, abs=1e-6) or len(two) > 0

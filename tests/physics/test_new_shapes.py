@@ -5,8 +5,25 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, Bounds, Capsule, Chain, Character, Circle, Effects, Material, PixelMask, Polygon, Segment, Snapshot,
-                     TileGrid, World, collide, debug, mass_of)
+from physics import (
+    JIT,
+    Bounds,
+    Capsule,
+    Chain,
+    Character,
+    Circle,
+    Effects,
+    Material,
+    PixelMask,
+    Polygon,
+    Segment,
+    Snapshot,
+    TileGrid,
+    World,
+    collide,
+    debug,
+    mass_of,
+)
 from physics.narrowphase.axes import sat_axes
 
 shapely = pytest.importorskip("shapely")
@@ -17,38 +34,41 @@ TRIANGLE = ((0, 0), (10, 0), (0, 10))
 ROUNDED = Polygon(TRIANGLE, 2.0)
 
 
-@pytest.mark.parametrize("make, error, words", [
-    (lambda: Capsule((1, 2), (1, 2), 3), ValueError, ("a and b", "Circle")),
-    (lambda: Capsule((0, 0), (1e-9, 0), 3), ValueError, ("a and b",)),
-    (lambda: Capsule((0, 0), (9, 0), 0), ValueError, ("radius", "> 0")),
-    (lambda: Capsule((0, NAN), (9, 0), 1), ValueError, ("a[1]", "nan", "finite")),
-    (lambda: Capsule((0, 0), "b", 1), TypeError, ("b",)),
-    (lambda: Segment((1, 1), (1, 1)), ValueError, ("a and b", "length")),
-    (lambda: Segment((0, 0), (math.inf, 1)), ValueError, ("b[0]", "inf")),
-    (lambda: Polygon(TRIANGLE, -1), ValueError, ("radius", ">= 0", "-1")),
-    (lambda: Polygon(TRIANGLE, NAN), ValueError, ("radius", "nan")),
-    (lambda: Polygon(((0, 0), (1e-12, 0), (5, 5), (0, 5))), ValueError, ("equal",)),
-    (lambda: Polygon(((0, 0), (10, 0), (20, 1e-13))), ValueError, ("line",)),
-    (lambda: Polygon([(math.cos(k), math.sin(k)) for k in np.linspace(0, 6, 17)], 1), ValueError, ("3..16", "17")),
-    (lambda: Chain([(0, 0)]), ValueError, ("points", "2", "1")),
-    (lambda: Chain([]), ValueError, ("points", "2")),
-    (lambda: Chain([(0, 0), (1, 0)], loop=True), ValueError, ("points", "3")),
-    (lambda: Chain([(0, 0), (1, 0), (1, 0)]), ValueError, ("points[1] and points[2]",)),
-    (lambda: Chain([(0, 0), (1, 0), (1, 1), (0, 0)], loop=True), ValueError, ("points[3] and points[0]", "closes")),
-    (lambda: Chain([(0, 0), (1, NAN)]), ValueError, ("points[1]", "finite")),
-    (lambda: Chain([(0, 0), (1, 1)], ghosts=((0, 1),)), TypeError, ("ghosts", "pair")),
-    (lambda: Chain([(0, 0), (1, 1)], ghosts=((0, 0), None)), ValueError, ("ghosts[0]",)),
-    (lambda: Chain([(0, 0), (1, 1), (2, 0)], loop=True, ghosts=((0, 1), (3, 1))), ValueError, ("ghosts", "loop")),
-    (lambda: Chain([(0, 0), (1, 1)], materials=(Material(), Material())), ValueError, ("materials", "1", "2")),
-    (lambda: Chain([(0, 0), (1, 1)], materials=("ice",)), TypeError, ("materials[0]", "ice")),
-    (lambda: Chain([(0, 0), (1, 1)], loop=1), TypeError, ("loop",)),
-    (lambda: Bounds(Segment((0, 0), (1, 1))), TypeError, ("shape", "Capsule")),
-    (lambda: Material(rolling_resistance=-0.1), ValueError, ("rolling_resistance", ">= 0")),
-    (lambda: Material(surface_speed=math.inf), ValueError, ("surface_speed", "inf")),
-    (lambda: World().add_body(Chain([(0, 0), (1, 1)])), ValueError, ("Chain", "static or kinematic")),
-    (lambda: World().add_body(Segment((0, 0), (1, 1))), ValueError, ("Segment", "mass")),
-    (lambda: World().add_body(Chain([(0, 0), (1, 1)]), kind="static").set_kind("dynamic"), ValueError, ("Chain",)),
-])
+@pytest.mark.parametrize(
+    "make, error, words",
+    [
+        (lambda: Capsule((1, 2), (1, 2), 3), ValueError, ("a and b", "Circle")),
+        (lambda: Capsule((0, 0), (1e-9, 0), 3), ValueError, ("a and b",)),
+        (lambda: Capsule((0, 0), (9, 0), 0), ValueError, ("radius", "> 0")),
+        (lambda: Capsule((0, NAN), (9, 0), 1), ValueError, ("a[1]", "nan", "finite")),
+        (lambda: Capsule((0, 0), "b", 1), TypeError, ("b",)),
+        (lambda: Segment((1, 1), (1, 1)), ValueError, ("a and b", "length")),
+        (lambda: Segment((0, 0), (math.inf, 1)), ValueError, ("b[0]", "inf")),
+        (lambda: Polygon(TRIANGLE, -1), ValueError, ("radius", ">= 0", "-1")),
+        (lambda: Polygon(TRIANGLE, NAN), ValueError, ("radius", "nan")),
+        (lambda: Polygon(((0, 0), (1e-12, 0), (5, 5), (0, 5))), ValueError, ("equal",)),
+        (lambda: Polygon(((0, 0), (10, 0), (20, 1e-13))), ValueError, ("line",)),
+        (lambda: Polygon([(math.cos(k), math.sin(k)) for k in np.linspace(0, 6, 17)], 1), ValueError, ("3..16", "17")),
+        (lambda: Chain([(0, 0)]), ValueError, ("points", "2", "1")),
+        (lambda: Chain([]), ValueError, ("points", "2")),
+        (lambda: Chain([(0, 0), (1, 0)], loop=True), ValueError, ("points", "3")),
+        (lambda: Chain([(0, 0), (1, 0), (1, 0)]), ValueError, ("points[1] and points[2]",)),
+        (lambda: Chain([(0, 0), (1, 0), (1, 1), (0, 0)], loop=True), ValueError, ("points[3] and points[0]", "closes")),
+        (lambda: Chain([(0, 0), (1, NAN)]), ValueError, ("points[1]", "finite")),
+        (lambda: Chain([(0, 0), (1, 1)], ghosts=((0, 1),)), TypeError, ("ghosts", "pair")),
+        (lambda: Chain([(0, 0), (1, 1)], ghosts=((0, 0), None)), ValueError, ("ghosts[0]",)),
+        (lambda: Chain([(0, 0), (1, 1), (2, 0)], loop=True, ghosts=((0, 1), (3, 1))), ValueError, ("ghosts", "loop")),
+        (lambda: Chain([(0, 0), (1, 1)], materials=(Material(), Material())), ValueError, ("materials", "1", "2")),
+        (lambda: Chain([(0, 0), (1, 1)], materials=("ice",)), TypeError, ("materials[0]", "ice")),
+        (lambda: Chain([(0, 0), (1, 1)], loop=1), TypeError, ("loop",)),
+        (lambda: Bounds(Segment((0, 0), (1, 1))), TypeError, ("shape", "Capsule")),
+        (lambda: Material(rolling_resistance=-0.1), ValueError, ("rolling_resistance", ">= 0")),
+        (lambda: Material(surface_speed=math.inf), ValueError, ("surface_speed", "inf")),
+        (lambda: World().add_body(Chain([(0, 0), (1, 1)])), ValueError, ("Chain", "static or kinematic")),
+        (lambda: World().add_body(Segment((0, 0), (1, 1))), ValueError, ("Segment", "mass")),
+        (lambda: World().add_body(Chain([(0, 0), (1, 1)]), kind="static").set_kind("dynamic"), ValueError, ("Chain",)),
+    ],
+)
 def test_what_is_no_shape_is_refused_by_name(make, error, words):
     with pytest.raises(error) as refused:
         make()
@@ -63,7 +83,7 @@ def test_shapes_compare_by_value_and_stand_once_in_the_library():
     assert len(world.library.outlines) == 3 and len(world.library.chain_shapes) == 1
     assert Capsule((0, 0), (4, 0), 1) == Capsule([0, 0], [4, 0], 1.0) != Capsule((0, 0), (4, 0), 2)
     assert Polygon(TRIANGLE) != Polygon(TRIANGLE, 1.0) and Polygon(TRIANGLE)
-    world.add_body(Circle(2), Segment((0, 0), (9, 0)))            # a segment beside what has mass
+    world.add_body(Circle(2), Segment((0, 0), (9, 0)))  # a segment beside what has mass
 
 
 def by_slices(distance_inside, box, count=20000):
@@ -75,7 +95,7 @@ def by_slices(distance_inside, box, count=20000):
     w = np.outer(np.diff(edges) / 2, weights).ravel()
     low, high = distance_inside(x)
     area = (w * (high - low)).sum()
-    center = np.array([(w * x * (high - low)).sum(), (w * (high ** 2 - low ** 2) / 2).sum()]) / area
+    center = np.array([(w * x * (high - low)).sum(), (w * (high**2 - low**2) / 2).sum()]) / area
     second = (w * ((x - center[0]) ** 2 * (high - low) + ((high - center[1]) ** 3 - (low - center[1]) ** 3) / 3)).sum()
     return area, center, second
 
@@ -87,6 +107,7 @@ def test_the_mass_of_a_capsule_in_closed_form_and_by_slices():
     def slices(x):
         height = np.sqrt(np.maximum(r * r - np.maximum(np.abs(x) - half, 0.0) ** 2, 0.0))
         return -height, height
+
     area, center, second = by_slices(slices, (-half - r, half + r))
     assert found.mass == pytest.approx(2.0 * (math.pi * r * r + 4 * half * r), rel=1e-14)
     assert found.mass == pytest.approx(2.0 * area, rel=1e-6) and found.inertia == pytest.approx(2.0 * second, rel=1e-6)
@@ -105,8 +126,12 @@ def test_the_mass_of_a_rounded_polygon_is_that_of_its_parts():
     quarter = math.pi * r * r / 4
     off = 4 * r / (3 * math.pi)
     own = quarter * r * r / 2 - 2 * quarter * off * off
-    second = ((w + 2 * r) * h * ((w + 2 * r) ** 2 + h * h) / 12 + w * (h + 2 * r) * (w * w + (h + 2 * r) ** 2) / 12
-              - w * h * (w * w + h * h) / 12 + 4 * (own + quarter * ((w / 2 + off) ** 2 + (h / 2 + off) ** 2)))
+    second = (
+        (w + 2 * r) * h * ((w + 2 * r) ** 2 + h * h) / 12
+        + w * (h + 2 * r) * (w * w + (h + 2 * r) ** 2) / 12
+        - w * h * (w * w + h * h) / 12
+        + 4 * (own + quarter * ((w / 2 + off) ** 2 + (h / 2 + off) ** 2))
+    )
     assert found.mass == pytest.approx(3 * area, rel=1e-12) and found.inertia == pytest.approx(3 * second, rel=1e-12)
     assert found.center == pytest.approx((0, 0), abs=1e-12)
     ring = [(math.cos(t) * 4, math.sin(t) * 4) for t in np.arange(16) * math.tau / 16]
@@ -115,23 +140,42 @@ def test_the_mass_of_a_rounded_polygon_is_that_of_its_parts():
     points = ((0, 0), (9, 1), (7, 6), (1, 5))
     outline = shapely.Polygon(points).buffer(2.0, quad_segs=2000)
     lopsided = mass_of(Polygon(points, 2.0), 1.0)
-    assert lopsided.mass == pytest.approx(outline.area, rel=1e-6) and lopsided.center == pytest.approx(outline.centroid.coords[0], rel=1e-6)
-    assert mass_of(Polygon([(x + 1e6, y) for x, y in points], 2.0), 1.0).inertia == pytest.approx(lopsided.inertia, rel=1e-8)
+    assert lopsided.mass == pytest.approx(outline.area, rel=1e-6) and lopsided.center == pytest.approx(
+        outline.centroid.coords[0], rel=1e-6
+    )
+    assert mass_of(Polygon([(x + 1e6, y) for x, y in points], 2.0), 1.0).inertia == pytest.approx(
+        lopsided.inertia, rel=1e-8
+    )
 
 
 def test_lines_have_no_mass_and_sizes_count_the_radius():
     assert mass_of((Segment((0, 0), (5, 5)), Chain([(0, 0), (1, 1)])), 1.0).mass == 0.0
     both = mass_of((Circle(2, (3, 3)), Segment((0, 0), (5, 5))), 1.0)
     assert both == mass_of(Circle(2, (3, 3)), 1.0)
-    assert [each.smallest_half for each in (Capsule((0, 0), (9, 0), 2), Polygon(Polygon.box(8, 4).points, 1), Segment((0, 0), (9, 9)),
-                                            Chain([(0, 0), (1, 1)]))] == [2.0, 3.0, 0.0, 0.0]
+    assert [
+        each.smallest_half
+        for each in (
+            Capsule((0, 0), (9, 0), 2),
+            Polygon(Polygon.box(8, 4).points, 1),
+            Segment((0, 0), (9, 9)),
+            Chain([(0, 0), (1, 1)]),
+        )
+    ] == [2.0, 3.0, 0.0, 0.0]
     assert Capsule((0, 0), (9, 0), 2).reach(0, 0) == 11.0 and Polygon(TRIANGLE, 2).reach(0, 0) == 12.0
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.7, math.pi / 2])
 def test_boxes_around_are_tight(angle):
-    world, shapes = World(), (Capsule((-3, 1), (5, 2), 2), ROUNDED, Segment((0, 0), (3, 9)), Bounds(ROUNDED),
-                              Chain([(0, 0), (7, 3), (20, -4)]))
+    world, shapes = (
+        World(),
+        (
+            Capsule((-3, 1), (5, 2), 2),
+            ROUNDED,
+            Segment((0, 0), (3, 9)),
+            Bounds(ROUNDED),
+            Chain([(0, 0), (7, 3), (20, -4)]),
+        ),
+    )
     for shape in shapes:
         world.add_body(shape, kind="static", position=(10, 20), angle=angle)
     for shape, box in zip(shapes, debug.bounds(world)):
@@ -142,9 +186,15 @@ def test_boxes_around_are_tight(angle):
 def test_snapshots_keep_every_kind(tmp_path):
     world = World()
     world.add_body(Capsule((-5, 0), (5, 0), 3), Segment((0, 0), (9, 9)), angle=0.5)
-    world.add_body(ROUNDED, Polygon(TRIANGLE), position=(50, 0), material=Material(rolling_resistance=0.2, surface_speed=-4.0))
-    world.add_body(Chain([(0, 40), (30, 45), (60, 40)], ghosts=(None, (90, 40)), materials=(Material(), Material(friction=0.1))),
-                   Chain([(0, 0), (9, 0), (9, 9)], loop=True), Bounds(Capsule((0, 0), (4, 4), 1)), kind="static")
+    world.add_body(
+        ROUNDED, Polygon(TRIANGLE), position=(50, 0), material=Material(rolling_resistance=0.2, surface_speed=-4.0)
+    )
+    world.add_body(
+        Chain([(0, 40), (30, 45), (60, 40)], ghosts=(None, (90, 40)), materials=(Material(), Material(friction=0.1))),
+        Chain([(0, 0), (9, 0), (9, 9)], loop=True),
+        Bounds(Capsule((0, 0), (4, 4), 1)),
+        kind="static",
+    )
     for _ in range(20):
         world.step()
     world.snapshot().save(tmp_path / "s.npz")
@@ -155,7 +205,10 @@ def test_snapshots_keep_every_kind(tmp_path):
         world.step()
         other.step()
     assert world.digest() == other.digest()
-    assert other.shapes["rolling_resistance"].tolist()[2:4] == [0.2, 0.2] and other.shapes["surface_speed"].tolist()[2] == -4.0
+    assert (
+        other.shapes["rolling_resistance"].tolist()[2:4] == [0.2, 0.2]
+        and other.shapes["surface_speed"].tolist()[2] == -4.0
+    )
 
 
 def test_outlines_name_every_kind():
@@ -223,7 +276,9 @@ def test_the_best_axis_separates_by_the_distance(kinds):
         pose_a, pose_b = ((*rng.uniform(-8, 8, 2), float(rng.uniform(-7, 7))) for _ in range(2))
         rows, gap = sat_axes(a, pose_a, b, pose_b), gap_of(hull_of(a, pose_a), hull_of(b, pose_b))
         assert rows["separation"][0] == pytest.approx(gap, abs=1e-9) or kinds == ("segment", "segment")
-        assert (np.diff(rows["separation"]) <= 0).all() and np.hypot(rows["normal_x"], rows["normal_y"]) == pytest.approx(1.0)
+        assert (np.diff(rows["separation"]) <= 0).all() and np.hypot(
+            rows["normal_x"], rows["normal_y"]
+        ) == pytest.approx(1.0)
 
 
 def squares(solid, x, y):
@@ -248,8 +303,16 @@ def test_masks_meet_what_runs_through_their_pixels(kind):
         assert math.hypot(*found.normal) == pytest.approx(1.0) and found.area > 0
         if radius:
             n, far = np.array(found.normal), -found.separations[0]
-            met = squares(np.array([[solid[r, c] and shapely.box(c, r, c + 1, r + 1).distance(hull) < radius for c in range(12)]
-                                    for r in range(10)]), 0, 0)
+            met = squares(
+                np.array(
+                    [
+                        [solid[r, c] and shapely.box(c, r, c + 1, r + 1).distance(hull) < radius for c in range(12)]
+                        for r in range(10)
+                    ]
+                ),
+                0,
+                0,
+            )
             moved = shapely.MultiPoint([tuple(p) for p in core + n * (far + 1e-9)]).convex_hull
             assert met.distance(moved) >= radius - 1e-9, "the move along the normal clears the pixels that were met"
             assert found.area == pytest.approx(met.area)
@@ -275,7 +338,9 @@ def test_characters_stand_on_and_stop_at_the_new_kinds():
     for _ in range(140):
         moved = hero.move(1, 0)
         hero.move(0, 1)
-    assert hero.position[0] > 170.0 and hero.position[1] == 60.0, "it walks up a link that is no steeper than 45 degrees"
+    assert hero.position[0] > 170.0 and hero.position[1] == 60.0, (
+        "it walks up a link that is no steeper than 45 degrees"
+    )
     world = World(Effects(response=True))
     world.add_body(Capsule((300, 60), (300, 100), 10), kind="static")
     world.add_body(Chain([(200, 105), (500, 105)]), kind="static")

@@ -5,17 +5,38 @@ import math
 import numpy as np
 import pytest
 
-from physics import (Bounds, Capsule, Chain, Circle, Effects, PixelMask, Polygon, Segment, TileGrid, World, collide, distance,
-                     time_of_impact)
+from physics import (
+    Bounds,
+    Capsule,
+    Chain,
+    Circle,
+    Effects,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    World,
+    collide,
+    distance,
+    time_of_impact,
+)
 
 SOLID = np.array([[0, 1, 1, 0], [1, 1, 1, 1], [0, 1, 1, 1]], bool)
 CONVEX = {
-    "circle": Circle(3.0, (1, -0.5)), "box": Polygon.box(6, 4, (0.5, 0)), "capsule": Capsule((-3, 1), (2, -1), 1.5),
-    "triangle": Polygon([(-4, 2), (4, 2.5), (1, -4)]), "rounded": Polygon([(-3, -2), (3, -2), (2, 2)], radius=1.0),
-    "segment": Segment((-4, -1), (3, 2)), "sixteen": Polygon([(5 * math.cos(a), 3 * math.sin(a)) for a in np.linspace(0, 2 * math.pi, 16, endpoint=False)]),
+    "circle": Circle(3.0, (1, -0.5)),
+    "box": Polygon.box(6, 4, (0.5, 0)),
+    "capsule": Capsule((-3, 1), (2, -1), 1.5),
+    "triangle": Polygon([(-4, 2), (4, 2.5), (1, -4)]),
+    "rounded": Polygon([(-3, -2), (3, -2), (2, 2)], radius=1.0),
+    "segment": Segment((-4, -1), (3, 2)),
+    "sixteen": Polygon([(5 * math.cos(a), 3 * math.sin(a)) for a in np.linspace(0, 2 * math.pi, 16, endpoint=False)]),
     "bounds": Bounds(Polygon.box(5, 3, angle=0.3)),
 }
-GROUNDS = {"chain": Chain([(-9, 3), (0, 2), (9, 4)]), "tiles": TileGrid(SOLID, 4.0), "mask": PixelMask(SOLID.repeat(3, 0).repeat(3, 1))}
+GROUNDS = {
+    "chain": Chain([(-9, 3), (0, 2), (9, 4)]),
+    "tiles": TileGrid(SOLID, 4.0),
+    "mask": PixelMask(SOLID.repeat(3, 0).repeat(3, 1)),
+}
 PAIRS = [(a, b) for a in CONVEX for b in CONVEX]
 STILL = (0.0, 0.0, 0.0)
 
@@ -24,7 +45,11 @@ def poses(seed, count, spread=9.0):
     """Pairs of poses of which about half overlap."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
-        yield tuple(rng.uniform(-40, 40, 2)) + (rng.uniform(-7, 7),), rng.uniform(-spread, spread, 2), rng.uniform(-7, 7)
+        yield (
+            tuple(rng.uniform(-40, 40, 2)) + (rng.uniform(-7, 7),),
+            rng.uniform(-spread, spread, 2),
+            rng.uniform(-7, 7),
+        )
 
 
 def pair_poses(seed, count):
@@ -61,7 +86,10 @@ def test_swapped_pair_is_mirrored(a, b):
     shapes = {**CONVEX, **GROUNDS}
     for pose_a, pose_b in pair_poses(2, 25):
         pose_b = pose_b[:2] + ((0.0,) if b in ("tiles",) else pose_b[2:])
-        one, two = collide(shapes[a], pose_a, shapes[b], pose_b, 0.5), collide(shapes[b], pose_b, shapes[a], pose_a, 0.5)
+        one, two = (
+            collide(shapes[a], pose_a, shapes[b], pose_b, 0.5),
+            collide(shapes[b], pose_b, shapes[a], pose_a, 0.5),
+        )
         assert len(one) == len(two)
         if len(one):
             assert one.normal == pytest.approx([-n for n in two.normal], abs=1e-12)
@@ -77,11 +105,13 @@ def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
     for pose_a, pose_b in pair_poses(3, 12):
         first = distance(CONVEX[a], pose_a, CONVEX[b], pose_b)
         for quarters in (1, 2, 3):
+
             def turned(pose):
                 x, y = pose[:2]
                 for _ in range(quarters):
                     x, y = -y, x
                 return (x + 8.0, y - 16.0, pose[2] + quarters * math.pi / 2)
+
             again = distance(CONVEX[a], turned(pose_a), CONVEX[b], turned(pose_b))
             assert again.distance == pytest.approx(first.distance, abs=1e-12 * 50)
             if first.distance > 1e-6:
@@ -106,6 +136,7 @@ def test_time_of_impact_is_the_first_touch(a, b):
         def gap(fraction):
             at = [tuple(p + fraction * (q - p) for p, q in zip(*ends)) for ends in ((pose_a, end_a), (pose_b, end_b))]
             return distance(CONVEX[a], at[0], CONVEX[b], at[1]).distance
+
         before = [gap(f) for f in np.linspace(0, found.fraction, 60)[:-1]]
         assert min(before) > -1e-8
         if found.hit:
@@ -148,7 +179,7 @@ def test_gap_is_told_to_the_last_digits_on_both_sides_of_touching(shapes, expone
     touch = 40.0 - 80.0 * start.fraction
     slope = start.normal[0]
     for sign in (1, -1):
-        step = sign * 10.0 ** exponent
+        step = sign * 10.0**exponent
         found = distance(a, STILL, b, (touch + step / slope, 0.3, 0.4))
         assert found.distance == pytest.approx(step, abs=2e-9 + 1e-3 * abs(step))
         assert (len(collide(a, STILL, b, (touch + step / slope, 0.3, 0.4))) > 0) == (found.distance <= 0)

@@ -5,11 +5,24 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, BruteForce, Character, Circle, DynamicTree, Effects, PixelMask, Polygon, SpatialHashGrid,
-                     SweepAndPrune, World)
+from physics import (
+    JIT,
+    BruteForce,
+    Character,
+    Circle,
+    DynamicTree,
+    Effects,
+    PixelMask,
+    Polygon,
+    SpatialHashGrid,
+    SweepAndPrune,
+    World,
+)
 
-ALL = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True)
-MASK = PixelMask(np.ones((7, 9), bool))          # one object, so that its turned masks are made once
+ALL = Effects(
+    response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True
+)
+MASK = PixelMask(np.ones((7, 9), bool))  # one object, so that its turned masks are made once
 STRATEGIES = [BruteForce, SweepAndPrune, lambda: SweepAndPrune(axes="both"), SpatialHashGrid, DynamicTree]
 
 
@@ -24,8 +37,18 @@ def pile(strategy, seed=0):
 
 
 @pytest.mark.parametrize("strategy", STRATEGIES)
-@pytest.mark.parametrize("column, value", [("x", math.nan), ("y", math.inf), ("vx", math.nan), ("vy", -math.inf),
-                                           ("angle", math.nan), ("angular_velocity", math.inf), ("vx", 1e300)])
+@pytest.mark.parametrize(
+    "column, value",
+    [
+        ("x", math.nan),
+        ("y", math.inf),
+        ("vx", math.nan),
+        ("vy", -math.inf),
+        ("angle", math.nan),
+        ("angular_velocity", math.inf),
+        ("vx", 1e300),
+    ],
+)
 def test_neighbours_go_on_as_if_it_had_been_removed(strategy, column, value):
     sick, removed = pile(strategy), pile(strategy)
     for _ in range(20):
@@ -85,7 +108,11 @@ def test_quarantined_body_is_in_no_answer_and_can_be_changed_and_removed():
     other = world.add_body(Circle(5.0), position=(4.0, 0.0), kind="static")
     world.bodies["x"][0] = math.nan
     world.step()
-    assert [b.id for b in world.overlap(Circle(2), (0, 0, 0))] == [other.id] == [b.id for b in world.query_aabb((-1, -1), (1, 1))]
+    assert (
+        [b.id for b in world.overlap(Circle(2), (0, 0, 0))]
+        == [other.id]
+        == [b.id for b in world.query_aabb((-1, -1), (1, 1))]
+    )
     assert [h.body.id for h in world.ray_cast_all((-20, 0), (60, 0))] == [other.id]
     body.set_shapes(Circle(60.0)), body.set_kind("static"), body.set_kind("dynamic"), body.move_to((1, 1))
     world.step()

@@ -5,13 +5,37 @@ import math
 import numpy as np
 import pytest
 
-from physics import (BROADPHASES, JIT, Bounds, Capsule, Chain, Circle, Effects, Filter, PixelMask, Polygon, Segment, TileGrid, World,
-                     time_of_impact)
+from physics import (
+    BROADPHASES,
+    JIT,
+    Bounds,
+    Capsule,
+    Chain,
+    Circle,
+    Effects,
+    Filter,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    World,
+    time_of_impact,
+)
 
 O = (0.0, 0.0, 0.0)
-SHAPES = (Circle(4.0), Polygon.box(9, 5), Capsule((-5, 0), (5, 1), 2.0), Polygon([(-6, -4), (6, -3), (0, 6)], 1.0),
-          PixelMask.from_array(np.array([[1, 1, 0], [0, 1, 1]], bool).repeat(4, 0).repeat(4, 1)), Bounds(Circle(3.0)))
-GROUND = (TileGrid(np.array([[1, 0, 1, 1], [1, 1, 0, 1]], bool), 10.0), Chain([(0, 0), (20, 5), (45, -5)]), Segment((-10, 0), (12, 6)))
+SHAPES = (
+    Circle(4.0),
+    Polygon.box(9, 5),
+    Capsule((-5, 0), (5, 1), 2.0),
+    Polygon([(-6, -4), (6, -3), (0, 6)], 1.0),
+    PixelMask.from_array(np.array([[1, 1, 0], [0, 1, 1]], bool).repeat(4, 0).repeat(4, 1)),
+    Bounds(Circle(3.0)),
+)
+GROUND = (
+    TileGrid(np.array([[1, 0, 1, 1], [1, 1, 0, 1]], bool), 10.0),
+    Chain([(0, 0), (20, 5), (45, -5)]),
+    Segment((-10, 0), (12, 6)),
+)
 
 
 class EveryShape:
@@ -21,12 +45,16 @@ class EveryShape:
         self.work, self.index = np.zeros_like(world.queries.work), world.queries
 
     def begin(self, world):
-        self.index.begin(world)          # AABBs and rasters up to date
+        self.index.begin(world)  # AABBs and rasters up to date
 
     def rows_in(self, world, lower, upper):
         s = world.shapes
-        near = ((s["min_x"] <= upper[0] + 1e-6) & (s["max_x"] >= lower[0] - 1e-6) & (s["min_y"] <= upper[1] + 1e-6)
-                & (s["max_y"] >= lower[1] - 1e-6))
+        near = (
+            (s["min_x"] <= upper[0] + 1e-6)
+            & (s["max_x"] >= lower[0] - 1e-6)
+            & (s["min_y"] <= upper[1] + 1e-6)
+            & (s["max_y"] >= lower[1] - 1e-6)
+        )
         return np.flatnonzero(near & ~world.bodies["quarantined"][s["body_row"]])
 
 
@@ -62,18 +90,27 @@ def test_queries_are_a_look_at_every_shape_whatever_happened_since_the_step(name
     ids = []
     for turn in range(14 if JIT else 5):
         for _ in range(int(rng.integers(0, 8))):
-            ids.append(world.add_body(SHAPES[int(rng.integers(len(SHAPES)))], position=rng.uniform(-140, 140, 2), angle=rng.uniform(-3, 3),
-                                      velocity=rng.uniform(-300, 300, 2), kind=("dynamic", "static", "kinematic")[turn % 3]
-                                      if turn % 3 != 1 else "dynamic", sensor=turn % 5 == 4,
-                                      filter=Filter(*(int(each) for each in rng.integers(1, 8, 2)))).id)
+            ids.append(
+                world.add_body(
+                    SHAPES[int(rng.integers(len(SHAPES)))],
+                    position=rng.uniform(-140, 140, 2),
+                    angle=rng.uniform(-3, 3),
+                    velocity=rng.uniform(-300, 300, 2),
+                    kind=("dynamic", "static", "kinematic")[turn % 3] if turn % 3 != 1 else "dynamic",
+                    sensor=turn % 5 == 4,
+                    filter=Filter(*(int(each) for each in rng.integers(1, 8, 2))),
+                ).id
+            )
         if turn % 2:
             world.step()
         if ids and turn % 3 == 0:
-            world.body(ids[int(rng.integers(len(ids)))]).move_to(tuple(rng.uniform(-140, 140, 2)), float(rng.uniform(-3, 3)))
+            world.body(ids[int(rng.integers(len(ids)))]).move_to(
+                tuple(rng.uniform(-140, 140, 2)), float(rng.uniform(-3, 3))
+            )
         if ids and turn % 4 == 1:
             world.remove_body(ids.pop(int(rng.integers(len(ids)))))
         if len(ids) and turn % 4 == 2:
-            world.bodies["x"][-1] += 37.0            # straight into the table
+            world.bodies["x"][-1] += 37.0  # straight into the table
         if turn == 9:
             world.broadphase = BROADPHASES[name]()
         if turn == 10 and ids:
@@ -96,9 +133,14 @@ def test_a_small_question_to_a_large_world_looks_at_few(name):
     assert world.queries.counters["pairs_tested"] >= 2500, "no step yet: nothing is known"
     world.step()
     counters = world.profile.counters
-    for ask in (lambda: world.query_point((200.0, 200.0)), lambda: world.ray_cast((190, 205), (30, -10)),
-                lambda: world.shape_cast(Circle(2.0), (190, 190, 0), (20, 20)), lambda: world.overlap(Circle(2.0), (200, 200, 0)),
-                lambda: world.query_aabb((190, 190), (210, 210)), lambda: world.closest((203.0, 204.0))):
+    for ask in (
+        lambda: world.query_point((200.0, 200.0)),
+        lambda: world.ray_cast((190, 205), (30, -10)),
+        lambda: world.shape_cast(Circle(2.0), (190, 190, 0), (20, 20)),
+        lambda: world.overlap(Circle(2.0), (200, 200, 0)),
+        lambda: world.query_aabb((190, 190), (210, 210)),
+        lambda: world.closest((203.0, 204.0)),
+    ):
         ask()
         work = world.queries.counters["nodes_visited"] + world.queries.counters["pairs_tested"]
         limit = {"brute": 3 * 2500, "sweep": 1200, "hash": 400, "tree": 300}[name]
@@ -111,14 +153,24 @@ def test_a_probe_does_not_stay_in_the_library():
     world.add_body(PixelMask.from_array(np.ones((3, 3), bool)), angle=0.3)
     world.add_body(SHAPES[1])
     world.step()
-    sizes = [len(world.library.shapes), world.library.corners.count, world.library.words.count, len(world.library.masks)]
+    sizes = [
+        len(world.library.shapes),
+        world.library.corners.count,
+        world.library.words.count,
+        len(world.library.masks),
+    ]
     for k in range(5):
         for shape in SHAPES + GROUND:
             angle = 0.0 if isinstance(shape, TileGrid) else 0.1 * k
             world.overlap(shape, (k, 1, angle))
             world.shape_cast(shape, (30 + k, 1, angle), (-60, 0))
         world.overlap(Polygon.box(3.0 + k, 2), O)
-    assert sizes == [len(world.library.shapes), world.library.corners.count, world.library.words.count, len(world.library.masks)]
+    assert sizes == [
+        len(world.library.shapes),
+        world.library.corners.count,
+        world.library.words.count,
+        len(world.library.masks),
+    ]
     mask = PixelMask.from_array(np.ones((5, 5), bool))
     world.overlap(mask, (0, 0, 1.0))
     world.add_body(mask, position=(50, 0), angle=1.0)
@@ -126,11 +178,25 @@ def test_a_probe_does_not_stay_in_the_library():
     assert [each.id for each in world.query_point((50, 0))] == [2]
 
 
-@pytest.mark.parametrize("other", [Circle(5.0), Polygon.box(10, 10), Capsule((0, -5), (0, 5), 5.0), PixelMask.from_array(np.ones((10, 10), bool)),
-                                   Bounds(Polygon.box(10, 10)), TileGrid(np.ones((1, 1), bool), 10.0), Segment((-5, -5), (-5, 5)),
-                                   Chain([(-5, 5), (-5, -5)])], ids=lambda each: type(each).__name__)
-@pytest.mark.parametrize("probe", [Circle(2.0), Polygon.box(4, 4), Capsule((0, 0), (1, 0), 1.0), PixelMask.from_array(np.ones((4, 4), bool))],
-                         ids=lambda each: type(each).__name__)
+@pytest.mark.parametrize(
+    "other",
+    [
+        Circle(5.0),
+        Polygon.box(10, 10),
+        Capsule((0, -5), (0, 5), 5.0),
+        PixelMask.from_array(np.ones((10, 10), bool)),
+        Bounds(Polygon.box(10, 10)),
+        TileGrid(np.ones((1, 1), bool), 10.0),
+        Segment((-5, -5), (-5, 5)),
+        Chain([(-5, 5), (-5, -5)]),
+    ],
+    ids=lambda each: type(each).__name__,
+)
+@pytest.mark.parametrize(
+    "probe",
+    [Circle(2.0), Polygon.box(4, 4), Capsule((0, 0), (1, 0), 1.0), PixelMask.from_array(np.ones((4, 4), bool))],
+    ids=lambda each: type(each).__name__,
+)
 def test_shape_cast_is_the_time_of_impact_of_a_translation(probe, other):
     world = World(Effects())
     at = (-5.0, -5.0) if isinstance(other, TileGrid) else (0.0, 0.0)
@@ -140,7 +206,9 @@ def test_shape_cast_is_the_time_of_impact_of_a_translation(probe, other):
     assert hit.body.id == body.id and hit.fraction == pytest.approx(wanted.fraction, abs=1e-9)
     assert hit.normal == pytest.approx((-wanted.normal[0], -wanted.normal[1]), abs=1e-9) and hit.normal[0] < 0.0
     assert hit.point[0] == pytest.approx(wanted.point[0], abs=1e-6)
-    assert world.shape_cast(probe, (-30, 1, 0), (10, 0)) is None and world.shape_cast(probe, (-30, 30, 0), (60, 0)) is None
+    assert (
+        world.shape_cast(probe, (-30, 1, 0), (10, 0)) is None and world.shape_cast(probe, (-30, 30, 0), (60, 0)) is None
+    )
     assert world.shape_cast(probe, (-30, 1, 0), (-40, 0)) is None
 
 
@@ -170,18 +238,29 @@ def test_ties_go_to_the_smaller_shape_id_and_filters_and_sensors_count():
     assert world.shape_cast(Circle(1.0), O, (40, 0)).shape == 1 and world.closest((20.0, 9.0))[0].id == 1
     assert world.shape_cast(Circle(1.0), O, (40, 0), filter=Filter(1, 1)).shape == 2
     assert world.closest((20.0, 9.0), filter=Filter(1, 1))[0].id == 2
-    assert world.shape_cast(Circle(1.0), O, (40, 0), filter=Filter(4, 0)) is None and world.closest((0, 0), filter=Filter(4, 0)) is None
+    assert (
+        world.shape_cast(Circle(1.0), O, (40, 0), filter=Filter(4, 0)) is None
+        and world.closest((0, 0), filter=Filter(4, 0)) is None
+    )
     world.remove_bodies([1, 2])
     assert world.shape_cast(Circle(1.0), O, (40, 0)).shape == 3, "H7: what was removed is not found"
 
 
-CLOSEST = [(Circle(5.0), (20.0, 0.0), (5.0, 0.0), 15.0), (Circle(5.0), (1.0, 2.0), (1.0, 2.0), 0.0),
-           (Polygon.box(10, 6), (20.0, 1.0), (5.0, 1.0), 15.0), (Polygon.box(10, 6), (8.0, 7.0), (5.0, 3.0), 5.0),
-           (Polygon.box(10, 6), (5.0, 0.0), (5.0, 0.0), 0.0), (Capsule((-5, 0), (5, 0), 2.0), (0.0, -9.0), (0.0, -2.0), 7.0),
-           (Polygon([(-5, -3), (5, -3), (5, 3), (-5, 3)], 2.0), (8.0, 7.0), (6.2, 4.6), 3.0), (Segment((0, 0), (10, 0)), (4.0, 3.0), (4.0, 0.0), 3.0),
-           (Chain([(0, 0), (10, 0), (10, 10)]), (14.0, 6.0), (10.0, 6.0), 4.0), (Bounds(Circle(5.0)), (9.0, 8.0), (5.0, 5.0), 5.0),
-           (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (17.0, 5.0), (20.0, 5.0), 3.0), (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (5.0, 5.0), (5.0, 5.0), 0.0),
-           (PixelMask.from_array(np.eye(3, dtype=bool), origin=(0, 0)), (3.0, 0.5), (2.0, 1.0), math.hypot(1, 0.5))]
+CLOSEST = [
+    (Circle(5.0), (20.0, 0.0), (5.0, 0.0), 15.0),
+    (Circle(5.0), (1.0, 2.0), (1.0, 2.0), 0.0),
+    (Polygon.box(10, 6), (20.0, 1.0), (5.0, 1.0), 15.0),
+    (Polygon.box(10, 6), (8.0, 7.0), (5.0, 3.0), 5.0),
+    (Polygon.box(10, 6), (5.0, 0.0), (5.0, 0.0), 0.0),
+    (Capsule((-5, 0), (5, 0), 2.0), (0.0, -9.0), (0.0, -2.0), 7.0),
+    (Polygon([(-5, -3), (5, -3), (5, 3), (-5, 3)], 2.0), (8.0, 7.0), (6.2, 4.6), 3.0),
+    (Segment((0, 0), (10, 0)), (4.0, 3.0), (4.0, 0.0), 3.0),
+    (Chain([(0, 0), (10, 0), (10, 10)]), (14.0, 6.0), (10.0, 6.0), 4.0),
+    (Bounds(Circle(5.0)), (9.0, 8.0), (5.0, 5.0), 5.0),
+    (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (17.0, 5.0), (20.0, 5.0), 3.0),
+    (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (5.0, 5.0), (5.0, 5.0), 0.0),
+    (PixelMask.from_array(np.eye(3, dtype=bool), origin=(0, 0)), (3.0, 0.5), (2.0, 1.0), math.hypot(1, 0.5)),
+]
 
 
 @pytest.mark.parametrize("shape, point, nearest, gap", CLOSEST, ids=[type(each[0]).__name__ for each in CLOSEST])
@@ -227,7 +306,10 @@ def test_far_from_the_origin_queries_answer_alike():
     a, b = near.ray_cast_all((-20, 3), (100, 40)), far.ray_cast_all((1e7 - 20, 1e7 + 3), (100, 40))
     assert [h.shape for h in a] == [h.shape for h in b] and len(a) > 2
     assert np.allclose([h.fraction for h in a], [h.fraction for h in b], atol=1e-8)
-    p, q = near.shape_cast(SHAPES[1], (-20, 3, 1), (100, 40)), far.shape_cast(SHAPES[1], (1e7 - 20, 1e7 + 3, 1), (100, 40))
+    p, q = (
+        near.shape_cast(SHAPES[1], (-20, 3, 1), (100, 40)),
+        far.shape_cast(SHAPES[1], (1e7 - 20, 1e7 + 3, 1), (100, 40)),
+    )
     assert p.shape == q.shape and p.fraction == pytest.approx(q.fraction, abs=1e-8)
     assert near.closest((-20, 3))[2] == pytest.approx(far.closest((1e7 - 20, 1e7 + 3))[2], abs=1e-7)
 
@@ -246,12 +328,19 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
     assert [each.id for each in world.query_point((0, 0))] == [0]
 
 
-@pytest.mark.parametrize("call, error, words", [
-    (lambda w: w.shape_cast("ball", O, (1, 0)), TypeError, "shape"), (lambda w: w.shape_cast(Circle(1), (0, 0), (1, 0)), TypeError, "pose"),
-    (lambda w: w.shape_cast(Circle(1), O, (math.nan, 0)), ValueError, "translation"), (lambda w: w.closest((0, math.inf)), ValueError, "point"),
-    (lambda w: w.shape_cast(Circle(1), O, (1, 0), filter=3), TypeError, "filter"), (lambda w: w.closest((0, 0), filter=None), TypeError, "filter"),
-    (lambda w: w.ray_cast((math.nan, 0), (1, 0)), ValueError, "origin"),
-    (lambda w: w.shape_cast(TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 1), (1, 0)), ValueError, "pose")])
+@pytest.mark.parametrize(
+    "call, error, words",
+    [
+        (lambda w: w.shape_cast("ball", O, (1, 0)), TypeError, "shape"),
+        (lambda w: w.shape_cast(Circle(1), (0, 0), (1, 0)), TypeError, "pose"),
+        (lambda w: w.shape_cast(Circle(1), O, (math.nan, 0)), ValueError, "translation"),
+        (lambda w: w.closest((0, math.inf)), ValueError, "point"),
+        (lambda w: w.shape_cast(Circle(1), O, (1, 0), filter=3), TypeError, "filter"),
+        (lambda w: w.closest((0, 0), filter=None), TypeError, "filter"),
+        (lambda w: w.ray_cast((math.nan, 0), (1, 0)), ValueError, "origin"),
+        (lambda w: w.shape_cast(TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 1), (1, 0)), ValueError, "pose"),
+    ],
+)
 def test_wrong_arguments_are_named(call, error, words):
     """H7."""
     world = World(Effects())

@@ -41,8 +41,13 @@ RAYS = [  # box from (-1, -1) to (1, 1): origin, translation, fraction or None, 
 @pytest.mark.parametrize("name, origin, translation, fraction, normal", RAYS, ids=[r[0] for r in RAYS])
 @pytest.mark.parametrize("shape", ["box", "bounds", "tile", "tiles", "corner box"])
 def test_ray_against_a_box(shape, name, origin, translation, fraction, normal):
-    made = {"box": Polygon.box(2, 2), "bounds": Bounds(Polygon.box(2, 2)), "tile": TileGrid(np.ones((1, 1), bool), 2.0),
-            "tiles": TileGrid(np.pad(np.ones((1, 1), bool), 1), 2.0), "corner box": Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])}
+    made = {
+        "box": Polygon.box(2, 2),
+        "bounds": Bounds(Polygon.box(2, 2)),
+        "tile": TileGrid(np.ones((1, 1), bool), 2.0),
+        "tiles": TileGrid(np.pad(np.ones((1, 1), bool), 1), 2.0),
+        "corner box": Polygon([(0, 0), (2, 0), (2, 2), (0, 2)]),
+    }
     world = World(Effects())
     at = {"tile": (-1, -1), "tiles": (-3, -3), "corner box": (-1, -1)}.get(shape, (0, 0))
     world.add_body(made[shape], position=at, kind="static")
@@ -50,7 +55,9 @@ def test_ray_against_a_box(shape, name, origin, translation, fraction, normal):
     assert (hit is not None) == (fraction is not None)
     if hit:
         assert hit.fraction == pytest.approx(fraction, rel=4e-16, abs=0)
-        assert hit.point == pytest.approx((origin[0] + hit.fraction * translation[0], origin[1] + hit.fraction * translation[1]))
+        assert hit.point == pytest.approx(
+            (origin[0] + hit.fraction * translation[0], origin[1] + hit.fraction * translation[1])
+        )
         assert math.hypot(*hit.normal) == pytest.approx(1.0, abs=1e-12)
         if normal:
             assert hit.normal == normal
@@ -85,15 +92,22 @@ def test_rays_hit_where_the_outline_is_crossed_first(seed):
     from shapely.geometry import LineString
 
     from tests.oracles import outlines
+
     rng, hits = np.random.default_rng(seed), 0
     slopes = np.zeros((3, 4, 2))
     solid = rng.random((3, 4)) < 0.4
     slopes[~solid & (rng.random((3, 4)) < 0.5)] = (0.5, 1.0)
     bits = rng.random((9, 11)) < 0.4
     mask = PixelMask(bits)
-    cases = [(TileGrid(solid, 8.0, slopes=slopes), (0.0, 0.0, 0.0), outlines.tiles(solid.tolist(), slopes.tolist(), 8.0, 0, 0)),
-             (mask, (3.0 + 5.5, -2.0 + 4.5, 0.0), outlines.pixels(bits.tolist(), 3, -2)),
-             (Polygon.box(12, 5), (7.0, 3.0, 0.8), outlines.rectangle(12, 5, (7.0, 3.0, 0.8)))]
+    cases = [
+        (
+            TileGrid(solid, 8.0, slopes=slopes),
+            (0.0, 0.0, 0.0),
+            outlines.tiles(solid.tolist(), slopes.tolist(), 8.0, 0, 0),
+        ),
+        (mask, (3.0 + 5.5, -2.0 + 4.5, 0.0), outlines.pixels(bits.tolist(), 3, -2)),
+        (Polygon.box(12, 5), (7.0, 3.0, 0.8), outlines.rectangle(12, 5, (7.0, 3.0, 0.8))),
+    ]
     for shape, pose, outline in cases:
         world = World(Effects())
         world.add_body(shape, position=pose[:2], angle=pose[2], kind="static")
@@ -152,13 +166,26 @@ def test_mask_is_hit_at_its_first_solid_pixel_and_through_its_holes():
     world = world_of(PixelMask(solid, origin=(0, 0)))
     hit = world.ray_cast((-4, 2.5), (20, 0))
     assert hit.point == pytest.approx((3, 2.5)) and hit.normal == (-1, 0)
-    assert world.ray_cast((3.5, 9), (0, -20)).point == pytest.approx((3.5, 3)) and world.ray_cast((-4, 1.5), (20, 0)) is None
+    assert (
+        world.ray_cast((3.5, 9), (0, -20)).point == pytest.approx((3.5, 3))
+        and world.ray_cast((-4, 1.5), (20, 0)) is None
+    )
     assert world.ray_cast((3.5, 2.5), (1, 0)).fraction == 0.0
     assert [b.id for b in world.query_point((3.5, 2.5))] == [0] and world.query_point((2.5, 2.5)) == []
 
 
-@pytest.mark.parametrize("point, inside", [((8, 8), True), ((0, 0), True), ((16, 8), True), ((8, 16), True), ((16, 16), True),
-                                           ((16.001, 8), False), ((-0.001, 8), False)])
+@pytest.mark.parametrize(
+    "point, inside",
+    [
+        ((8, 8), True),
+        ((0, 0), True),
+        ((16, 8), True),
+        ((8, 16), True),
+        ((16, 16), True),
+        ((16.001, 8), False),
+        ((-0.001, 8), False),
+    ],
+)
 @pytest.mark.parametrize("kind", ["tile", "box"])
 def test_point_on_the_border_of_a_closed_shape_is_in_it(kind, point, inside):
     shape = TileGrid(np.array([[1, 0], [0, 0]], bool), 16.0) if kind == "tile" else Polygon.box(16, 16, (8, 8))
@@ -185,7 +212,12 @@ def test_queries_change_nothing():
     world = World(Effects())
     world.add_bodies(PixelMask(np.ones((5, 5), bool)), [(0.0, 0.0), (3.0, 1.0)], angles=[0.2, 1.1])
     before = world.digest()
-    world.ray_cast((-9, 0), (20, 0)), world.overlap(Circle(4), (0, 0, 0)), world.query_aabb((0, 0), (1, 1)), world.query_point((0, 0))
+    (
+        world.ray_cast((-9, 0), (20, 0)),
+        world.overlap(Circle(4), (0, 0, 0)),
+        world.query_aabb((0, 0), (1, 1)),
+        world.query_point((0, 0)),
+    )
     assert world.digest() == before and world.ray_cast((0, 0), (0, 0)) is not None
 
 

@@ -17,8 +17,18 @@ G = 10.0
 
 # --- flight ------------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("solver, substeps, parts", [("soft_step", 1, 1), ("soft_step", 2, 2), ("soft_step", 4, 4), ("soft_step", 8, 8),
-                                                     ("projection", 4, 1), ("blocking", 4, 1)])
+
+@pytest.mark.parametrize(
+    "solver, substeps, parts",
+    [
+        ("soft_step", 1, 1),
+        ("soft_step", 2, 2),
+        ("soft_step", 4, 4),
+        ("soft_step", 8, 8),
+        ("projection", 4, 1),
+        ("blocking", 4, 1),
+    ],
+)
 def test_free_fall_is_its_own_recurrence(solver, substeps, parts):
     """y_n = y0 + v0 n h + g h2 n (n + 1) / 2 with h the substep; at 240 Hz 1 s ends g h t / 2 below the parabola."""
     world = metres(solver, substeps=substeps)
@@ -61,12 +71,15 @@ def test_drag_is_implicit(rate):
             for _ in range(parts):
                 speed /= 1.0 + rate * world.dt / parts
                 x += world.dt / parts * speed
-        assert ball.velocity == pytest.approx((speed, -speed / 4), rel=1e-12) and ball.position[0] == pytest.approx(x, rel=1e-12)
+        assert ball.velocity == pytest.approx((speed, -speed / 4), rel=1e-12) and ball.position[0] == pytest.approx(
+            x, rel=1e-12
+        )
         assert ball.angular_velocity == pytest.approx(3.0 * speed / 8.0, rel=1e-12)
         assert speed >= 8.0 * math.exp(-rate * 0.5) - 1e-12
 
 
 # --- impacts -----------------------------------------------------------------------------------------------------------
+
 
 def apexes(world, ball, start, count, steps=1200):
     """(time, height above the floor) of the first rests between impacts."""
@@ -94,7 +107,9 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
     assert len(found) == 3
     for k, (at, height) in enumerate(found, 1):
         right = 2.0 * restitution ** (2 * k)
-        assert abs(height - right) <= (min(0.05 * 2.0, G * world.dt * at) if k == 1 and solver == "soft_step" else G * world.dt * at)
+        assert abs(height - right) <= (
+            min(0.05 * 2.0, G * world.dt * at) if k == 1 and solver == "soft_step" else G * world.dt * at
+        )
     world = metres(solver)
     floor(world)
     world.add_body(Circle(0.1), position=(0.0, -2.1), material=Material(restitution=restitution))
@@ -126,8 +141,12 @@ def test_bounces_end_in_the_time_of_the_series(solver):
 def test_head_on_in_closed_form(solver, restitution, density):
     world = metres(solver, gravity=(0, 0))
     v1, v2 = 4.0, -1.5
-    first, second = (world.add_body(Circle(0.5), position=(x, 0.0), velocity=(v, 0.0), material=Material(density=d, restitution=restitution))
-                     for x, v, d in zip((-0.6, 0.6), (v1, v2), density))
+    first, second = (
+        world.add_body(
+            Circle(0.5), position=(x, 0.0), velocity=(v, 0.0), material=Material(density=d, restitution=restitution)
+        )
+        for x, v, d in zip((-0.6, 0.6), (v1, v2), density)
+    )
     Watch(world, passive=True, isolated=True).step(20)
     m1, m2 = density
     total = m1 * v1 + m2 * v2
@@ -142,10 +161,12 @@ def test_oblique_equal_discs_leave_at_right_angles(solver, offset):
     """v 5, r 0.5, e 1, impact parameter b: v1' = 5 (b2, -b sqrt(1 - b2)), v2' the rest: directions 90 degrees apart."""
     world = metres(solver, gravity=(0, 0), effects=pile_effects(friction=False))
     elastic = Material(restitution=1.0)
-    a = world.add_body(Circle(0.5), position=(-math.sqrt(1 - offset ** 2), -offset), velocity=(5.0, 0.0), material=elastic)
+    a = world.add_body(
+        Circle(0.5), position=(-math.sqrt(1 - offset**2), -offset), velocity=(5.0, 0.0), material=elastic
+    )
     b = world.add_body(Circle(0.5), material=elastic)
     Watch(world, passive=True, isolated=True).step()
-    one = (5 * offset ** 2, -5 * offset * math.sqrt(1 - offset ** 2))
+    one = (5 * offset**2, -5 * offset * math.sqrt(1 - offset**2))
     assert a.velocity == pytest.approx(one, abs=1e-9) and b.velocity == pytest.approx((5 - one[0], -one[1]), abs=1e-9)
     if offset == 0.3:
         assert a.velocity == pytest.approx((0.45, -1.4309), abs=1e-4)
@@ -159,14 +180,23 @@ def test_off_centre_hit_spins_in_closed_form(solver, dt):
     floor(world)
     angle = math.radians(30)
     corner = (math.cos(angle) - 0.1 * math.sin(angle), math.sin(angle) + 0.1 * math.cos(angle))
-    bar = world.add_body(Polygon.box(2.0, 0.2), angle=angle, position=(0.0, -corner[1]), velocity=(0.0, 3.0),
-                         material=Material(density=2.5, restitution=0.5))
+    bar = world.add_body(
+        Polygon.box(2.0, 0.2),
+        angle=angle,
+        position=(0.0, -corner[1]),
+        velocity=(0.0, 3.0),
+        material=Material(density=2.5, restitution=0.5),
+    )
     world.step()
-    inertia = (2.0 ** 2 + 0.2 ** 2) / 12
+    inertia = (2.0**2 + 0.2**2) / 12
     impulse = 1.5 * 3.0 / (1.0 + corner[0] ** 2 / inertia)
     assert impulse == pytest.approx(1.511125, abs=1e-6)
     assert bar.velocity[1] == pytest.approx(3.0 - impulse, abs=1e-9)
-    assert abs(bar.angular_velocity) == pytest.approx(impulse * corner[0] / inertia, abs=1e-9) == pytest.approx(3.662723, abs=1e-5)
+    assert (
+        abs(bar.angular_velocity)
+        == pytest.approx(impulse * corner[0] / inertia, abs=1e-9)
+        == pytest.approx(3.662723, abs=1e-5)
+    )
     assert world.events.hits["speed"].tolist() == pytest.approx([3.0], abs=1e-9)
 
 
@@ -175,8 +205,15 @@ def test_off_centre_hit_spins_in_closed_form(solver, dt):
 def test_cradle_hands_on_the_velocity(solver, gap):
     """With gaps the last ball alone leaves; without, the outcome is a matter of the model: momentum and energy only."""
     world = metres(solver, gravity=(0, 0))
-    balls = [world.add_body(Circle(0.5), position=((1.0 + gap) * k, 0.0), velocity=(6.0 if k == 0 else 0.0, 0.0),
-                            material=Material(restitution=1.0)) for k in range(5)]
+    balls = [
+        world.add_body(
+            Circle(0.5),
+            position=((1.0 + gap) * k, 0.0),
+            velocity=(6.0 if k == 0 else 0.0, 0.0),
+            material=Material(restitution=1.0),
+        )
+        for k in range(5)
+    ]
     start, watch = kinetic(world), Watch(world, passive=True, isolated=True)
     watch.step(60)
     assert kinetic(world) <= start * (1 + 1e-9)
@@ -189,11 +226,14 @@ def test_cradle_hands_on_the_velocity(solver, gap):
 
 # --- friction ----------------------------------------------------------------------------------------------------------
 
+
 def slide_down(solver, angle, shape, height, friction, inertia=None, seconds=1.0):
     """Acceleration along the slope over the seconds after it has settled, and spin, of a shape let go on a slope."""
     world = metres(solver)
     floor(world, friction=friction, angle=angle)
-    body = world.add_body(shape, position=on_slope(angle, 0.0, height), angle=angle, material=Material(friction=friction))
+    body = world.add_body(
+        shape, position=on_slope(angle, 0.0, height), angle=angle, material=Material(friction=friction)
+    )
     if inertia is not None:
         world.bodies["inverse_inertia"][body.id] = 1.0 / inertia
         world.bodies["inertia"][body.id] = inertia
@@ -220,7 +260,9 @@ def test_box_on_a_slope_tips_beyond_width_over_height(solver):
     for angle in (limit - 0.02, limit + 0.02):
         world = metres(solver)
         floor(world, friction=2.0, angle=angle)
-        box = world.add_body(Polygon.box(0.5, 1.5), position=on_slope(angle, 0.0, 0.75), angle=angle, material=Material(friction=2.0))
+        box = world.add_body(
+            Polygon.box(0.5, 1.5), position=on_slope(angle, 0.0, 0.75), angle=angle, material=Material(friction=2.0)
+        )
         Watch(world, passive=True).step(300)
         turned[angle > limit] = abs(box.angle - angle)
     assert turned[False] < 0.02 and turned[True] > 1.0
@@ -231,10 +273,11 @@ def test_box_on_a_slope_tips_beyond_width_over_height(solver):
 def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
     """a = 2/3 g sin for a disc, no slip while mu >= tan / 3; a hoop 1/2, tan / 2. Below that they slip."""
     angle, radius = 0.4, 0.5
-    mass, share = math.pi * radius ** 2, 2.0 if hoop else 3.0
+    mass, share = math.pi * radius**2, 2.0 if hoop else 3.0
     for friction in (1.1 * math.tan(angle) / share, 0.8 * math.tan(angle) / share):
-        found, turn, speed = slide_down(solver, angle, Circle(radius), radius, friction,
-                                        mass * radius ** 2 * (1.0 if hoop else 0.5))
+        found, turn, speed = slide_down(
+            solver, angle, Circle(radius), radius, friction, mass * radius**2 * (1.0 if hoop else 0.5)
+        )
         if friction > math.tan(angle) / share:
             assert found == pytest.approx(G * math.sin(angle) * (0.5 if hoop else 2 / 3), rel=0.01)
             assert turn * radius == pytest.approx(speed, rel=0.01)
@@ -266,7 +309,9 @@ def test_stopping_distance(solver, speed):
     """v2 / (2 mu g) in v / (mu g)."""
     world = metres(solver)
     floor(world, friction=0.4)
-    box = world.add_body(Polygon.box(1.0, 0.5), position=(0.0, -0.25), velocity=(speed, 0.0), material=Material(friction=0.4))
+    box = world.add_body(
+        Polygon.box(1.0, 0.5), position=(0.0, -0.25), velocity=(speed, 0.0), material=Material(friction=0.4)
+    )
     stopped, watch = None, Watch(world, passive=True)
     for n in range(1, 121):
         watch.step()
@@ -274,7 +319,7 @@ def test_stopping_distance(solver, speed):
             stopped = n * world.dt
     # Semi-implicit: velocities first, so every step falls short by half of what it loses.
     h = world.dt / (4 if solver == "soft_step" else 1)
-    assert abs(box.position[0]) == pytest.approx(speed ** 2 / (2 * 0.4 * G) - abs(speed) * h / 2, rel=0.01)
+    assert abs(box.position[0]) == pytest.approx(speed**2 / (2 * 0.4 * G) - abs(speed) * h / 2, rel=0.01)
     assert math.copysign(1.0, box.position[0]) == math.copysign(1.0, speed)
     assert stopped == pytest.approx(abs(speed) / (0.4 * G), rel=0.01, abs=world.dt)
     assert box.velocity[0] == pytest.approx(0.0, abs=1e-6)
@@ -286,9 +331,15 @@ def test_board_drawn_from_under_discs(solver):
     g, force = 9.81, 100.0
     world = metres(solver, gravity=(0, g))
     floor(world, friction=0.4)
-    board = world.add_body(Polygon.box(20.0, 0.2), position=(0.0, -0.1), material=Material(density=10 / 4.0, friction=0.4))
-    discs = [world.add_body(Circle(0.5), position=(2.0 * k - 4.0, -0.7), material=Material(density=1 / (math.pi * 0.25), friction=0.4))
-             for k in range(5)]
+    board = world.add_body(
+        Polygon.box(20.0, 0.2), position=(0.0, -0.1), material=Material(density=10 / 4.0, friction=0.4)
+    )
+    discs = [
+        world.add_body(
+            Circle(0.5), position=(2.0 * k - 4.0, -0.7), material=Material(density=1 / (math.pi * 0.25), friction=0.4)
+        )
+        for k in range(5)
+    ]
     right = (force - 0.4 * (10 + 5) * g) / (3 * 10 + 5)
     assert right == pytest.approx(1.17543, abs=1e-5)
 
@@ -296,6 +347,7 @@ def test_board_drawn_from_under_discs(solver):
         for _ in range(steps):
             board.apply_force((force, 0.0))
             Watch(world).step()
+
     draw(30)
     before = [body.velocity[0] for body in (board, *discs)]
     draw(60)
@@ -304,6 +356,7 @@ def test_board_drawn_from_under_discs(solver):
 
 
 # --- loads and tipping -------------------------------------------------------------------------------------------------
+
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -329,9 +382,13 @@ def test_leaning_cards_need_half_the_tangent():
     for friction in (0.9 * limit, 1.1 * limit):
         world = metres("soft_step", substeps=8)
         floor(world, friction=friction)
-        for side in (-1, 1):       # round at their ends, so that they meet upright on the floor and level at the top
-            world.add_body(Capsule((0, -1), (0, 1), 0.02), position=(side * (math.sin(lean) + 0.02), -math.cos(lean) - 0.02),
-                           angle=-side * lean, material=Material(friction=friction))
+        for side in (-1, 1):  # round at their ends, so that they meet upright on the floor and level at the top
+            world.add_body(
+                Capsule((0, -1), (0, 1), 0.02),
+                position=(side * (math.sin(lean) + 0.02), -math.cos(lean) - 0.02),
+                angle=-side * lean,
+                material=Material(friction=friction),
+            )
         Watch(world, passive=True).step(300)
         stands[friction > limit] = tuple(-world.bodies["y"][1:])
     assert min(stands[True]) > 0.97 * math.cos(lean) and max(stands[False]) < 0.5
@@ -350,17 +407,26 @@ def test_domino_tips_beyond_its_diagonal(solver):
         ends = []
         for x, angle in ((0.0, lean), (10.0, at)):
             tilt = limit - abs(angle)
-            world.add_body(Polygon.box(wide, high), position=(x - sign * reach * math.sin(tilt), -reach * math.cos(tilt)), angle=angle,
-                           material=Material(friction=2.0))
+            world.add_body(
+                Polygon.box(wide, high),
+                position=(x - sign * reach * math.sin(tilt), -reach * math.cos(tilt)),
+                angle=angle,
+                material=Material(friction=2.0),
+            )
         Watch(world, passive=True).step(240)
         ends = np.abs(world.bodies["angle"][1:])
         assert ends[0] < 0.02 and ends[1] == pytest.approx(math.pi / 2, abs=0.05)
     for share, falls in ((0.9, False), (1.1, True)):
         world = metres(solver)
         floor(world, friction=2.0)
-        inertia = (wide ** 2 + high ** 2) / 12 + reach ** 2
+        inertia = (wide**2 + high**2) / 12 + reach**2
         rate = math.sqrt(2 * share * G * (reach - high / 2) / inertia)
-        box = world.add_body(Polygon.box(wide, high), position=(0.0, -high / 2), angular_velocity=rate,
-                             velocity=(rate * high / 2, -rate * wide / 2), material=Material(friction=2.0))
+        box = world.add_body(
+            Polygon.box(wide, high),
+            position=(0.0, -high / 2),
+            angular_velocity=rate,
+            velocity=(rate * high / 2, -rate * wide / 2),
+            material=Material(friction=2.0),
+        )
         Watch(world, passive=True).step(300)
         assert (abs(box.angle) > 1.0) == falls

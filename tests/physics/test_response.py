@@ -22,9 +22,12 @@ def overlap_depth(world, a, b):
 @pytest.mark.parametrize("velocities", [(300.0, -200.0), (400.0, 100.0), (0.0, -500.0)])
 def test_head_on_in_closed_form(restitution, density, velocities):
     world = World(BOUNCE, gravity=(0, 0))
-    first, second = (world.add_body(Circle(5.0), position=(x, 0.0), velocity=(v, 0.0),
-                                    material=Material(density=d, restitution=restitution))
-                     for x, v, d in zip((-4.99, 4.99), velocities, density))
+    first, second = (
+        world.add_body(
+            Circle(5.0), position=(x, 0.0), velocity=(v, 0.0), material=Material(density=d, restitution=restitution)
+        )
+        for x, v, d in zip((-4.99, 4.99), velocities, density)
+    )
     world.step(1e-9)
     (m1, m2), (v1, v2), e = density, velocities, restitution
     momentum = m1 * v1 + m2 * v2
@@ -32,10 +35,13 @@ def test_head_on_in_closed_form(restitution, density, velocities):
     assert second.velocity[0] == pytest.approx((momentum + m1 * e * (v1 - v2)) / (m1 + m2), abs=1e-9)
     (hit,) = world.events.hits
     assert hit["speed"] == pytest.approx(v1 - v2) and hit["normal_impulse"] == pytest.approx(
-        (1 + e) * (v1 - v2) * first.mass * second.mass / (first.mass + second.mass))
+        (1 + e) * (v1 - v2) * first.mass * second.mass / (first.mass + second.mass)
+    )
 
 
-@pytest.mark.parametrize("offset, one, two", [(0.3, (0.45, -1.4309), (4.55, 1.4309)), (0.7, (2.45, -2.4995), (2.55, 2.4995))])
+@pytest.mark.parametrize(
+    "offset, one, two", [(0.3, (0.45, -1.4309), (4.55, 1.4309)), (0.7, (2.45, -2.4995), (2.55, 2.4995))]
+)
 def test_oblique_equal_discs_leave_at_right_angles(offset, one, two):
     world = World(Effects(response=True, restitution=True), gravity=(0, 0), pixels_per_meter=1.0)
     elastic = Material(restitution=1.0)
@@ -52,8 +58,13 @@ def test_off_centre_hit_spins_in_closed_form():
     world = World(ALL.with_(gravity=False, friction=False, continuous=False), gravity=(0, 0), pixels_per_meter=1.0)
     angle = math.radians(30)
     lowest = 1.0 * math.sin(angle) + 0.1 * math.cos(angle)
-    bar = world.add_body(Polygon.box(2, 0.2), angle=angle, position=(0.0, -lowest + 1e-9), velocity=(0.0, 3.0),
-                         material=Material(density=2.5, restitution=0.5))
+    bar = world.add_body(
+        Polygon.box(2, 0.2),
+        angle=angle,
+        position=(0.0, -lowest + 1e-9),
+        velocity=(0.0, 3.0),
+        material=Material(density=2.5, restitution=0.5),
+    )
     world.add_body(Polygon.box(20, 2), position=(0.0, 1.0), kind="static")
     world.step(1e-9)
     assert bar.velocity[1] == pytest.approx(1.488875, abs=1e-5)
@@ -110,14 +121,18 @@ def test_blocking_never_creates_an_overlap():
         world.step()
         for body in [world.body(int(i)) for i in world.bodies["id"]]:
             pose = (*body.position, body.angle)
-            deep = [o for o in world.overlap(body.shapes[0], pose) if o.id != body.id
-                    and not np.isclose(worst(body, o), 0.0, atol=1e-9)]
+            deep = [
+                o
+                for o in world.overlap(body.shapes[0], pose)
+                if o.id != body.id and not np.isclose(worst(body, o), 0.0, atol=1e-9)
+            ]
             assert not deep, f"step {step}: {body.id} overlaps {deep}"
 
 
 def worst(a, b):
     """The separation of two bodies."""
     from physics import collide
+
     found = collide(a.shapes[0], (*a.position, a.angle), b.shapes[0], (*b.position, b.angle))
     return float(found.separations.min()) if len(found) else 0.0
 
@@ -148,11 +163,13 @@ def test_blocking_stops_a_fast_body_and_takes_its_speed():
 def test_sliding_box_stops_after_v_squared_over_two_mu_g(mu):
     world = World(ALL.with_(rotation=False), gravity=(0, 1000.0))
     world.add_body(TileGrid(np.ones((1, 200), bool), 16.0), kind="static", material=Material(friction=mu))
-    box = world.add_body(Polygon.box(16, 16), position=(50.0, -8.0), velocity=(400.0, 0.0), material=Material(friction=mu))
+    box = world.add_body(
+        Polygon.box(16, 16), position=(50.0, -8.0), velocity=(400.0, 0.0), material=Material(friction=mu)
+    )
     for _ in range(300):
         world.step()
     assert box.velocity == pytest.approx((0, 0), abs=1e-6)
-    assert box.position[0] - 50.0 == pytest.approx(400.0 ** 2 / (2 * mu * 1000.0), rel=0.05)
+    assert box.position[0] - 50.0 == pytest.approx(400.0**2 / (2 * mu * 1000.0), rel=0.05)
 
 
 def test_free_fall_is_the_semi_implicit_sum():
@@ -161,8 +178,9 @@ def test_free_fall_is_the_semi_implicit_sum():
     h, n = 1 / 60, 240
     for _ in range(n):
         world.step()
-    assert body.position == pytest.approx((1 + 5 * n * h + 6 * h * h * n * (n + 1) / 2,
-                                           2 - 7 * n * h + 20 * h * h * n * (n + 1) / 2), rel=1e-12)
+    assert body.position == pytest.approx(
+        (1 + 5 * n * h + 6 * h * h * n * (n + 1) / 2, 2 - 7 * n * h + 20 * h * h * n * (n + 1) / 2), rel=1e-12
+    )
 
 
 def test_drag_and_wind_follow_the_implicit_recurrence():
@@ -189,7 +207,7 @@ def test_bouncing_ball_comes_back_by_its_restitution():
             heights.append(apex)
             rising, apex = False, 0.0
     for k, height in enumerate(heights[:3], 1):
-        assert height == pytest.approx(200 * 0.64 ** k, abs=0.05 * 200)
+        assert height == pytest.approx(200 * 0.64**k, abs=0.05 * 200)
 
 
 @pytest.mark.parametrize("effects", [BOUNCE, ALL.with_(gravity=False)], ids=["bounce", "all"])
@@ -199,13 +217,21 @@ def test_momentum_is_kept_and_energy_never_grows(effects, restitution):
     world = World(effects, gravity=(0, 0))
     n = 60 if JIT else 25
     for k in range(n):
-        world.add_body(Circle(6.0) if k % 2 else Polygon.box(10, 8), position=(20.0 * (k % 8), 20.0 * (k // 8)),
-                       velocity=tuple(rng.uniform(-200, 200, 2)), material=Material(restitution=restitution, friction=0.4))
+        world.add_body(
+            Circle(6.0) if k % 2 else Polygon.box(10, 8),
+            position=(20.0 * (k % 8), 20.0 * (k // 8)),
+            velocity=tuple(rng.uniform(-200, 200, 2)),
+            material=Material(restitution=restitution, friction=0.4),
+        )
     b = world.bodies
     mass, inertia = b["mass"].copy(), b["inertia"].copy()
     momentum = lambda: np.array([(mass * world.bodies["vx"]).sum(), (mass * world.bodies["vy"]).sum()])
-    energy = lambda: (mass * (world.bodies["vx"] ** 2 + world.bodies["vy"] ** 2)
-                      + inertia * world.bodies["angular_velocity"] ** 2).sum() / 2
+    energy = lambda: (
+        (
+            mass * (world.bodies["vx"] ** 2 + world.bodies["vy"] ** 2) + inertia * world.bodies["angular_velocity"] ** 2
+        ).sum()
+        / 2
+    )
     start, before, scale = momentum(), energy(), (mass * 200).sum()
     for _ in range(60):
         world.step()
@@ -223,8 +249,9 @@ def test_impulses_act_on_both_sides_alike():
     (contact,) = world.contacts
     nx, ny, j, t = contact["normal_x"], contact["normal_y"], contact["normal_impulse"], contact["tangent_impulse"]
     for body, sign, v in ((a, -1, (300, 40)), (b, 1, (-100, 0))):
-        assert body.velocity == pytest.approx([v[0] + sign * (j * nx - t * ny) / body.mass,
-                                               v[1] + sign * (j * ny + t * nx) / body.mass], abs=1e-9)
+        assert body.velocity == pytest.approx(
+            [v[0] + sign * (j * nx - t * ny) / body.mass, v[1] + sign * (j * ny + t * nx) / body.mass], abs=1e-9
+        )
     assert world.events.hits["normal_impulse"].tolist() == [j] and j > 0
 
 

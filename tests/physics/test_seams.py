@@ -9,8 +9,13 @@ from physics import JIT, Capsule, Chain, Circle, Effects, Material, Polygon, Til
 
 ICE = Material(friction=0.0)
 TILES = 200 if JIT else 30
-SLIDERS = {"box": (Polygon.box(12, 12), 6), "circle": (Circle(6), 6), "capsule": (Capsule((-6, 0), (6, 0), 5), 5),
-           "upright capsule": (Capsule((0, -6), (0, 6), 5), 11), "rounded": (Polygon(Polygon.box(8, 8).points, 2), 6)}
+SLIDERS = {
+    "box": (Polygon.box(12, 12), 6),
+    "circle": (Circle(6), 6),
+    "capsule": (Capsule((-6, 0), (6, 0), 5), 5),
+    "upright capsule": (Capsule((0, -6), (0, 6), 5), 11),
+    "rounded": (Polygon(Polygon.box(8, 8).points, 2), 6),
+}
 
 
 def tiles():

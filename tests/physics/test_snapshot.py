@@ -8,11 +8,37 @@ import zipfile
 import numpy as np
 import pytest
 
-from physics import (JIT, BruteForce, Character, Circle, DynamicTree, Effects, Filter, Material, PixelMask, Polygon, Snapshot,
-                     SpatialHashGrid, SweepAndPrune, TileGrid, World)
+from physics import (
+    JIT,
+    BruteForce,
+    Character,
+    Circle,
+    DynamicTree,
+    Effects,
+    Filter,
+    Material,
+    PixelMask,
+    Polygon,
+    Snapshot,
+    SpatialHashGrid,
+    SweepAndPrune,
+    TileGrid,
+    World,
+)
 
-ALL = Effects(response=True, gravity=True, drag=True, wind=True, rotation=True, friction=True, restitution=True,
-              continuous=True, sensors=True, persist=True, one_way=True)
+ALL = Effects(
+    response=True,
+    gravity=True,
+    drag=True,
+    wind=True,
+    rotation=True,
+    friction=True,
+    restitution=True,
+    continuous=True,
+    sensors=True,
+    persist=True,
+    one_way=True,
+)
 
 
 def busy(seed=0, broadphase=None):
@@ -23,9 +49,16 @@ def busy(seed=0, broadphase=None):
     mask = PixelMask(rng.random((9, 12)) < 0.7)
     for k in range(20):
         shape = (Circle(5.0, (1, 0)), Polygon.box(9, 7), mask)[k % 3]
-        world.add_body(shape, position=tuple(rng.uniform(20, 300, 2) * (1, 0.4)), velocity=tuple(rng.normal(0, 200, 2)),
-                       angular_velocity=float(rng.normal(0, 3)), sensor=k % 7 == 0, material=Material(restitution=0.5),
-                       filter=Filter(1 << (k % 4)), tier="circle" if k % 3 == 2 and k % 2 else None)
+        world.add_body(
+            shape,
+            position=tuple(rng.uniform(20, 300, 2) * (1, 0.4)),
+            velocity=tuple(rng.normal(0, 200, 2)),
+            angular_velocity=float(rng.normal(0, 3)),
+            sensor=k % 7 == 0,
+            material=Material(restitution=0.5),
+            filter=Filter(1 << (k % 4)),
+            tier="circle" if k % 3 == 2 and k % 2 else None,
+        )
     world.add_body(Polygon.box(48, 10), position=(60, 140), kind="kinematic", velocity=(30, -5))
     return world, Character(world, Polygon.box(10, 20), (60, 120))
 
@@ -178,19 +211,22 @@ def rewritten(path, change):
     return path
 
 
-@pytest.mark.parametrize("name, change", [
-    ("version", lambda f, a: f.update(version=99)),
-    ("bodies", lambda f, a: a.update(bodies=np.zeros(3, [("x", float)]))),
-    ("shapes", lambda f, a: a.pop("shapes")),
-    ("hulls", lambda f, a: f.pop("hulls")),
-    ("hull_0", lambda f, a: a.pop("hull_0")),
-    ("mask_0", lambda f, a: a.pop("mask_0")),
-    ("solid_0", lambda f, a: a.pop("solid_0")),
-    ("random", lambda f, a: f.update(random={"state": 3})),
-    ("next_body", lambda f, a: f.pop("next_body")),
-    ("tiers", lambda f, a: f.update(tiers=[[1]])),
-    ("gravity", lambda f, a: f.update(gravity=[1, float("nan")])),
-])
+@pytest.mark.parametrize(
+    "name, change",
+    [
+        ("version", lambda f, a: f.update(version=99)),
+        ("bodies", lambda f, a: a.update(bodies=np.zeros(3, [("x", float)]))),
+        ("shapes", lambda f, a: a.pop("shapes")),
+        ("hulls", lambda f, a: f.pop("hulls")),
+        ("hull_0", lambda f, a: a.pop("hull_0")),
+        ("mask_0", lambda f, a: a.pop("mask_0")),
+        ("solid_0", lambda f, a: a.pop("solid_0")),
+        ("random", lambda f, a: f.update(random={"state": 3})),
+        ("next_body", lambda f, a: f.pop("next_body")),
+        ("tiers", lambda f, a: f.update(tiers=[[1]])),
+        ("gravity", lambda f, a: f.update(gravity=[1, float("nan")])),
+    ],
+)
 def test_a_file_with_a_wrong_part_is_refused_and_changes_nothing(tmp_path, name, change):
     path = rewritten(saved(tmp_path), change)
     world, _ = busy()

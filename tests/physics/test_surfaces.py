@@ -33,7 +33,9 @@ def test_platform_carries_what_stands_on_it(solver, velocity):
 def test_turning_platform_takes_its_load_round(solver):
     """A slow wheel seen from above (no gravity would be needed): a disc in its middle turns with it."""
     world = metres(solver)
-    world.add_body(Circle(2.0), position=(0, 2.0), kind="kinematic", angular_velocity=1.5, material=Material(friction=1.0))
+    world.add_body(
+        Circle(2.0), position=(0, 2.0), kind="kinematic", angular_velocity=1.5, material=Material(friction=1.0)
+    )
     disc = world.add_body(Circle(0.5), position=(0, -0.5), fixed_rotation=True, material=Material(friction=1.0))
     Watch(world).step(6)
     assert disc.velocity[0] > 0.2, "clockwise on the screen drags what lies on top to the right"
@@ -44,8 +46,11 @@ def test_turning_platform_takes_its_load_round(solver):
 def test_belt_brings_a_crate_to_its_speed_at_mu_g(solver, ground):
     world = metres(solver, effects=BELT)
     belt = Material(friction=0.5, surface_speed=2.0)
-    shape = {"box": Polygon.box(40, 2, (0, 1)), "tiles": TileGrid(np.ones((1, 40), bool), 1.0),
-             "chain": Chain([(x - 20.0, 0.0) for x in range(41)])}[ground]
+    shape = {
+        "box": Polygon.box(40, 2, (0, 1)),
+        "tiles": TileGrid(np.ones((1, 40), bool), 1.0),
+        "chain": Chain([(x - 20.0, 0.0) for x in range(41)]),
+    }[ground]
     world.add_body(shape, position=(-20.0 if ground == "tiles" else 0.0, 0.0), kind="static", material=belt)
     crate = world.add_body(Polygon.box(1, 1), position=(0, -0.5), material=Material(friction=0.5))
     Watch(world).step(12)
@@ -53,7 +58,12 @@ def test_belt_brings_a_crate_to_its_speed_at_mu_g(solver, ground):
     Watch(world).step(60)
     assert abs(crate.velocity[0]) == pytest.approx(2.0, rel=1e-3)
     back = metres(solver, effects=BELT)
-    back.add_body(shape, position=(-20.0 if ground == "tiles" else 0.0, 0.0), kind="static", material=Material(friction=0.5, surface_speed=-2.0))
+    back.add_body(
+        shape,
+        position=(-20.0 if ground == "tiles" else 0.0, 0.0),
+        kind="static",
+        material=Material(friction=0.5, surface_speed=-2.0),
+    )
     other = back.add_body(Polygon.box(1, 1), position=(0, -0.5), material=Material(friction=0.5))
     Watch(back).step(72)
     assert other.velocity[0] == pytest.approx(-crate.velocity[0], abs=1e-3)
@@ -61,8 +71,13 @@ def test_belt_brings_a_crate_to_its_speed_at_mu_g(solver, ground):
 
 def test_belt_links_have_their_own_speed():
     world = metres(effects=BELT)
-    world.add_body(Chain([(-20, 0), (0, 0), (20, 0)], materials=(Material(surface_speed=3.0), Material(surface_speed=-3.0))), kind="static")
-    crates = [world.add_body(Polygon.box(1, 1), position=(x, -0.5), material=Material(friction=0.9)) for x in (-15.0, 15.0)]
+    world.add_body(
+        Chain([(-20, 0), (0, 0), (20, 0)], materials=(Material(surface_speed=3.0), Material(surface_speed=-3.0))),
+        kind="static",
+    )
+    crates = [
+        world.add_body(Polygon.box(1, 1), position=(x, -0.5), material=Material(friction=0.9)) for x in (-15.0, 15.0)
+    ]
     Watch(world).step(60)
     left, right = (crate.velocity[0] for crate in crates)
     assert left == pytest.approx(-right, abs=1e-3) and abs(left) == pytest.approx(3.0, rel=0.01)
@@ -73,8 +88,13 @@ def test_rolling_ball_goes_on_for_ever_and_stops_with_resistance(solver):
     for resistance in (0.0, 0.02):
         world = metres(solver)
         floor(world, friction=0.8)
-        ball = world.add_body(Circle(0.5), position=(-30, -0.5), velocity=(2.0, 0.0), angular_velocity=4.0,
-                              material=Material(friction=0.8, rolling_resistance=resistance))
+        ball = world.add_body(
+            Circle(0.5),
+            position=(-30, -0.5),
+            velocity=(2.0, 0.0),
+            angular_velocity=4.0,
+            material=Material(friction=0.8, rolling_resistance=resistance),
+        )
         Watch(world, passive=True).step(300)
         if resistance:
             # The torque c r N works against (m r2 / 2) + m r2 about the point of contact: a = c g 2 / 3.
@@ -89,13 +109,16 @@ def test_ball_with_resistance_holds_on_a_gentle_slope():
     for angle in (0.02, 0.08):
         world = metres()
         floor(world, friction=1.0, angle=angle)
-        ball = world.add_body(Circle(0.5), position=on_slope(angle, 0.0, 0.5), material=Material(friction=1.0, rolling_resistance=0.05))
+        ball = world.add_body(
+            Circle(0.5), position=on_slope(angle, 0.0, 0.5), material=Material(friction=1.0, rolling_resistance=0.05)
+        )
         Watch(world, passive=True).step(180)
         moved[angle] = math.dist(ball.position, on_slope(angle, 0.0, 0.5))
     assert moved[0.02] < 0.02 and moved[0.08] > 0.5
 
 
 # --- events --------------------------------------------------------------------------------------------------------------
+
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -120,7 +143,10 @@ def test_every_begin_has_exactly_one_end_whatever_is_removed_or_changed(solver):
         elif live and choice == 3:
             live[rng.integers(len(live))].move_to(tuple(rng.uniform((-4, -6), (4, -1))))
         world.step()
-        for pairs, begins, ends in ((open_pairs, world.events.begin, world.events.end), (sensed, world.events.sensor_begin, world.events.sensor_end)):
+        for pairs, begins, ends in (
+            (open_pairs, world.events.begin, world.events.end),
+            (sensed, world.events.sensor_begin, world.events.sensor_end),
+        ):
             for row in ends:
                 pairs.remove((int(row["shape_a"]), int(row["shape_b"])))
             for row in begins:
@@ -128,7 +154,9 @@ def test_every_begin_has_exactly_one_end_whatever_is_removed_or_changed(solver):
                 assert key not in pairs, f"step {step}: {key} begins twice"
                 pairs.add(key)
         known = set(world.shapes["id"].tolist())
-        assert all(a in known and b in known for a, b in open_pairs | sensed), f"step {step}: a pair of a shape that is gone is open"
+        assert all(a in known and b in known for a, b in open_pairs | sensed), (
+            f"step {step}: a pair of a shape that is gone is open"
+        )
         persisting = {(int(row["shape_a"]), int(row["shape_b"])) for row in world.events.persist}
         assert persisting <= open_pairs
     assert len(open_pairs) > 30

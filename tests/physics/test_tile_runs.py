@@ -9,9 +9,15 @@ from physics.geometry import Library
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import hull_of  # noqa: E402
 
-MOVERS = {"box": Polygon.box(9, 6), "circle": Circle(4), "capsule": Capsule((-4, 0), (4, 0), 3),
-          "upright capsule": Capsule((0, -4), (0, 4), 3), "rounded": Polygon(Polygon.box(6, 4).points, 1.5),
-          "triangle": Polygon([(-6, 3), (6, 3), (0, -5)]), "bounds": Bounds(Circle(4))}
+MOVERS = {
+    "box": Polygon.box(9, 6),
+    "circle": Circle(4),
+    "capsule": Capsule((-4, 0), (4, 0), 3),
+    "upright capsule": Capsule((0, -4), (0, 4), 3),
+    "rounded": Polygon(Polygon.box(6, 4).points, 1.5),
+    "triangle": Polygon([(-6, 3), (6, 3), (0, -5)]),
+    "bounds": Bounds(Circle(4)),
+}
 FLOOR = TileGrid(np.ones((3, 30), bool), 8)
 WALL = TileGrid(np.ones((30, 3), bool), 8)
 
@@ -50,7 +56,9 @@ def test_a_wall_has_one_normal_whatever_row_it_is_met_in(name, depth):
     for y in np.concatenate([np.linspace(60, 100, 161), [63.9999999, 64.0, 64.0000001]]):
         found = collide(WALL, (0, 0, 0), shape, (24 - depth + reach(shape, 0.0, 0), float(y), 0), 0.5)
         assert len(found) >= 1 and found.normal == (1.0, 0.0)
-        assert found.separations.min() == pytest.approx(-depth, abs=1e-9) and len(set(found.features.tolist())) == len(found)
+        assert found.separations.min() == pytest.approx(-depth, abs=1e-9) and len(set(found.features.tolist())) == len(
+            found
+        )
 
 
 @pytest.mark.parametrize("name", ["box", "circle", "capsule", "rounded"])
@@ -75,7 +83,10 @@ def test_overlap_with_any_ground_is_a_contact():
         grid = TileGrid(solid, 8)
         ground = shapely.union_all([shapely.box(8 * c, 8 * r, 8 * c + 8, 8 * r + 8) for r, c in np.argwhere(solid)])
         for shape in MOVERS.values():
-            pose = (*rng.uniform((4, 4), (60, 44)).tolist(), 0.0 if isinstance(shape, Bounds) else float(rng.uniform(-3, 3)))
+            pose = (
+                *rng.uniform((4, 4), (60, 44)).tolist(),
+                0.0 if isinstance(shape, Bounds) else float(rng.uniform(-3, 3)),
+            )
             core, radius = hull_of(shape, pose)
             gap = shapely.MultiPoint([tuple(p) for p in core]).convex_hull.distance(ground) - radius
             assert (len(collide(grid, (0, 0, 0), shape, pose)) > 0) == (gap <= 0.0) or abs(gap) < 1e-9

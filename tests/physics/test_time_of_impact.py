@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from physics import (JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact)
+from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
+from physics.geometry import Library
 from physics.jit import kernel
 from physics.motion.advance import advance, new_advance_room, separate_at
 from physics.motion.turning import new_turning_room, sweep_turning
-from physics.geometry import Library
 from physics.profile import CAP_HITS, COUNTERS, GJK_ITERATIONS
 from physics.shape_rows import rounding_of
 from physics.tables import BODY, SHAPE
@@ -27,10 +27,14 @@ def test_two_discs_in_closed_form():
     """hard_cases §4: 1e-12; the swapped call is the same with the normal turned round."""
     found = time_of_impact(Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0), Circle(0.3), O, O)
     assert found.hit and found.fraction == pytest.approx(0.012401923788647, abs=1e-14)
-    assert found.normal == pytest.approx((math.sqrt(0.75), -0.5)) and found.point == pytest.approx((-0.3 * math.sqrt(0.75), 0.15))
+    assert found.normal == pytest.approx((math.sqrt(0.75), -0.5)) and found.point == pytest.approx(
+        (-0.3 * math.sqrt(0.75), 0.15)
+    )
     turned = time_of_impact(Circle(0.3), O, O, Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0))
     assert turned.fraction == found.fraction and turned.normal == (-found.normal[0], -found.normal[1])
-    assert time_of_impact(Circle(0.5), O, O, Circle(0.5), (10, 0, 0), (0, 0, 0)).fraction == pytest.approx(0.9, abs=1e-15)
+    assert time_of_impact(Circle(0.5), O, O, Circle(0.5), (10, 0, 0), (0, 0, 0)).fraction == pytest.approx(
+        0.9, abs=1e-15
+    )
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4])
@@ -64,12 +68,16 @@ def test_point_like_disc_past_a_short_edge(half):
 
 
 @pytest.mark.parametrize("gap", [0.0, -0.5])
-@pytest.mark.parametrize("move, hit", [((1, 0), True), ((-1, 0), False), ((0, 5), False), ((0, 0), False), ((1e-9, 3), True)])
-@pytest.mark.parametrize("shapes", [(BOX, BOX), (Circle(1), Circle(1)), (BOX, Circle(1)), (Capsule((0, -1), (0, 1), 1), BOX)])
+@pytest.mark.parametrize(
+    "move, hit", [((1, 0), True), ((-1, 0), False), ((0, 5), False), ((0, 0), False), ((1e-9, 3), True)]
+)
+@pytest.mark.parametrize(
+    "shapes", [(BOX, BOX), (Circle(1), Circle(1)), (BOX, Circle(1)), (Capsule((0, -1), (0, 1), 1), BOX)]
+)
 def test_touching_at_the_start_counts_when_it_approaches(shapes, move, hit, gap):
     """C16: approaching 0; separating, sliding and resting look on."""
     if move == (0, 5) and gap < 0.0 and shapes[1] == Circle(1) and shapes[0] == Circle(1):
-        return                           # overlapping discs that pass each other part at once
+        return  # overlapping discs that pass each other part at once
     found = time_of_impact(shapes[0], O, (*move, 0), shapes[1], (2 + gap, 0, 0), (2 + gap, 0, 0))
     assert found.fraction == 0.0 and found.hit and found.normal == pytest.approx((1, 0)) if hit else missed(found)
 
@@ -104,11 +112,14 @@ def test_turning_hulls_meet_where_dense_sampling_sees_it(seed):
     """Never later than the first sample that overlaps, and at a separation of 0, however they turn."""
     rng, room, hits = np.random.default_rng(seed), new_advance_room(), 0
     for _ in range(120 if JIT else 8):
-        outlines = [hulls.random_outline(rng, rng.integers(1, 10), 10.0 ** -rng.uniform(0, 3), rng.uniform(0.5, 3)) for _ in "ab"]
+        outlines = [
+            hulls.random_outline(rng, rng.integers(1, 10), 10.0 ** -rng.uniform(0, 3), rng.uniform(0.5, 3))
+            for _ in "ab"
+        ]
         radii = [float(rng.choice([0.0, 0.3])) for _ in "ab"]
         room.motion_a[:], room.motion_b[:] = random_motion(rng), random_motion(rng)
         for local, outline in zip((room.local_a, room.local_b), outlines):
-            local[:len(outline)] = outline
+            local[: len(outline)] = outline
         counts = (len(outlines[0]), radii[0], len(outlines[1]), radii[1])
         samples = np.array([separate_at(*counts, t, room) for t in np.linspace(0, 1, 1001 if JIT else 101)])
         if samples[0] <= 0.0:
@@ -121,16 +132,23 @@ def test_turning_hulls_meet_where_dense_sampling_sees_it(seed):
             assert fraction <= np.argmax(samples <= 0.0) / (len(samples) - 1) + 1e-12
         if fraction <= 1.0:
             assert abs(separate_at(*counts, fraction, room)) <= 1e-9 * 30
-            assert (samples[:int(fraction * (len(samples) - 1))] > 0.0).all()
+            assert (samples[: int(fraction * (len(samples) - 1))] > 0.0).all()
         else:
             assert samples.min() > 0.0
     assert hits > 8 or not JIT
 
 
-KINDS = {"circle": Circle(4.0, (3.0, 1.0)), "capsule": Capsule((-6, 0), (5, 2), 2.0), "polygon": Polygon([(-7, -2), (6, -4), (3, 5)]),
-         "rounded": Polygon([(-7, -2), (6, -4), (3, 5)], 1.5), "segment": Segment((-8, 0), (7, 3)),
-         "mask": PixelMask.from_array(np.array([[1, 1, 1, 0], [0, 1, 0, 0], [1, 1, 1, 1]], bool)), "bounds": Bounds(Polygon.box(9, 3)),
-         "tiles": TileGrid(np.array([[1, 0, 1], [1, 1, 0]], bool), 6.0), "chain": Chain([(-9, 0), (-2, -3), (4, 1), (10, 0)])}
+KINDS = {
+    "circle": Circle(4.0, (3.0, 1.0)),
+    "capsule": Capsule((-6, 0), (5, 2), 2.0),
+    "polygon": Polygon([(-7, -2), (6, -4), (3, 5)]),
+    "rounded": Polygon([(-7, -2), (6, -4), (3, 5)], 1.5),
+    "segment": Segment((-8, 0), (7, 3)),
+    "mask": PixelMask.from_array(np.array([[1, 1, 1, 0], [0, 1, 0, 0], [1, 1, 1, 1]], bool)),
+    "bounds": Bounds(Polygon.box(9, 3)),
+    "tiles": TileGrid(np.array([[1, 0, 1], [1, 1, 0]], bool), 6.0),
+    "chain": Chain([(-9, 0), (-2, -3), (4, 1), (10, 0)]),
+}
 
 
 @pytest.mark.parametrize("kind_a", sorted(KINDS))
@@ -149,12 +167,19 @@ def test_every_pair_of_kinds_meets_at_distance_nothing_and_mirrors(kind_a, kind_
         if not found.hit:
             continue
         hits += 1
-        assert turned.normal == (0.0 - found.normal[0], 0.0 - found.normal[1]) and math.hypot(*found.normal) == pytest.approx(1.0)
+        assert turned.normal == (0.0 - found.normal[0], 0.0 - found.normal[1]) and math.hypot(
+            *found.normal
+        ) == pytest.approx(1.0)
         if "mask" not in (kind_a, kind_b):
-            poses = [tuple(p + found.fraction * (q - p) for p, q in zip(*each)) for each in ((start_a, end_a), (start_b, end_b))]
+            poses = [
+                tuple(p + found.fraction * (q - p) for p, q in zip(*each))
+                for each in ((start_a, end_a), (start_b, end_b))
+            ]
             assert abs(distance(a, poses[0], b, poses[1]).distance) <= 1e-8
-            before = [tuple(p + max(0.0, found.fraction - 1e-3) * (q - p) for p, q in zip(*each))
-                      for each in ((start_a, end_a), (start_b, end_b))]
+            before = [
+                tuple(p + max(0.0, found.fraction - 1e-3) * (q - p) for p, q in zip(*each))
+                for each in ((start_a, end_a), (start_b, end_b))
+            ]
             assert distance(a, before[0], b, before[1]).distance > 0.0 or "chain" in (kind_a, kind_b)
     assert hits == 0 if {kind_a, kind_b} <= {"tiles", "chain"} else hits > 0 or "chain" in (kind_a, kind_b)
 
@@ -174,7 +199,7 @@ def test_tiles_have_no_seams_and_chains_no_back():
 
 def test_bounds_that_grow_as_they_turn():
     """The AABB of a unit square at angle t reaches cos t + sin t."""
-    wanted = math.asin(1.2 ** 2 - 1.0) / 2.0
+    wanted = math.asin(1.2**2 - 1.0) / 2.0
     found = time_of_impact(Bounds(BOX), O, (0, 0, math.pi / 4), Circle(0.2), (1.4, 0, 0), (1.4, 0, 0))
     assert found.fraction == pytest.approx(wanted / (math.pi / 4), abs=1e-8)
 
@@ -189,7 +214,7 @@ def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
     """What the world's sweep says of a mover (start and end pose in one) against another shape."""
     library, bodies, shapes, work = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE), np.zeros(len(COUNTERS), np.int64)
     for row, shape in enumerate((mover, other)):
-        s = shapes[row:row + 1]
+        s = shapes[row : row + 1]
         s["kind"], s["geometry"], s["wrapped"] = library.add(shape)
         s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
         s["body_row"] = row
@@ -205,8 +230,16 @@ FLOOR = Chain([(16.0 * k, 0.0) for k in range(41)])
 
 
 @pytest.mark.parametrize("ground", [TILES, FLOOR], ids=["tiles", "chain"])
-@pytest.mark.parametrize("mover", [Polygon.box(10, 10), Circle(5.0), Capsule((0, -2), (0, 2), 3.0), Polygon(
-    [(-4, -4), (4, -4), (4, 4), (-4, 4)], 1.0)], ids=["box", "circle", "capsule", "rounded"])
+@pytest.mark.parametrize(
+    "mover",
+    [
+        Polygon.box(10, 10),
+        Circle(5.0),
+        Capsule((0, -2), (0, 2), 3.0),
+        Polygon([(-4, -4), (4, -4), (4, 4), (-4, 4)], 1.0),
+    ],
+    ids=["box", "circle", "capsule", "rounded"],
+)
 @pytest.mark.parametrize("sunk", [-0.1, 0.0, 0.1])
 def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
     """G5, E4: no seam stops it, touching, sunk by less than the slop or a hair above."""

@@ -26,8 +26,13 @@ def out_of_reach(request, monkeypatch, tmp_path):
 
     for name in ("exists", "is_dir", "is_file", "iterdir", "stat", "open", "mkdir"):
         allowed = getattr(Path, name)
-        monkeypatch.setattr(Path, name, lambda path, *more, allowed=allowed, **named: (
-            refuse(path) if "closed" in path.parts else allowed(path, *more, **named)))
+        monkeypatch.setattr(
+            Path,
+            name,
+            lambda path, *more, allowed=allowed, **named: (
+                refuse(path) if "closed" in path.parts else allowed(path, *more, **named)
+            ),
+        )
 
 
 def test_everything_starts_empty(out_of_reach):

@@ -24,4 +24,6 @@ def test_a_pipe_stays_a_pipe(tmp_path):
 @pytest.mark.parametrize("name", ["picture", "picture.jpg", "picture.PNG"])
 def test_a_screenshot_is_a_png_whatever_it_is_called(tmp_path, name):
     save_png(pygame.Surface((4, 3)), tmp_path / name)
-    assert (tmp_path / name).read_bytes().startswith(b"\x89PNG") and [each.name for each in tmp_path.iterdir()] == [name]
+    assert (tmp_path / name).read_bytes().startswith(b"\x89PNG") and [each.name for each in tmp_path.iterdir()] == [
+        name
+    ]

@@ -13,9 +13,11 @@ MAIN = Path(__file__).resolve().parents[2] / "main.py"
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
 def test_it_ends(tmp_path):
     # It has begun once its display is open, which is when SDL takes what signals it can.
-    watched = "import main, game.headless as h; start = h.start_dummy_display; " \
-              "h.start_dummy_display = lambda: (start(), print('open', flush=True)); " \
-              "main.main(['--scene', 'lab/cradle', '--headless', '--frames', '100000000'])"
+    watched = (
+        "import main, game.headless as h; start = h.start_dummy_display; "
+        "h.start_dummy_display = lambda: (start(), print('open', flush=True)); "
+        "main.main(['--scene', 'lab/cradle', '--headless', '--frames', '100000000'])"
+    )
     program = subprocess.Popen([sys.executable, "-c", watched], cwd=MAIN.parent, stdout=subprocess.PIPE, text=True)
     try:
         while "open" not in program.stdout.readline():

@@ -36,7 +36,9 @@ def test_it_can_be_read(tmp_path):
     assert load_tilemap(path).size == (48, 32)
 
 
-@pytest.mark.parametrize("place", [place for place in places(FULL) if place], ids=lambda place: ".".join(map(str, place)))
+@pytest.mark.parametrize(
+    "place", [place for place in places(FULL) if place], ids=lambda place: ".".join(map(str, place))
+)
 def test_whatever_stands_there_it_is_read_or_refused(tmp_path, place):
     path = tmp_path / "level.tmj"
     for odd in ODD:

@@ -19,7 +19,7 @@ def test_the_last_run_is_gone_before_the_next_is_built(scene_class):
 
     seen, there = [], []
     scene = Watched(1)
-    gc.disable()               # what a collection at a lucky moment takes away proves nothing
+    gc.disable()  # what a collection at a lucky moment takes away proves nothing
     try:
         scene.restart()
         scene.restart()

@@ -28,7 +28,9 @@ def test_a_full_disk(flag):
 
 
 def test_a_reader_that_has_gone():
-    program = subprocess.Popen([sys.executable, MAIN, "--version"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    program = subprocess.Popen(
+        [sys.executable, MAIN, "--version"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
     program.stdout.close()
     assert program.stderr.read() == "" and program.wait() == 0
     program.stderr.close()

@@ -5,10 +5,24 @@ import math
 import numpy as np
 import pytest
 
-from physics import (BROADPHASES, Bounds, BruteForce, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World,
-                     collide)
+from physics import (
+    BROADPHASES,
+    Bounds,
+    BruteForce,
+    Character,
+    Circle,
+    Effects,
+    Material,
+    PixelMask,
+    Polygon,
+    TileGrid,
+    World,
+    collide,
+)
 
-ALL = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True)
+ALL = Effects(
+    response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True
+)
 
 
 @pytest.mark.parametrize("name", BROADPHASES)
@@ -101,7 +115,7 @@ def test_mask_depth_ends_the_overlap_at_any_pose():
 
 @pytest.mark.parametrize("sensor", [False, True])
 def test_sweep_that_ends_just_behind_what_it_crossed_is_told(sensor):
-    for end in np.linspace(3.5, 3.9, 9):                  # touching at 3.5, the slop ends at 3.66
+    for end in np.linspace(3.5, 3.9, 9):  # touching at 3.5, the slop ends at 3.66
         world = World(Effects(continuous=True, sensors=True))
         world.add_body(Polygon.box(1, 9), kind="static", sensor=sensor)
         world.add_body(Circle(1.0), position=(end - 42.0, 0.0), velocity=(40.0 * 60, 0.0), continuous="swept")
@@ -146,9 +160,12 @@ def test_wind_that_does_not_blow_slows_nobody_without_declared_drag():
 def test_normals_have_no_minus_zero():
     world = World(Effects())
     world.add_body(Polygon.box(4, 4), kind="static")
-    numbers = [*world.ray_cast((-9, 0), (20, 0)).normal, *world.ray_cast((0, -9), (0, 20)).normal,
-               *collide(Polygon.box(4, 4), (0, 0, 0), Polygon.box(4, 4), (3, 0, 0)).normal,
-               *collide(Circle(4), (0, 0, 0), Circle(4), (-3, 0, 0)).normal]
+    numbers = [
+        *world.ray_cast((-9, 0), (20, 0)).normal,
+        *world.ray_cast((0, -9), (0, 20)).normal,
+        *collide(Polygon.box(4, 4), (0, 0, 0), Polygon.box(4, 4), (3, 0, 0)).normal,
+        *collide(Circle(4), (0, 0, 0), Circle(4), (-3, 0, 0)).normal,
+    ]
     assert not any(n == 0.0 and math.copysign(1, n) < 0 for n in numbers)
 
 

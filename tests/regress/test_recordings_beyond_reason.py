@@ -50,7 +50,9 @@ def test_a_level_that_no_file_can_be_called(spoilt, name):
         replay.level_path()
 
 
-@pytest.mark.parametrize("entries", [{"date": "x" * 10_000_000}, {"result": {"won": True, "points": 10**4000, "seconds": 1.0}}])
+@pytest.mark.parametrize(
+    "entries", [{"date": "x" * 10_000_000}, {"result": {"won": True, "points": 10**4000, "seconds": 1.0}}]
+)
 def test_lines_too_long_to_show(spoilt, entries):
     with pytest.raises(FileError, match=next(iter(entries))):
         load_replay(spoilt(**entries))

@@ -17,7 +17,9 @@ def test_both_windows_keep_their_places(tmp_path):
     second.add("shooter", "points", entry(300, "TWO"))
     assert second.save() == ""
     found = load_records(path)[0].tables
-    assert [each.name for each in found["shooter"]] == ["TWO", "ONE", "TWO"] and [each.name for each in found["maze"]] == ["ONE"]
+    assert [each.name for each in found["shooter"]] == ["TWO", "ONE", "TWO"] and [
+        each.name for each in found["maze"]
+    ] == ["ONE"]
     first.save()
     assert load_records(path)[0].tables == found
 

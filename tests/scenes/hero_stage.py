@@ -12,9 +12,14 @@ from scenes.platformer.scene import Platformer, others
 from scenes.platformer.things import Belt, Crate, Crumble, Platform, Trigger
 
 TILES = {"#": 0, "-": 1, "/": 2, "\\": 3, "1": 4, "2": 5}
-PROPERTIES = {0: {"kind": "solid"}, 1: {"kind": "one_way"}, 2: {"kind": "slope", "left": 0.0, "right": 1.0},
-              3: {"kind": "slope", "left": 1.0, "right": 0.0}, 4: {"kind": "slope", "left": 0.0, "right": 0.5},
-              5: {"kind": "slope", "left": 0.5, "right": 1.0}}
+PROPERTIES = {
+    0: {"kind": "solid"},
+    1: {"kind": "one_way"},
+    2: {"kind": "slope", "left": 0.0, "right": 1.0},
+    3: {"kind": "slope", "left": 1.0, "right": 0.0},
+    4: {"kind": "slope", "left": 0.0, "right": 0.5},
+    5: {"kind": "slope", "left": 0.5, "right": 1.0},
+}
 
 
 class Stage:
@@ -24,15 +29,35 @@ class Stage:
         rows = text.strip("\n").split("\n")
         numbers = np.array([[TILES.get(letter, -1) for letter in row] for row in rows])
         empty = np.full_like(numbers, -1)
-        self.level = Level(TileMap("stage", numbers.shape[1], numbers.shape[0], 16, {"solid": numbers, "decor": empty},
-                                   {}, PROPERTIES, "", 1, tuple(things), {}))
+        self.level = Level(
+            TileMap(
+                "stage",
+                numbers.shape[1],
+                numbers.shape[0],
+                16,
+                {"solid": numbers, "decor": empty},
+                {},
+                PROPERTIES,
+                "",
+                1,
+                tuple(things),
+                {},
+            )
+        )
         self.world = World(Platformer.effects, gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
         floor = next(row for row in range(len(rows)) if rows[row][x] in "#-") * 16
         self.hero = Hero(self.world, self.level, (x * 16 + 8, floor - HEIGHT / 2))
-        made = {kind: [cls(self.world, one) for one in things if one.kind == kind]
-                for kind, cls in (("platform", Platform), ("crate", Crate), ("belt", Belt), ("crumble", Crumble),
-                                  ("ladder", Trigger))}
+        made = {
+            kind: [cls(self.world, one) for one in things if one.kind == kind]
+            for kind, cls in (
+                ("platform", Platform),
+                ("crate", Crate),
+                ("belt", Belt),
+                ("crumble", Crumble),
+                ("ladder", Trigger),
+            )
+        }
         self.platforms, self.crates, self.belts, self.crumbles, ladders = made.values()
         self.ladders = {ladder.body.id: ladder for ladder in ladders}
         self.inputs = InputState()

@@ -65,6 +65,8 @@ def test_what_is_declared_matters_and_nothing_else_does(played, effect):
             assert effect in str(error) or "needs" in str(error)
             return
         assert found != digest, f"{scene_class.name} declares {effect}, and does not call for it"
-    elif effect in ADDED and (scene_class.effects.response or effect not in ("restitution", "conveyor", "one_way", "friction")):
+    elif effect in ADDED and (
+        scene_class.effects.response or effect not in ("restitution", "conveyor", "one_way", "friction")
+    ):
         found = play(with_effects(scene_class, **{effect: True}), ScriptSource(keys), len(keys))
         assert found == digest, f"{scene_class.name} does not declare {effect}; added, it changes what happens"

@@ -34,8 +34,10 @@ class Hands:
         self.scene.step(self.inputs)
 
 
-@pytest.mark.parametrize("shape", [Circle(8.0), Capsule((-7, 0), (7, 3), 5.0), Polygon.box(15, 9),
-                                   Polygon(Polygon.box(12, 6).points, radius=4.0)])
+@pytest.mark.parametrize(
+    "shape",
+    [Circle(8.0), Capsule((-7, 0), (7, 3), 5.0), Polygon.box(15, 9), Polygon(Polygon.box(12, 6).points, radius=4.0)],
+)
 def test_a_piece_is_drawn_where_its_shape_is(shape):
     image = piece(shape, "teal")
     alpha = pygame.surfarray.array_alpha(image)

@@ -31,6 +31,7 @@ def play(scene, frames=(), steps=None, source=None):
 
 # --- stacks, pyramid -------------------------------------------------------------------------------------------------
 
+
 def test_three_columns_are_the_same_but_for_their_solver():
     scene = Stacks(seed=1)
     assert [world.solver for world in scene.worlds] == list(SOLVERS)
@@ -84,6 +85,7 @@ def test_twenty_rows_stand_still_with_four_substeps_and_creep_with_two(substeps,
 
 # --- tumbler ---------------------------------------------------------------------------------------------------------
 
+
 def test_the_drum_is_closed_and_the_load_starts_inside_without_overlap():
     assert len(drum_boxes()) == 15
     for x, y in places(160):
@@ -107,6 +109,7 @@ def test_none_gets_out_at_full_speed(speed):
 
 # --- dominoes --------------------------------------------------------------------------------------------------------
 
+
 @compiled
 def test_dominoes_stand_until_pushed_and_can_be_set_up_again():
     scene = play(Dominoes(seed=1), steps=200)
@@ -126,6 +129,7 @@ def test_on_the_screen_the_large_wave_lags_by_half():
 
 # --- cradle ----------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("strikers", [1, 2, 3])
 def test_as_many_leave_as_came(strikers):
     scene = Cradle(seed=1)
@@ -139,7 +143,7 @@ def test_as_many_leave_as_came(strikers):
 def test_without_a_gap_momentum_stays_and_energy_never_grows():
     scene = Cradle(seed=1)
     scene.change("slider:gap", 0)
-    for _ in range(70):           # up to the first ball at the far wall
+    for _ in range(70):  # up to the first ball at the far wall
         play(scene, steps=1)
         for index, world in enumerate(scene.worlds):
             if max(body.position[0] for body in scene.balls[index]) < 900.0:
@@ -151,10 +155,13 @@ def test_without_a_gap_momentum_stays_and_energy_never_grows():
 
 # --- billiards -------------------------------------------------------------------------------------------------------
 
+
 def test_the_mouse_aims_swings_the_power_and_shoots_when_let_go():
     scene = Billiards(seed=1)
     place = (300, 180)
-    swing = [InputFrame(pointer=place)] + [InputFrame(pointer=place, pointer_down=True)] * 36 + [InputFrame(pointer=place)]
+    swing = (
+        [InputFrame(pointer=place)] + [InputFrame(pointer=place, pointer_down=True)] * 36 + [InputFrame(pointer=place)]
+    )
     play(scene, swing)
     vx, vy = scene.cue.velocity
     assert scene.shots == 1 and 0.4 < scene.power < 0.6
@@ -194,8 +201,9 @@ def test_a_game_of_a_minute_stays_on_the_table(seed):
 
 # --- house of cards --------------------------------------------------------------------------------------------------
 
+
 def test_theory_is_the_tangent_of_the_lean_less_the_round_end():
-    assert NEEDED == pytest.approx(0.223, abs=5e-4)      # tan(25 deg) / 2 = 0.233 for an end without a radius
+    assert NEEDED == pytest.approx(0.223, abs=5e-4)  # tan(25 deg) / 2 = 0.233 for an end without a radius
 
 
 @compiled
@@ -211,6 +219,7 @@ def test_a_coin_knocks_the_house_down():
 
 
 # --- turned pictures -------------------------------------------------------------------------------------------------
+
 
 def test_a_picture_turns_by_quarters_without_loss():
     image = pygame.Surface((5, 4), pygame.SRCALPHA, 32)

@@ -125,7 +125,7 @@ def test_a_bat_wakes_by_its_lair_and_is_stomped():
     put(scene, x - 60, 512)
     play(session, 3)
     assert bat.seen and bat.phase == "flying"
-    scene.mercy = 999                    # it comes to where he stands
+    scene.mercy = 999  # it comes to where he stands
     while bat.count < 80:
         session.step()
     put(scene, bat.character.position[0] + 4 * bat.way, bat.top - 10)
@@ -340,5 +340,16 @@ def test_every_thing_of_the_level_is_met():
 
 def test_what_the_scene_declares_is_what_it_uses():
     scene, _ = start()
-    assert scene.effects.names() == ["narrowphase", "response", "gravity", "rotation", "friction", "stacking",
-                                     "continuous", "sleeping", "sensors", "one_way", "conveyor"]
+    assert scene.effects.names() == [
+        "narrowphase",
+        "response",
+        "gravity",
+        "rotation",
+        "friction",
+        "stacking",
+        "continuous",
+        "sleeping",
+        "sensors",
+        "one_way",
+        "conveyor",
+    ]

@@ -14,7 +14,7 @@ from scenes.platformer.feats import GOAL_DUE
 from scenes.platformer.scene import Platformer
 
 pytestmark = pytest.mark.skipif(not physics.JIT, reason="minutes of play take long without compiled kernels")
-SHORT = 1900                 # steps: past the first belt, whose crate is thrown through a plank
+SHORT = 1900  # steps: past the first belt, whose crate is thrown through a plank
 
 
 def run(frames, draws=False, effects=None, **settings):
@@ -92,7 +92,9 @@ def test_pieces_of_stones_could_not_turn_without_rotation():
 @pytest.mark.parametrize("name", ["response", "continuous", "sensors", "stacking"])
 def test_what_the_scene_asks_for_needs_the_other_effects(name):
     gone = {name: False} | ({"sleeping": False} if name == "stacking" else {})
-    gone |= dict.fromkeys(("friction", "stacking", "one_way", "conveyor", "sleeping"), False) if name == "response" else {}
+    gone |= (
+        dict.fromkeys(("friction", "stacking", "one_way", "conveyor", "sleeping"), False) if name == "response" else {}
+    )
     with pytest.raises(ValueError, match=name):
         run(1, effects=Platformer.effects.with_(**gone))
 

@@ -49,7 +49,7 @@ def test_a_hop_does_not_move_it_up_and_a_landing_higher_does():
     for _ in range(40):
         session.step()
         assert abs(middle(scene)[1] - y) < 8
-    scene.hero.place((scene.hero.character.position[0], 224 - HEIGHT / 2))      # a ledge of six tiles: not a hop
+    scene.hero.place((scene.hero.character.position[0], 224 - HEIGHT / 2))  # a ledge of six tiles: not a hop
     scene.hero.grounded = True
     scene.look.gaze.level_y = 214
     run(session, 1)

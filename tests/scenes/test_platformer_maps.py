@@ -24,14 +24,29 @@ def small():
     objects = [
         {"id": 1, "type": "hero_start", "x": 32, "y": 220, "width": 10, "height": 20},
         {"id": 2, "type": "goal", "x": 400, "y": 192, "width": 32, "height": 48},
-        {"id": 3, "type": "walker", "x": 200, "y": 224, "width": 20, "height": 16,
-         "properties": [{"name": "range", "type": "int", "value": 32}]},
+        {
+            "id": 3,
+            "type": "walker",
+            "x": 200,
+            "y": 224,
+            "width": 20,
+            "height": 16,
+            "properties": [{"name": "range", "type": "int", "value": 32}],
+        },
     ]
     return {
-        "type": "map", "orientation": "orthogonal", "infinite": False, "width": 30, "height": 17, "tilewidth": 16,
-        "tileheight": 16, "tilesets": [dict(OWN["tilesets"][0])],
-        "layers": [{"type": "tilelayer", "name": "solid", "data": solid},
-                   {"type": "objectgroup", "name": "things", "objects": objects}],
+        "type": "map",
+        "orientation": "orthogonal",
+        "infinite": False,
+        "width": 30,
+        "height": 17,
+        "tilewidth": 16,
+        "tileheight": 16,
+        "tilesets": [dict(OWN["tilesets"][0])],
+        "layers": [
+            {"type": "tilelayer", "name": "solid", "data": solid},
+            {"type": "objectgroup", "name": "things", "objects": objects},
+        ],
     }
 
 
@@ -100,17 +115,37 @@ MISTAKES = [
     (lambda level: level["layers"][0].update(name="walls"), "layers", "no tile layer 'solid'; there are walls"),
     (lambda level: level["layers"][0]["data"].__setitem__(7, 9999), "layers[0].data[7]", "is not in the tileset"),
     (lambda level: level.update(tilewidth=32, tileheight=32), "tilewidth", "must be 16"),
-    (lambda level: level["tilesets"][0].update(image="none.png"), "tilesets[0].image", "there is no picture 'none.png'"),
+    (
+        lambda level: level["tilesets"][0].update(image="none.png"),
+        "tilesets[0].image",
+        "there is no picture 'none.png'",
+    ),
     (lambda level: level["tilesets"][0].update(image="../images/ui.png", columns=64), "tilesets[0].image", "too small"),
     (add(type="sign"), "(sign)", "needs the property 'text'"),
-    (add(type="platform", properties=[{"name": "to_x", "value": 9}, {"name": "to_y", "value": 9}]), "(platform)", "'period'"),
-    (add(type="platform", properties=[{"name": "to_x", "value": 9}, {"name": "to_y", "value": 9},
-                                      {"name": "period", "value": 0}]),
-     "(platform).period", "must be a number 0.5..120"),
+    (
+        add(type="platform", properties=[{"name": "to_x", "value": 9}, {"name": "to_y", "value": 9}]),
+        "(platform)",
+        "'period'",
+    ),
+    (
+        add(
+            type="platform",
+            properties=[{"name": "to_x", "value": 9}, {"name": "to_y", "value": 9}, {"name": "period", "value": 0}],
+        ),
+        "(platform).period",
+        "must be a number 0.5..120",
+    ),
     (add(type="belt"), "(belt)", "needs the property 'speed'"),
-    (add(type="zone", properties=[{"name": "act", "value": "beach"}]), "(zone).act", "must be one of meadow, cave, keep"),
-    (add(type="hint", properties=[{"name": "order", "value": 1}, {"name": "act", "value": "swim"}]),
-     "(hint).act", "must be one of"),
+    (
+        add(type="zone", properties=[{"name": "act", "value": "beach"}]),
+        "(zone).act",
+        "must be one of meadow, cave, keep",
+    ),
+    (
+        add(type="hint", properties=[{"name": "order", "value": 1}, {"name": "act", "value": "swim"}]),
+        "(hint).act",
+        "must be one of",
+    ),
 ]
 
 
@@ -131,7 +166,7 @@ def test_a_map_that_is_too_small_or_too_large_is_refused(tmp_path):
         Platformer(level=str(save(tmp_path, level)))
 
 
-@pytest.mark.parametrize("text", ["", "[]", "{", "{\"width\": 3}"])
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"width": 3}'])
 def test_what_is_no_map_at_all(tmp_path, text):
     path = tmp_path / "mine.tmj"
     path.write_text(text)

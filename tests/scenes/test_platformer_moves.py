@@ -70,7 +70,7 @@ def test_a_jump_pressed_just_before_the_landing_counts(early, jumps):
 def test_a_head_slips_past_a_corner_but_not_through_a_ceiling():
     roof = "........\n" * 3 + "....####\n" + "........\n" * 3 + "########\n"
     stage = Stage(roof, 3)
-    stage.hero.place((4 * 16 - 5 + 6, 7 * 16 - HEIGHT / 2))      # six pixels under the roof
+    stage.hero.place((4 * 16 - 5 + 6, 7 * 16 - HEIGHT / 2))  # six pixels under the roof
     stage.run("", 2)
     assert apex(stage, "", 40) > 50 and "bump" not in stage.news
     stage = Stage(roof, 6)
@@ -95,7 +95,7 @@ def test_a_wall_slows_the_fall_and_the_grip_tires():
 
 def test_a_wall_jump_turns_away_and_reaches_a_little():
     stage = Stage(WALLS, 5)
-    stage.hero.place((6 * 16 - 5 - 4, 150))         # four pixels from the wall
+    stage.hero.place((6 * 16 - 5 - 4, 150))  # four pixels from the wall
     stage.run("", 2)
     hero = stage.run("right jump")
     assert "wall_jump" in stage.news and hero.vx == -feel.WALL_JUMP_SPEED and hero.facing == -1
@@ -151,7 +151,7 @@ def test_feet_that_are_nearly_up_through_a_plank_are_helped_up():
     reached = {}
     for short in (3, 30):
         stage = Stage(tall, 3)
-        stage.hero.place((56, 32 + 46 + short - HEIGHT / 2))      # a jump from the air: as high as if from ground
+        stage.hero.place((56, 32 + 46 + short - HEIGHT / 2))  # a jump from the air: as high as if from ground
         stage.hero.grounded, stage.hero.coyote = False, 3
         stage.run("jump", 40)
         stage.run("", 12)
@@ -162,7 +162,7 @@ def test_feet_that_are_nearly_up_through_a_plank_are_helped_up():
 def test_a_ceiling_met_at_once_only_delays_a_jump():
     low = "..........\n" * 5 + "....##....\n" + "..........\n..........\n##########\n"
     stage = Stage(low, 4)
-    stage.hero.place((5 * 16, 6 * 16 + HEIGHT / 2))       # his head at the ceiling
+    stage.hero.place((5 * 16, 6 * 16 + HEIGHT / 2))  # his head at the ceiling
     stage.hero.rise = steps(feel.JUMP_HOLD) + 1
     stage.hero._bump(-3.0)
     assert stage.hero.rise == steps(feel.JUMP_HOLD) + 1, "within the grace the hold goes on"
@@ -180,7 +180,7 @@ def test_the_speed_is_along_the_slope_and_the_feet_are_drawn_on_it():
     stage.run("right", 3)
     x = stage.hero.box[0]
     stage.run("right", 6)
-    assert stage.hero.slope == 1.0 and 11 <= stage.hero.box[0] - x <= 14       # 18 px of way, 12.7 along x
+    assert stage.hero.slope == 1.0 and 11 <= stage.hero.box[0] - x <= 14  # 18 px of way, 12.7 along x
     assert lowered(stage.level, stage.hero) == 5.0
     stage.until("right", lambda hero: hero.slope == 0.0)
     stage.run("right", 5)
@@ -215,7 +215,7 @@ def test_a_platform_against_a_wall_squeezes():
 def test_who_is_squeezed_by_a_corner_alone_slips_out():
     press = thing("platform", 48, 32, 48, 16, to_x=48, to_y=112, period=2.0)
     stage = Stage("........\n" * 9 + "########\n", 1, [press])
-    stage.hero.place((48 - 5 + 6, 9 * 16 - HEIGHT / 2))      # six pixels under it
+    stage.hero.place((48 - 5 + 6, 9 * 16 - HEIGHT / 2))  # six pixels under it
     for _ in range(120):
         assert not stage.run("").crushed
     assert stage.hero.box[2] == 48
@@ -225,7 +225,7 @@ def test_who_is_squeezed_by_a_corner_alone_slips_out():
 
 def test_a_crate_is_pushed_slowly_and_falls():
     box = thing("crate", 80, 48, 32, 32)
-    wide = 24                # it may roll over once more: there is floor for it
+    wide = 24  # it may roll over once more: there is floor for it
     air = "." * wide + "\n"
     stage = Stage(air * 5 + "#######" + "." * (wide - 7) + "\n" + air * 3 + "#" * wide + "\n", 2, [box])
     stage.until("right", lambda hero: hero.pushing)

@@ -24,7 +24,9 @@ def test_he_climbs_up_stands_on_its_top_and_climbs_down_again():
     stage = ladder_stage()
     start = stage.hero.box[3]
     stage.run("up", 20)
-    assert stage.hero.ladder is not None and start - stage.hero.box[3] == pytest.approx(20 * feel.CLIMB_SPEED / 60, abs=4)
+    assert stage.hero.ladder is not None and start - stage.hero.box[3] == pytest.approx(
+        20 * feel.CLIMB_SPEED / 60, abs=4
+    )
     stage.run("", 30)
     assert stage.hero.ladder is not None, "without keys he holds on"
     stage.until("up", lambda hero: hero.ladder is None)
@@ -113,7 +115,7 @@ def test_a_crate_on_a_spring_flies_as_high_as_the_hero():
     start = crate.body.position[1]
     crate.launch()
     highest = min(stage.run("") and crate.body.position[1] for _ in range(40))
-    assert start - highest == pytest.approx(feel.SPRING_SPEED ** 2 / (2 * feel.GRAVITY), rel=0.06)
+    assert start - highest == pytest.approx(feel.SPRING_SPEED**2 / (2 * feel.GRAVITY), rel=0.06)
 
 
 def test_a_crate_thrown_from_below_comes_through_planks_and_lands_on_them():

@@ -12,7 +12,7 @@ from game.session import Session
 from scenes import SCENES
 
 FRAMES = 600 if physics.JIT else 90
-FEW = 100                      # bodies where a scene lets one choose
+FEW = 100  # bodies where a scene lets one choose
 
 
 def make(name, **chosen):

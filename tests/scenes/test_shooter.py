@@ -14,8 +14,17 @@ from scenes.shooter.plane import BANKS, BOMBS, BORDER, CORE_RADIUS, LIVES, MOST_
 from scenes.shooter.scene import FREEZE, LAST_MOMENT, Shooter
 from tests.scenes.shooter_stages import Sky
 
-MEET = {CORE | ENEMY, CORE | BULLET, HULL | ENEMY, HULL | BULLET, RING | BULLET, RING | ITEM, SHOT | ENEMY, BLAST | ENEMY,
-        BLAST | BULLET}
+MEET = {
+    CORE | ENEMY,
+    CORE | BULLET,
+    HULL | ENEMY,
+    HULL | BULLET,
+    RING | BULLET,
+    RING | ITEM,
+    SHOT | ENEMY,
+    BLAST | ENEMY,
+    BLAST | BULLET,
+}
 HULL_HURTS = (("slider:hurts", 1),)
 
 
@@ -63,7 +72,9 @@ def test_debris_grows_with_the_impulse_of_the_hit_and_flies_along_it():
         sky.scene.shots.fire("shot", 240, 60 + 60 + 0.2 * side, [-np.pi / 2], 540.0)
         works = sky.scene.spectacle.works
         sky.until(lambda works=works: works.debris, 60)
-        found.append((sky.scene.blows.found, len(works.debris), sum(piece[4] for piece in works.debris) / len(works.debris)))
+        found.append(
+            (sky.scene.blows.found, len(works.debris), sum(piece[4] for piece in works.debris) / len(works.debris))
+        )
     blow, pieces = found[0][0], [each[1] for each in found]
     assert pieces[0] < pieces[1] and len(blow) == 2
     (ax, ay), (bx, by) = blow.values()
@@ -122,7 +133,7 @@ def test_core_and_hull_are_both_tested_and_only_the_chosen_one_hurts():
     for part, hurt in (("core", False), ("hull", True)):
         sky = hull_sky() if part == "hull" else Sky()
         x, y = sky.scene.plane.body.position
-        sky.bullet("red", x + 10, y + 6)           # over the wing, beside the core
+        sky.bullet("red", x + 10, y + 6)  # over the wing, beside the core
         sky.step()
         assert sky.scene.hits.count == {"core": 0, "hull": 1, "box": 1}
         assert (sky.scene.stricken > 0) == hurt

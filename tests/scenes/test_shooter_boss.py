@@ -104,7 +104,7 @@ def test_the_last_phase_holds_1500_bullets_and_all_of_them_go(tmp_path):
     scene.assist["invincible"] = True
     session = Session(scene, BotSource())
     while scene.ending.mode == "playing" and scene.frame < 3000:
-        scene.score.bombs, scene.plane.bombs = 1, 0        # no bomb thins them out
+        scene.score.bombs, scene.plane.bombs = 1, 0  # no bomb thins them out
         session.step()
     assert scene.most_bullets >= 1500
     assert scene.unknown == 0 and session.report.quarantined == 0

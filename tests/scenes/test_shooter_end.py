@@ -13,6 +13,7 @@ from tests.scenes.shooter_stages import Sky, boss_stage
 
 def lose_all(sky):
     """Be hit until the countdown runs."""
+
     def step():
         scene = sky.scene
         if scene.plane.here:
@@ -20,6 +21,7 @@ def lose_all(sky):
             if not scene.stricken and not scene.plane.entering:
                 sky.bullet("red", *scene.plane.body.position)
         return scene.ending.mode != "playing"
+
     sky.until(step, 2000)
 
 
@@ -34,7 +36,9 @@ def test_when_lives_are_gone_a_countdown_asks_and_then_it_is_over():
         sky.step()
     assert digits[0] == 9 and 0 in digits and sorted(digits, reverse=True)[: len(digits)] == digits[: len(digits)]
     assert isinstance(scene.result, Result) and not scene.result.won
-    assert scene.result.points == scene.score.points and scene.result.seconds == pytest.approx(scene.frame / 60, abs=0.2)
+    assert scene.result.points == scene.score.points and scene.result.seconds == pytest.approx(
+        scene.frame / 60, abs=0.2
+    )
     result, frame = scene.result, scene.frame
     sky.step(20, ["fire"])
     sky.step(20, ["confirm"])

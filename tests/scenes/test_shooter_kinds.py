@@ -12,14 +12,24 @@ from scenes.shooter.patterns import Gun, fan, lead, ring
 from scenes.shooter.stage import Pattern
 from tests.scenes.shooter_stages import Sky
 
-SHOT = {"bullet": "red", "speed": 100.0, "every": 0.5, "after": 0.0, "shots": 1, "rest": 0.0, "faster": 0.0,
-        "muzzles": ((0.0, 0.0),)}
+SHOT = {
+    "bullet": "red",
+    "speed": 100.0,
+    "every": 0.5,
+    "after": 0.0,
+    "shots": 1,
+    "rest": 0.0,
+    "faster": 0.0,
+    "muzzles": ((0.0, 0.0),),
+}
 
 
 def flights(sky):
     """Headings [deg] and speeds of the other side's bullets, in the order they were fired."""
     rows = sky.scene.world.bodies[sky.scene.incoming.places()]
-    return [(degrees(atan2(vy, vx)), hypot(vx, vy)) for vx, vy in zip(rows["vx"].tolist(), rows["vy"].tolist(), strict=True)]
+    return [
+        (degrees(atan2(vy, vx)), hypot(vx, vy)) for vx, vy in zip(rows["vx"].tolist(), rows["vy"].tolist(), strict=True)
+    ]
 
 
 def fired(kind, x, y, steps, **group):
@@ -79,8 +89,9 @@ def test_the_hornet_flies_an_arc_and_fires_at_where_you_will_be():
     assert len(rows) and (rows["vx"] > 0.0).all()
 
 
-@pytest.mark.parametrize(("side", "share", "inward"),
-                         [("left", 0.3, (1, 0)), ("right", 0.3, (-1, 0)), ("below", 0.4, (0, -1))])
+@pytest.mark.parametrize(
+    ("side", "share", "inward"), [("left", 0.3, (1, 0)), ("right", 0.3, (-1, 0)), ("below", 0.4, (0, -1))]
+)
 def test_hornets_come_in_from_any_side_and_are_turned_as_they_fly(side, share, inward):
     sky = Sky()
     hornet = sky.enemy("hornet", 0, 0, thinks=True, side=side, bend=0.0)

@@ -97,8 +97,9 @@ def test_what_is_wrong_as_a_whole_is_named_too(tmp_path):
     assert "px/s; at least 20" in reason_of(write(tmp_path / "f.json", data))
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "3", '"stage"', "null", '{"version": 99, "shape": "new"}', "[" * 100_000,
-                                  '{"format": NaN}'])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "3", '"stage"', "null", '{"version": 99, "shape": "new"}', "[" * 100_000, '{"format": NaN}']
+)
 def test_what_is_no_stage_at_all_is_refused(tmp_path, text):
     path = tmp_path / "stage.json"
     path.write_text(text)
@@ -127,7 +128,10 @@ def test_the_own_stage_has_all_that_a_stage_may_have():
     groups = [group for event in events for group in event.groups]
     assert {group.kind for group in groups} == set(KIND_NAMES) == set(KINDS)
     assert {event.ground for event in events if event.event == "backdrop"} == set(GROUNDS)
-    assert {group.carries for group in groups} | {event.item for event in events} >= {"power", "bomb"} and "life" in ITEMS
+    assert {group.carries for group in groups} | {event.item for event in events} >= {
+        "power",
+        "bomb",
+    } and "life" in ITEMS
     boss = events[-1]
     assert boss.event == "boss" and len(boss.phases) == 3
     assert sum(event.event == "midboss" for event in events) == 1

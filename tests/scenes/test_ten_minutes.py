@@ -47,8 +47,13 @@ print(json.dumps({"pages": pages, "games": games}))
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="resident memory is read from /proc")
 @pytest.mark.parametrize("name", ["shooter", "platformer"])
 def test_memory_is_flat(name):
-    run = subprocess.run([sys.executable, "-c", PLAY, name, str(10 * MINUTE)], capture_output=True, text=True, check=True,
-                         env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"})
+    run = subprocess.run(
+        [sys.executable, "-c", PLAY, name, str(10 * MINUTE)],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"},
+    )
     found = json.loads(run.stdout.splitlines()[-1])
     first, *later = found["pages"]
     assert found["games"] >= 1, "the bot ended no game in ten minutes"

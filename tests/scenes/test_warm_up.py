@@ -42,7 +42,12 @@ print(json.dumps([name for name, count in versions().items() if count > before.g
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("name", SCENES)
 def test_nothing_is_compiled_in_the_middle_of_a_game(name):
-    run = subprocess.run([sys.executable, "-c", PLAY, name, str(FRAMES)], capture_output=True, text=True, check=True,
-                         env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"})
+    run = subprocess.run(
+        [sys.executable, "-c", PLAY, name, str(FRAMES)],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"},
+    )
     late = json.loads(run.stdout.splitlines()[-1])
     assert not late, f"{name}: its warm-up leaves out {', '.join(late)}"

@@ -27,13 +27,18 @@ def movers(world):
 def kinetic(world):
     """Kinetic energy of the dynamic bodies."""
     rows = movers(world)
-    return float(0.5 * (rows["mass"] * (rows["vx"] ** 2 + rows["vy"] ** 2) + rows["inertia"] * rows["angular_velocity"] ** 2).sum())
+    return float(
+        0.5
+        * (rows["mass"] * (rows["vx"] ** 2 + rows["vy"] ** 2) + rows["inertia"] * rows["angular_velocity"] ** 2).sum()
+    )
 
 
 def energy(world):
     """Kinetic energy and the energy of height of the dynamic bodies."""
     rows, (gx, gy) = movers(world), world.gravity
-    return kinetic(world) - float((rows["mass"] * rows["gravity_scale"] * (gx * rows["center_x"] + gy * rows["center_y"])).sum())
+    return kinetic(world) - float(
+        (rows["mass"] * rows["gravity_scale"] * (gx * rows["center_x"] + gy * rows["center_y"])).sum()
+    )
 
 
 def momentum(world):
@@ -45,8 +50,12 @@ def momentum(world):
 def spin(world):
     """Angular momentum of the dynamic bodies about the origin of the world."""
     rows = movers(world)
-    return float((rows["mass"] * (rows["center_x"] * rows["vy"] - rows["center_y"] * rows["vx"])
-                  + rows["inertia"] * rows["angular_velocity"]).sum())
+    return float(
+        (
+            rows["mass"] * (rows["center_x"] * rows["vy"] - rows["center_y"] * rows["vx"])
+            + rows["inertia"] * rows["angular_velocity"]
+        ).sum()
+    )
 
 
 def rms_speed(world):
@@ -114,9 +123,14 @@ class Watch:
 
     def _finite(self, where):
         world = self.world
-        tables = [(world.bodies, BODY_NUMBERS), (world.contacts, CONTACT_NUMBERS),
-                  (world.shapes, ("min_x", "min_y", "max_x", "max_y")), (world.events.begin, CONTACT_NUMBERS[:4]),
-                  (world.events.end, CONTACT_NUMBERS[:4]), (world.events.hits, CONTACT_NUMBERS[:4] + ("speed", "normal_impulse"))]
+        tables = [
+            (world.bodies, BODY_NUMBERS),
+            (world.contacts, CONTACT_NUMBERS),
+            (world.shapes, ("min_x", "min_y", "max_x", "max_y")),
+            (world.events.begin, CONTACT_NUMBERS[:4]),
+            (world.events.end, CONTACT_NUMBERS[:4]),
+            (world.events.hits, CONTACT_NUMBERS[:4] + ("speed", "normal_impulse")),
+        ]
         for rows, names in tables:
             for name in names:
                 assert np.isfinite(rows[name]).all(), f"{where}: {name} is not finite"
@@ -133,5 +147,9 @@ class Watch:
         in_play = kinetic(self.world) + float(rows["mass"].sum()) * (self.high - self.low)
         room = 0.01 * in_play + self.fall * self.world.tolerances.slop
         late = rows[rows["fraction"] < 1.0]
-        room += float((late["mass"] * np.hypot(late["vx"], late["vy"])).sum()) * math.hypot(*self.world.gravity) * self.world.dt
+        room += (
+            float((late["mass"] * np.hypot(late["vx"], late["vy"])).sum())
+            * math.hypot(*self.world.gravity)
+            * self.world.dt
+        )
         assert now <= self.start_energy + room, f"{where}: energy {now:g}, {now - self.start_energy:g} above the start"

@@ -7,26 +7,41 @@ import pytest
 
 from physics import JIT, Effects, Material, Polygon, World
 
-needs_speed = pytest.mark.skipif(not JIT, reason="too long without a compiler; compiled and plain runs give the same bits")
-SLOP = 0.005                 # [m] of worlds in metres
+needs_speed = pytest.mark.skipif(
+    not JIT, reason="too long without a compiler; compiled and plain runs give the same bits"
+)
+SLOP = 0.005  # [m] of worlds in metres
 SOLVERS = ("soft_step", "sequential_impulse")
 
 
 def pile_effects(**changes):
     """What piles of bodies call for; they never sleep unless told."""
-    return Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True).with_(**changes)
+    return Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True).with_(
+        **changes
+    )
 
 
 def metres(solver="soft_step", gravity=(0, 10), substeps=4, pixels_per_meter=1.0, effects=None, **options):
     """A world whose pixels are metres."""
-    return World(pile_effects() if effects is None else effects, solver=solver, gravity=gravity, substeps=substeps,
-                 pixels_per_meter=pixels_per_meter, **options)
+    return World(
+        pile_effects() if effects is None else effects,
+        solver=solver,
+        gravity=gravity,
+        substeps=substeps,
+        pixels_per_meter=pixels_per_meter,
+        **options,
+    )
 
 
 def floor(world, friction=0.6, restitution=0.0, width=200.0, y=0.0, x=0.0, angle=0.0):
     """A thick floor whose surface passes through (x, y); a positive angle falls to the right."""
-    return world.add_body(Polygon.box(width, 2.0, center=(0.0, 1.0)), position=(x, y), angle=angle, kind="static",
-                          material=Material(friction=friction, restitution=restitution))
+    return world.add_body(
+        Polygon.box(width, 2.0, center=(0.0, 1.0)),
+        position=(x, y),
+        angle=angle,
+        kind="static",
+        material=Material(friction=friction, restitution=restitution),
+    )
 
 
 def on_slope(angle, along, height):
@@ -36,15 +51,26 @@ def on_slope(angle, along, height):
 
 def column(world, count, gap=0.0, shift=0.0, friction=0.6, size=1.0, density=1.0):
     """Boxes above one another from y = 0 up, shifted left and right by turns. Returns the bodies, lowest first."""
-    return [world.add_body(Polygon.box(size, size), position=(shift if k % 2 else -shift, -size / 2 - k * (size + gap) - gap),
-                           material=Material(density=density, friction=friction)) for k in range(count)]
+    return [
+        world.add_body(
+            Polygon.box(size, size),
+            position=(shift if k % 2 else -shift, -size / 2 - k * (size + gap) - gap),
+            material=Material(density=density, friction=friction),
+        )
+        for k in range(count)
+    ]
 
 
 def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
     """Rows of boxes, each one shorter. Returns ids by row, lowest first."""
-    return [world.add_bodies(Polygon.box(size, size),
-                             [(x + (k - (base - 1 - row) / 2) * spread * size, y - size / 2 - row * size) for k in range(base - row)],
-                             material=Material(friction=friction)) for row in range(base)]
+    return [
+        world.add_bodies(
+            Polygon.box(size, size),
+            [(x + (k - (base - 1 - row) / 2) * spread * size, y - size / 2 - row * size) for k in range(base - row)],
+            material=Material(friction=friction),
+        )
+        for row in range(base)
+    ]
 
 
 def tops(world, ids):

@@ -9,7 +9,11 @@ from physics import JIT, Capsule, Chain, Circle, Material, Polygon, Segment, Til
 from tests.stability.invariants import Watch, movers
 from tests.stability.piles import SOLVERS, metres, needs_speed, pile_effects
 
-SHAPES = {"box": (Polygon.box(12, 12), 6.0), "circle": (Circle(6.0), 6.0), "capsule": (Capsule((-5, 0), (5, 0), 4.0), 4.0)}
+SHAPES = {
+    "box": (Polygon.box(12, 12), 6.0),
+    "circle": (Circle(6.0), 6.0),
+    "capsule": (Capsule((-5, 0), (5, 0), 4.0), 4.0),
+}
 SMOOTH = Material(friction=0.0)
 
 
@@ -20,7 +24,12 @@ def ground_of(world, kind, tiles=220, size=16.0):
     elif kind == "chain":
         world.add_body(Chain([(size * k, 0.0) for k in range(tiles + 1)]), kind="static", material=SMOOTH)
     else:
-        world.add_bodies(Polygon.box(size, size), [(size * (k + 0.5), size / 2) for k in range(tiles)], kind="static", material=SMOOTH)
+        world.add_bodies(
+            Polygon.box(size, size),
+            [(size * (k + 0.5), size / 2) for k in range(tiles)],
+            kind="static",
+            material=SMOOTH,
+        )
 
 
 def slide(solver, ground, shape, speed, steps, continuous=True):
@@ -106,11 +115,23 @@ def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
     else:
         for (ax, ay), (bx, by) in zip(points, points[1:]):
             tilt, long = math.atan2(by - ay, bx - ax), math.dist((ax, ay), (bx, by))
-            world.add_body(Polygon.box(long, 0.2, center=(long / 2, 0.1)), position=(ax, ay), angle=tilt, kind="static", material=SMOOTH)
-    what, half = {"circle": (Circle(0.3), 0.3), "capsule": (Capsule((-0.2, 0), (0.2, 0), 0.2), 0.2), "box": (Polygon.box(0.5, 0.5), 0.25)}[shape]
+            world.add_body(
+                Polygon.box(long, 0.2, center=(long / 2, 0.1)),
+                position=(ax, ay),
+                angle=tilt,
+                kind="static",
+                material=SMOOTH,
+            )
+    what, half = {
+        "circle": (Circle(0.3), 0.3),
+        "capsule": (Capsule((-0.2, 0), (0.2, 0), 0.2), 0.2),
+        "box": (Polygon.box(0.5, 0.5), 0.25),
+    }[shape]
     start = math.pi * 0.75
     room = radius - half - (0.01 if shape == "box" else 0.005)
-    body = world.add_body(what, position=(room * math.cos(start), room * math.sin(start)), angle=start - math.pi / 2, material=SMOOTH)
+    body = world.add_body(
+        what, position=(room * math.cos(start), room * math.sin(start)), angle=start - math.pi / 2, material=SMOOTH
+    )
     top = body.center[1]
     bottom, best, crossed = radius - half, math.inf, False
     for _ in range(round(7 / dt)):
@@ -140,8 +161,13 @@ def test_valley_of_slabs_shows_its_joints():
 def spinner(bodies, segments, radius, steps):
     """How many small bodies get out of a one-way circle in which an arm spins at 5 rad/s."""
     world = metres(effects=pile_effects(continuous=True))
-    world.add_body(Chain([(radius * math.cos(a), -radius * math.sin(a)) for a in np.linspace(0, math.tau, segments, endpoint=False)], loop=True),
-                   kind="static")
+    world.add_body(
+        Chain(
+            [(radius * math.cos(a), -radius * math.sin(a)) for a in np.linspace(0, math.tau, segments, endpoint=False)],
+            loop=True,
+        ),
+        kind="static",
+    )
     world.add_body(Polygon.box(2 * radius - 1.2, 0.8), kind="kinematic", angular_velocity=5.0)
     rng = np.random.default_rng(9)
     for k in range(bodies):
@@ -160,7 +186,9 @@ def test_spinner_keeps_its_bodies_in():
 
 @pytest.mark.deep
 @needs_speed
-@pytest.mark.xfail(reason="an arm whose tip runs at 200 m/s presses a quarter of the balls through the one-way chain", strict=True)
+@pytest.mark.xfail(
+    reason="an arm whose tip runs at 200 m/s presses a quarter of the balls through the one-way chain", strict=True
+)
 def test_large_spinner_keeps_its_bodies_in():
     assert spinner(1500, 360, 40.0, 1500) <= 2
 
@@ -187,8 +215,12 @@ def test_fast_ball_into_a_wedge_meets_the_second_wall_too(kind):
 @pytest.mark.parametrize("tilt", [0.0, 0.08, 0.15])
 def test_thin_slab_dropped_flat_or_tilted_does_not_fall_through(ground, tilt):
     world = metres(effects=pile_effects(continuous=True))
-    shape = {"box": Polygon.box(40, 2, (0, 1)), "segment": Segment((-20, 0), (20, 0)), "tiles": TileGrid(np.ones((1, 40), bool), 1.0),
-             "chain": Chain([(x - 20.0, 0.0) for x in range(41)])}[ground]
+    shape = {
+        "box": Polygon.box(40, 2, (0, 1)),
+        "segment": Segment((-20, 0), (20, 0)),
+        "tiles": TileGrid(np.ones((1, 40), bool), 1.0),
+        "chain": Chain([(x - 20.0, 0.0) for x in range(41)]),
+    }[ground]
     world.add_body(shape, position=(-20.0 if ground == "tiles" else 0.0, 0.0), kind="static")
     slab = world.add_body(Polygon.box(2, 0.06), position=(0.3, -5.0), angle=tilt)
     watch = Watch(world, passive=True)

@@ -43,8 +43,14 @@ print("JIT" if JIT else "plain", file=sys.stderr)
 
 def run(kind, broadphase, plain):
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_DISABLE_JIT": "1" if plain else "0"}
-    found = subprocess.run([sys.executable, "-c", SCRIPT, kind, "40", broadphase], cwd=ROOT, env=environment,
-                           capture_output=True, text=True, timeout=300)
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT, kind, "40", broadphase],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
     assert found.returncode == 0, found.stderr
     assert found.stderr.strip().splitlines()[-1] == ("plain" if plain else "JIT")
     return found.stdout.splitlines()

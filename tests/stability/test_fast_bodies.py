@@ -32,14 +32,19 @@ WALLS = {"box": Polygon.box(0.1, 8), "segment": Segment((0, -4), (0, 4)), "chain
 
 @pytest.mark.parametrize("angle", [0.0, 0.4])
 @pytest.mark.parametrize("wall", WALLS)
-@pytest.mark.parametrize("shape, speed", [(Circle(0.2), 400.0), (Polygon.box(0.2, 0.2), 200.0), (Capsule((-0.1, 0), (0.1, 0), 0.1), 300.0)],
-                         ids=["ball", "box", "capsule"])
+@pytest.mark.parametrize(
+    "shape, speed",
+    [(Circle(0.2), 400.0), (Polygon.box(0.2, 0.2), 200.0), (Capsule((-0.1, 0), (0.1, 0), 0.1), 300.0)],
+    ids=["ball", "box", "capsule"],
+)
 def test_walls_of_any_shape_stop_and_let_through_when_off(shape, speed, wall, angle):
     for mode in ("auto", "toi", "off"):
         world = flying()
         world.add_body(WALLS[wall], angle=angle, kind="static")
         # The normal of the chain is (-1, 0): solid from the left, where the body comes from.
-        body = world.add_body(shape, position=(-12.3, 0.05), velocity=(speed, 0.0), continuous=mode, material=Material(friction=0.0))
+        body = world.add_body(
+            shape, position=(-12.3, 0.05), velocity=(speed, 0.0), continuous=mode, material=Material(friction=0.0)
+        )
         Watch(world).step(12)
         along = body.position[0] * math.cos(angle) + body.position[1] * math.sin(angle)
         assert along > 1.0 if mode == "off" else along < 0.2, f"{mode}: {along}"
@@ -51,7 +56,13 @@ def test_the_sweep_does_not_eat_the_speed_of_the_impact(restitution, bullet):
     """The hit tells 400, and what leaves is e times that."""
     world = flying()
     world.add_body(Polygon.box(2, 8), position=(1.0, 0.0), kind="static")
-    ball = world.add_body(Circle(0.2), position=(-10.0, 0.0), velocity=(400.0, 0.0), bullet=bullet, material=Material(restitution=restitution))
+    ball = world.add_body(
+        Circle(0.2),
+        position=(-10.0, 0.0),
+        velocity=(400.0, 0.0),
+        bullet=bullet,
+        material=Material(restitution=restitution),
+    )
     speeds = []
     for _ in range(6):
         Watch(world).step()
@@ -68,7 +79,9 @@ def test_long_steps_stop_at_the_wall_and_not_before():
     ball = world.add_body(Circle(0.5), velocity=(20.0, 0.0))
     for n in (1, 2):
         world.step()
-        assert ball.position[0] == pytest.approx(5.0 * n, abs=1e-3) and ball.velocity[0] == pytest.approx(20.0, abs=1e-9)
+        assert ball.position[0] == pytest.approx(5.0 * n, abs=1e-3) and ball.velocity[0] == pytest.approx(
+            20.0, abs=1e-9
+        )
     world.step()
     assert 11.35 < ball.position[0] < 11.71
     world.step()
@@ -84,9 +97,16 @@ def test_disc_that_lies_on_the_floor_slides_freely():
     assert disc.position[0] == pytest.approx(25.0, rel=1e-9) and disc.velocity[0] == pytest.approx(50.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("shape, start", [
-    (Polygon.box(2, 0.1, center=(8, 0)), (-8.0, -20.0)), (Polygon([(-2, 0), (-1, 0), (2, -0.5)]), (0.0, -20.0)),
-    (Polygon.box(1.5, 0.02), (0.0, -20.0)), (Capsule((-1, 0), (1, 0), 0.01), (0.0, -20.0))], ids=["offset rod", "sliver", "ruler", "needle"])
+@pytest.mark.parametrize(
+    "shape, start",
+    [
+        (Polygon.box(2, 0.1, center=(8, 0)), (-8.0, -20.0)),
+        (Polygon([(-2, 0), (-1, 0), (2, -0.5)]), (0.0, -20.0)),
+        (Polygon.box(1.5, 0.02), (0.0, -20.0)),
+        (Capsule((-1, 0), (1, 0), 0.01), (0.0, -20.0)),
+    ],
+    ids=["offset rod", "sliver", "ruler", "needle"],
+)
 @pytest.mark.parametrize("ground", ["bevelled", "flat", "segments"])
 def test_slivers_and_rods_at_100_stay_above_ground(shape, start, ground):
     world = metres(effects=FAST)
@@ -97,8 +117,12 @@ def test_slivers_and_rods_at_100_stay_above_ground(shape, start, ground):
     else:
         world.add_bodies(Segment((-0.125, 0), (0.125, 0)), [(0.25 * k, 0.0) for k in range(-80, 81)], kind="static")
     for k, angle in enumerate((0.0, 0.05, 0.7, math.pi / 2, 2.0)):
-        body = world.add_body(shape, position=(start[0] + 0.37, start[1] - 3 * k), angle=angle if ground != "bevelled" else 0.0,
-                              velocity=(0.0, 100.0))
+        body = world.add_body(
+            shape,
+            position=(start[0] + 0.37, start[1] - 3 * k),
+            angle=angle if ground != "bevelled" else 0.0,
+            velocity=(0.0, 100.0),
+        )
         watch = Watch(world, capped=True)
         for _ in range(90 if JIT else 30):
             watch.step()
@@ -113,7 +137,9 @@ def test_box_that_passes_a_corner_closely_is_not_touched(phase):
     world.add_body(Polygon.box(4, 4), position=(-2.0, 2.0), kind="static")
     past = 0.015 / math.sqrt(2)
     start = -1.0 + phase * 0.125
-    box = world.add_body(Polygon.box(0.5, 0.5), position=(start + past + 0.25, start - past - 0.25), velocity=(7.5, 7.5))
+    box = world.add_body(
+        Polygon.box(0.5, 0.5), position=(start + past + 0.25, start - past - 0.25), velocity=(7.5, 7.5)
+    )
     for n in range(1, 21):
         world.step()
         assert box.velocity == pytest.approx((7.5, 7.5), abs=1e-9) and abs(box.angular_velocity) < 1e-9
@@ -127,8 +153,13 @@ def test_bullets_do_not_drive_a_brick_through_the_wall():
     world.add_body(Polygon.box(0.2, 40), position=(10.0, -20.0), kind="static")
     column(world, 12)
     for k in range(8):
-        world.add_body(Circle(0.25), position=(-20.0 - 3 * k, -1.0 - 1.3 * k), velocity=(200.0 + 12 * k, 0.0), bullet=True,
-                       material=Material(density=4.0))
+        world.add_body(
+            Circle(0.25),
+            position=(-20.0 - 3 * k, -1.0 - 1.3 * k),
+            velocity=(200.0 + 12 * k, 0.0),
+            bullet=True,
+            material=Material(density=4.0),
+        )
     watch = Watch(world, capped=True)
     for _ in range(300):
         watch.step()
@@ -150,12 +181,16 @@ def test_body_that_was_made_static_is_hit_by_a_bullet():
 
 
 @pytest.mark.parametrize("bullets, through", [((False, False), True), ((True, False), False), ((True, True), False)])
-@pytest.mark.parametrize("shape", [Circle(0.2), Polygon.box(0.3, 0.3), Capsule((0, -0.1), (0, 0.1), 0.1)], ids=["ball", "box", "capsule"])
+@pytest.mark.parametrize(
+    "shape", [Circle(0.2), Polygon.box(0.3, 0.3), Capsule((0, -0.1), (0, 0.1), 0.1)], ids=["ball", "box", "capsule"]
+)
 def test_bodies_head_on_meet_when_one_is_a_bullet(shape, bullets, through):
     """Fast bodies are swept against what stands still; a bullet against all, other bullets too."""
     world = flying()
-    one, two = (world.add_body(shape, position=(-side * 11.5, 0.0), velocity=(side * 200.0, 0.0), bullet=bullet)
-                for side, bullet in zip((1, -1), bullets))
+    one, two = (
+        world.add_body(shape, position=(-side * 11.5, 0.0), velocity=(side * 200.0, 0.0), bullet=bullet)
+        for side, bullet in zip((1, -1), bullets)
+    )
     Watch(world).step(12)
     assert (one.position[0] > two.position[0]) == through
     if not through:
@@ -212,10 +247,14 @@ def test_box_at_two_metres_a_step_stops_at_a_box(restitution, asleep):
     if asleep:
         Watch(world).step(60)
         assert not target.awake
-    box = world.add_body(Polygon.box(1, 1), velocity=(120.0, 0.0), bullet=True, material=Material(restitution=restitution))
+    box = world.add_body(
+        Polygon.box(1, 1), velocity=(120.0, 0.0), bullet=True, material=Material(restitution=restitution)
+    )
     Watch(world, isolated=False).step(20)
     share = (1 - restitution) / 2
-    assert box.velocity[0] == pytest.approx(120.0 * share, abs=1e-6) and target.velocity[0] == pytest.approx(120.0 * (1 - share), abs=1e-6)
+    assert box.velocity[0] == pytest.approx(120.0 * share, abs=1e-6) and target.velocity[0] == pytest.approx(
+        120.0 * (1 - share), abs=1e-6
+    )
     assert target.position[0] - box.position[0] >= 1.0 - 0.005
 
 
@@ -242,9 +281,16 @@ def shoot_rods(mode, count, solver="soft_step"):
         y = 400.0 * k
         world.add_body(Polygon.box(rng.uniform(1.0, 4.0), 400.0), position=(0.0, y), kind="static")
         long = rng.uniform(10.0, 60.0)
-        rods.append(world.add_body(Polygon.box(long, rng.uniform(0.5, 2.0)), position=(-long / 2 - rng.uniform(6.0, 90.0), y + rng.uniform(-60, 60)),
-                                   angle=rng.uniform(0, math.tau), angular_velocity=rng.uniform(-40, 40),
-                                   velocity=(rng.uniform(6e3, 6e4), rng.uniform(-900, 900)), continuous=mode).id)
+        rods.append(
+            world.add_body(
+                Polygon.box(long, rng.uniform(0.5, 2.0)),
+                position=(-long / 2 - rng.uniform(6.0, 90.0), y + rng.uniform(-60, 60)),
+                angle=rng.uniform(0, math.tau),
+                angular_velocity=rng.uniform(-40, 40),
+                velocity=(rng.uniform(6e3, 6e4), rng.uniform(-900, 900)),
+                continuous=mode,
+            ).id
+        )
     rows, worst = world.rows(rods), np.full(count, -np.inf)
     watch = Watch(world)
     for _ in range(20 if JIT else 8):
@@ -270,10 +316,18 @@ def test_500_bullets_against_500(bullet):
     for k in range(count):
         for side, sign in enumerate((-1, 1)):
             size = rng.uniform(0.5, 4.0)
-            shape = (Circle(size), Polygon.box(2 * size, size), Capsule((-size, 0), (size, 0), size / 2))[rng.integers(3)]
-            sides[side].append(world.add_body(shape, position=(sign * rng.uniform(20, 300), 40.0 * k + rng.uniform(-0.2, 0.2)),
-                                              velocity=(-sign * rng.uniform(6e3, 6e4), 0.0), bullet=bullet,
-                                              continuous="auto" if bullet else "off").id)
+            shape = (Circle(size), Polygon.box(2 * size, size), Capsule((-size, 0), (size, 0), size / 2))[
+                rng.integers(3)
+            ]
+            sides[side].append(
+                world.add_body(
+                    shape,
+                    position=(sign * rng.uniform(20, 300), 40.0 * k + rng.uniform(-0.2, 0.2)),
+                    velocity=(-sign * rng.uniform(6e3, 6e4), 0.0),
+                    bullet=bullet,
+                    continuous="auto" if bullet else "off",
+                ).id
+            )
     left, right = (world.rows(side) for side in sides)
     watch, met, passed = Watch(world, capped=True), np.zeros(count, bool), np.zeros(count, bool)
     for _ in range(12):
@@ -293,13 +347,20 @@ def test_crowd_of_bullets_head_on_keeps_its_sides():
     world = flying()
     lanes = 25
     for k in range(lanes + 1):
-        world.add_body(Segment((-60, 1.0 * k - 0.5), (60, 1.0 * k - 0.5)), kind="static", material=Material(friction=0.0))
+        world.add_body(
+            Segment((-60, 1.0 * k - 0.5), (60, 1.0 * k - 0.5)), kind="static", material=Material(friction=0.0)
+        )
     order = np.zeros((lanes, 20), int)
     for k in range(lanes):
         for n in range(20):
             side = -1 if n < 10 else 1
-            order[k, n] = world.add_body(Circle(0.3), position=((n - 9.5) * 3.0, 1.0 * k), velocity=(-side * (200.0 + 7 * n), 0.0),
-                                         bullet=True, material=Material(restitution=0.5, friction=0.0)).id
+            order[k, n] = world.add_body(
+                Circle(0.3),
+                position=((n - 9.5) * 3.0, 1.0 * k),
+                velocity=(-side * (200.0 + 7 * n), 0.0),
+                bullet=True,
+                material=Material(restitution=0.5, friction=0.0),
+            ).id
     rows, watch = world.rows(order.ravel()), Watch(world, capped=True)
     for _ in range(40):
         watch.step()

@@ -16,8 +16,12 @@ G = 10.0
 def test_locked_capsule_on_a_slope_gets_finite_impulses(solver):
     world = metres(solver)
     floor(world, friction=0.9, angle=math.pi / 4)
-    world.add_body(Capsule((0, -0.5), (0, 0.5), 0.3), position=on_slope(math.pi / 4, 0.0, 0.9), fixed_rotation=True,
-                   material=Material(friction=0.9))
+    world.add_body(
+        Capsule((0, -0.5), (0, 0.5), 0.3),
+        position=on_slope(math.pi / 4, 0.0, 0.9),
+        fixed_rotation=True,
+        material=Material(friction=0.9),
+    )
     watch, rubbed = Watch(world, passive=True), 0.0
     for _ in range(500 if JIT else 60):
         watch.step()
@@ -32,8 +36,13 @@ def test_sliding_box_follows_its_recurrence(solver, speed):
     """mu = sqrt(0.9 x 0.8): v less mu g dt per step, both ways alike."""
     world = metres(solver)
     floor(world, friction=0.9)
-    box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5), velocity=(speed, 0.0), material=Material(friction=0.8),
-                         fixed_rotation=True)
+    box = world.add_body(
+        Polygon.box(1, 1),
+        position=(0.0, -0.5),
+        velocity=(speed, 0.0),
+        material=Material(friction=0.8),
+        fixed_rotation=True,
+    )
     parts = 4 if solver == "soft_step" else 1
     watch, x, v, h = Watch(world, passive=True), 0.0, abs(speed), world.dt / parts
     for _ in range(60):
@@ -52,7 +61,12 @@ def test_box_holds_just_below_its_friction_angle_and_slides_just_above(solver, f
         angle = math.atan(friction) + math.radians(degrees)
         world = metres(solver)
         floor(world, friction=friction, angle=angle)
-        box = world.add_body(Polygon.box(1.0, 0.5), position=on_slope(angle, 0.0, 0.25), angle=angle, material=Material(friction=friction))
+        box = world.add_body(
+            Polygon.box(1.0, 0.5),
+            position=on_slope(angle, 0.0, 0.25),
+            angle=angle,
+            material=Material(friction=friction),
+        )
         watch = Watch(world, passive=True).step(30)
         start, before = box.position, math.hypot(*box.velocity)
         watch.step(600 if degrees < 0 and JIT else 120)
@@ -70,7 +84,9 @@ def test_impulses_on_a_slope_carry_both_parts_of_the_weight(solver):
     angle = 0.3
     world = metres(solver)
     floor(world, friction=0.8, angle=angle)
-    world.add_body(Polygon.box(1.0, 0.5), position=on_slope(angle, 0.0, 0.25), angle=angle, material=Material(friction=0.8))
+    world.add_body(
+        Polygon.box(1.0, 0.5), position=on_slope(angle, 0.0, 0.25), angle=angle, material=Material(friction=0.8)
+    )
     Watch(world, passive=True).step(120)
     contacts, weight = world.contacts, 0.5 * G * world.dt
     assert contacts["normal_impulse"].sum() == pytest.approx(weight * math.cos(angle), rel=0.01)
@@ -83,11 +99,13 @@ def dominoes(scale, density=1.0, seconds=9.0):
     floor(world, width=400.0)
     first = None
     for k in range(15):
-        body = world.add_body(Polygon.box(0.25 * scale, scale), position=(scale * k, -0.5 * scale), material=Material(density=density))
+        body = world.add_body(
+            Polygon.box(0.25 * scale, scale), position=(scale * k, -0.5 * scale), material=Material(density=density)
+        )
         first = first or body
     world.step()
     # Scaled as the square root of length times mass: the same motion, slower (Froude).
-    push = 0.2 * density * scale ** 2 * math.sqrt(scale)
+    push = 0.2 * density * scale**2 * math.sqrt(scale)
     first.apply_impulse((push, 0.0), (first.position[0], -scale))
     times, watch, count = {}, Watch(world), round(seconds * math.sqrt(scale) * 240)
     for n in range(1, count + 1):
@@ -118,11 +136,14 @@ def test_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass():
 
 # --- bounces -----------------------------------------------------------------------------------------------------------
 
+
 def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.6, substeps=4):
     """How high a ball let go 2 m above the floor comes back."""
     world = metres(solver, pixels_per_meter=pixels_per_meter, dt=dt, substeps=substeps)
     floor(world)
-    ball = world.add_body(Circle(0.2), position=(0.0, -2.2), material=Material(restitution=restitution, friction=friction))
+    ball = world.add_body(
+        Circle(0.2), position=(0.0, -2.2), material=Material(restitution=restitution, friction=friction)
+    )
     watch, best, met = Watch(world, passive=True), 0.0, False
     for _ in range(round(1.6 / dt)):
         watch.step()
@@ -139,7 +160,7 @@ def test_apex_is_the_square_of_restitution_whatever_the_margin(solver, restituti
     found = [first_apex(solver, restitution, scale) / 2.0 for scale in (1.0, 5.0)]
     if restitution == 0.0:
         assert max(found) < 0.02
-    assert found[0] == pytest.approx(restitution ** 2, abs=0.05)
+    assert found[0] == pytest.approx(restitution**2, abs=0.05)
     if restitution * math.sqrt(2 * G * 2.0) > 6.0 or restitution == 0.0:
         assert abs(found[1] - found[0]) <= 0.05
 
@@ -177,8 +198,15 @@ def room(world, size, kind):
     """A closed room of a loop of chain, or of four walls."""
     if kind == "chain":
         h = size / 2
-        return world.add_body(Chain([(-h, -h), (-h, h), (h, h), (h, -h)], loop=True), kind="static", material=Material(friction=0.0))
-    for x, y, w, h in ((0, size / 2 + 1, size + 4, 2), (0, -size / 2 - 1, size + 4, 2), (-size / 2 - 1, 0, 2, size), (size / 2 + 1, 0, 2, size)):
+        return world.add_body(
+            Chain([(-h, -h), (-h, h), (h, h), (h, -h)], loop=True), kind="static", material=Material(friction=0.0)
+        )
+    for x, y, w, h in (
+        (0, size / 2 + 1, size + 4, 2),
+        (0, -size / 2 - 1, size + 4, 2),
+        (-size / 2 - 1, 0, 2, size),
+        (size / 2 + 1, 0, 2, size),
+    ):
         world.add_body(Polygon.box(w, h), position=(x, y), kind="static", material=Material(friction=0.0))
 
 
@@ -196,7 +224,9 @@ def test_elastic_disc_keeps_speed_and_angles_in_a_room(solver, walls):
     assert settled == pytest.approx([10.0, 20.0], rel=1e-9)
 
 
-@pytest.mark.parametrize("shape", [Polygon.box(4.0, 0.2), Capsule((-1, 0), (1, 0), 0.3), Polygon.box(1, 1)], ids=["bar", "capsule", "box"])
+@pytest.mark.parametrize(
+    "shape", [Polygon.box(4.0, 0.2), Capsule((-1, 0), (1, 0), 0.3), Polygon.box(1, 1)], ids=["bar", "capsule", "box"]
+)
 def test_elastic_bar_keeps_its_energy_in_a_room(shape):
     """Within 1 % over 1,000 steps of flight and tumbling."""
     world = metres(gravity=(0, 0))
@@ -216,7 +246,9 @@ def test_ball_bounces_above_the_threshold_of_normal_speed_alone(solver):
         angle = math.radians(70)
         floor(world, angle=angle)
         start = on_slope(angle, 0.0, 0.25 + 0.1)
-        ball = world.add_body(Circle(0.25), position=start, velocity=(0.0, speed), material=Material(restitution=1.0, friction=0.0))
+        ball = world.add_body(
+            Circle(0.25), position=start, velocity=(0.0, speed), material=Material(restitution=1.0, friction=0.0)
+        )
         assert 2.9 * math.cos(angle) == pytest.approx(0.99186, abs=1e-5)
         Watch(world, passive=True).step(30)
         left[scale] = ball.velocity[0] * math.sin(angle) - ball.velocity[1] * math.cos(angle)
@@ -230,7 +262,9 @@ def test_discs_drawn_to_the_middle_by_forces_settle():
     world.add_body(Circle(0.5), kind="static", material=Material(friction=1.0))
     rng = np.random.default_rng(4)
     angles, radii = rng.uniform(0, math.tau, 60), 2.0 + np.arange(60) * 0.25
-    world.add_bodies(Circle(0.5), np.column_stack([radii * np.cos(angles), radii * np.sin(angles)]), material=Material(friction=1.0))
+    world.add_bodies(
+        Circle(0.5), np.column_stack([radii * np.cos(angles), radii * np.sin(angles)]), material=Material(friction=1.0)
+    )
     bodies, watch, speeds = [world.body(int(k)) for k in movers(world)["id"]], Watch(world), []
     for _ in range(600):
         for body in bodies:
@@ -248,7 +282,9 @@ def test_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(restitutio
     """For 60 s: inside, or quarantined and reported once its speed means nothing any more."""
     world = metres(gravity=(0, 0), effects=pile_effects(continuous=True))
     room(world, 20.0, "boxes")
-    ball = world.add_body(Circle(0.5), velocity=(4.0, 7.0), material=Material(restitution=restitution, friction=0.0), bullet=True)
+    ball = world.add_body(
+        Circle(0.5), velocity=(4.0, 7.0), material=Material(restitution=restitution, friction=0.0), bullet=True
+    )
     for _ in range(3600 if JIT else 200):
         world.step()
         assert np.isfinite(movers(world)["x"]).all()

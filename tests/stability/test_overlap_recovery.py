@@ -7,7 +7,7 @@ from physics import Circle, Polygon
 from tests.stability.invariants import Watch, deepest, kinetic, movers, rms_speed
 from tests.stability.piles import SLOP, SOLVERS, floor, metres, needs_speed, pile_effects
 
-PUSH = 3.0                   # [m/s] the fastest that overlapping bodies are pushed apart
+PUSH = 3.0  # [m/s] the fastest that overlapping bodies are pushed apart
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -56,10 +56,18 @@ def crowd(side, steps, walls="box"):
     """More discs than there is room for in a closed box, as side x side; the share of the area is that of F11."""
     world = metres(effects=pile_effects())
     width, height = side * 0.8, side * 0.78
-    for x, y, w, h in ((0, height / 2 + 1, width + 4, 2), (0, -height / 2 - 1, width + 4, 2),
-                       (-width / 2 - 1, 0, 2, height), (width / 2 + 1, 0, 2, height)):
+    for x, y, w, h in (
+        (0, height / 2 + 1, width + 4, 2),
+        (0, -height / 2 - 1, width + 4, 2),
+        (-width / 2 - 1, 0, 2, height),
+        (width / 2 + 1, 0, 2, height),
+    ):
         world.add_body(Polygon.box(w, h), position=(x, y), kind="static")
-    at = [((i - (side - 1) / 2) * width / (side + 0.3), (j - (side - 1) / 2) * height / (side + 0.3)) for j in range(side) for i in range(side)]
+    at = [
+        ((i - (side - 1) / 2) * width / (side + 0.3), (j - (side - 1) / 2) * height / (side + 0.3))
+        for j in range(side)
+        for i in range(side)
+    ]
     world.add_bodies(Circle(0.5), at)
     watch, speeds = Watch(world), []
     for _ in range(steps):
@@ -88,7 +96,10 @@ def test_discs_crushed_by_plates_stay_between_them():
     world = metres(gravity=(0, 0), effects=pile_effects(gravity=False))
     for y in (-5.0, 5.0):
         world.add_body(Polygon.box(40, 2), position=(0.0, y), kind="static")
-    plates = [world.add_body(Polygon.box(2, 8.0), position=(side * 8.0, 0.0), kind="kinematic", velocity=(-side * 1.0, 0.0)) for side in (-1, 1)]
+    plates = [
+        world.add_body(Polygon.box(2, 8.0), position=(side * 8.0, 0.0), kind="kinematic", velocity=(-side * 1.0, 0.0))
+        for side in (-1, 1)
+    ]
     world.add_bodies(Circle(0.5), [(1.0 * (i - 3.5), 1.0 * (j - 3.5)) for i in range(8) for j in range(8)])
     watch, depths = Watch(world), []
     for _ in range(5):
@@ -114,4 +125,8 @@ def test_overlap_at_the_start_goes_without_a_pop(solver, depth):
         rise = max(rise, -box.position[1] - 0.5)
     assert watch.fastest <= PUSH * (1 + 1e-9) + 10 * world.dt and rise <= SLOP
     assert -1e-9 <= deepest(world) <= 1.001 * SLOP and abs(box.position[1] + 0.5) <= 1.001 * SLOP
-    assert abs(box.position[0]) <= (1e-5 if depth <= SLOP else 0.01 * depth) and abs(box.angle) < 1e-3 * depth and kinetic(world) < 1e-9
+    assert (
+        abs(box.position[0]) <= (1e-5 if depth <= SLOP else 0.01 * depth)
+        and abs(box.angle) < 1e-3 * depth
+        and kinetic(world) < 1e-9
+    )

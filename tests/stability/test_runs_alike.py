@@ -8,8 +8,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from physics import (JIT, BruteForce, Capsule, Chain, Circle, DynamicTree, Material, PixelMask, Polygon, Segment, Snapshot,
-                     SpatialHashGrid, SweepAndPrune, TileGrid, World)
+from physics import (
+    JIT,
+    BruteForce,
+    Capsule,
+    Chain,
+    Circle,
+    DynamicTree,
+    Material,
+    PixelMask,
+    Polygon,
+    Segment,
+    Snapshot,
+    SpatialHashGrid,
+    SweepAndPrune,
+    TileGrid,
+    World,
+)
 from tests.stability.invariants import Watch, deepest, kinetic, movers, rms_speed
 from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, pile_effects, pyramid
 
@@ -20,25 +35,45 @@ STEPS = 300 if JIT else 30
 def zoo(solver="soft_step", broadphase=None, seed=3):
     """Every kind of shape in one heap, with bullets, sensors, a kinematic plate, sleepers."""
     rng = np.random.default_rng(seed)
-    world = World(pile_effects(continuous=True, sleeping=True, sensors=True, persist=True, one_way=True, conveyor=True, drag=True),
-                  broadphase, solver=solver, drag=0.05)
+    world = World(
+        pile_effects(
+            continuous=True, sleeping=True, sensors=True, persist=True, one_way=True, conveyor=True, drag=True
+        ),
+        broadphase,
+        solver=solver,
+        drag=0.05,
+    )
     solid, slopes = np.zeros((3, 24), bool), np.zeros((3, 24, 2))
     solid[2], slopes[1, 6], slopes[1, 7] = True, (0, 1), (1, 0)
     one_way = np.zeros((3, 24), bool)
     one_way[0, 12:15] = True
     world.add_body(TileGrid(solid, 16, one_way=one_way, slopes=slopes), position=(0, 150), kind="static")
-    world.add_body(Chain([(0, 0), (60, 20), (130, 25)]), position=(-100, 160), kind="static", material=Material(surface_speed=30.0))
+    world.add_body(
+        Chain([(0, 0), (60, 20), (130, 25)]), position=(-100, 160), kind="static", material=Material(surface_speed=30.0)
+    )
     world.add_body(Segment((0, -90), (0, 90)), position=(390, 100), kind="static")
     world.add_body(Polygon.box(60, 10), position=(300, 120), kind="kinematic", velocity=(-20, 0))
     world.add_body(Circle(30.0), position=(200, 100), kind="static", sensor=True)
     mask = PixelMask(rng.random((14, 18)) < 0.8)
-    shapes = [lambda: (Circle(6.0, (1, 0)),), lambda: (Polygon.box(14, 9),), lambda: (Capsule((-6, 0), (6, 0), 4.0),),
-              lambda: (Polygon([(-7, 5), (8, 5), (0, -8)], radius=1.5),), lambda: (mask,),
-              lambda: (Polygon.box(6, 18, (-6, 0)), Polygon.box(12, 6, (3, 6)))]
+    shapes = [
+        lambda: (Circle(6.0, (1, 0)),),
+        lambda: (Polygon.box(14, 9),),
+        lambda: (Capsule((-6, 0), (6, 0), 4.0),),
+        lambda: (Polygon([(-7, 5), (8, 5), (0, -8)], radius=1.5),),
+        lambda: (mask,),
+        lambda: (Polygon.box(6, 18, (-6, 0)), Polygon.box(12, 6, (3, 6))),
+    ]
     for k in range(30):
-        world.add_body(*shapes[k % 6](), position=tuple(rng.uniform((10, -160), (370, 130))), angle=0.0 if k % 6 == 4 else rng.uniform(0, 6),
-                       velocity=tuple(rng.normal(0, 150, 2)), bullet=k % 11 == 0 and k % 6 != 4,
-                       material=Material(restitution=0.3 * (k % 3), friction=0.2 + 0.1 * (k % 5), rolling_resistance=0.02 * (k % 2)))
+        world.add_body(
+            *shapes[k % 6](),
+            position=tuple(rng.uniform((10, -160), (370, 130))),
+            angle=0.0 if k % 6 == 4 else rng.uniform(0, 6),
+            velocity=tuple(rng.normal(0, 150, 2)),
+            bullet=k % 11 == 0 and k % 6 != 4,
+            material=Material(
+                restitution=0.3 * (k % 3), friction=0.2 + 0.1 * (k % 5), rolling_resistance=0.02 * (k % 2)
+            ),
+        )
     return world
 
 
@@ -112,8 +147,14 @@ def test_fresh_processes_with_other_hash_seeds_agree(solver):
     here = [record(zoo(solver), 60)[-1][0], str(cairn(solver, 200))]
     assert here[1] == str(cairn(solver, 200))
     for seed in ("0", "12345"):
-        found = subprocess.run([sys.executable, "-c", SCRIPT, solver], cwd=ROOT, capture_output=True, text=True, timeout=300,
-                               env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(ROOT)})
+        found = subprocess.run(
+            [sys.executable, "-c", SCRIPT, solver],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(ROOT)},
+        )
         assert found.returncode == 0, found.stderr
         assert found.stdout.splitlines() == here
 
@@ -126,7 +167,9 @@ def test_jitter_of_a_ten_billionth_changes_no_statistics():
         world = metres()
         floor(world)
         for row in range(5):
-            world.add_bodies(Polygon.box(0.5, 0.5), [(0.7 * k - 3.0 + jitter * (k + row), -0.5 - 0.7 * row) for k in range(9)])
+            world.add_bodies(
+                Polygon.box(0.5, 0.5), [(0.7 * k - 3.0 + jitter * (k + row), -0.5 - 0.7 * row) for k in range(9)]
+            )
         Watch(world, passive=True).step(400)
         runs.append((movers(world)["y"].mean(), deepest(world), kinetic(world)))
     assert runs[0][0] == pytest.approx(runs[1][0], abs=0.05)
@@ -148,11 +191,18 @@ def test_stack_stands_while_the_step_changes(solver, change):
     watch = Watch(world).step(120)
     rng = np.random.default_rng(2)
     for n in range(240):
-        dt = {"a little every frame": (1 + 0.01 * rng.uniform(-1, 1)) / 60, "half as long at once": 1 / 120,
-              "half as long again at once": 1 / 40}[change]
+        dt = {
+            "a little every frame": (1 + 0.01 * rng.uniform(-1, 1)) / 60,
+            "half as long at once": 1 / 120,
+            "half as long again at once": 1 / 40,
+        }[change]
         watch.step(dt=dt)
         assert -movers(world)["y"].min() <= 9.5 + 0.05, "nothing hops"
-    assert abs(boxes[-1].position[0]) < 0.05 and abs(-boxes[-1].position[1] - 9.5) < sag(dt / 4, 10) and rms_speed(world) < 0.05
+    assert (
+        abs(boxes[-1].position[0]) < 0.05
+        and abs(-boxes[-1].position[1] - 9.5) < sag(dt / 4, 10)
+        and rms_speed(world) < 0.05
+    )
 
 
 @needs_speed
@@ -161,10 +211,20 @@ def test_stack_stands_while_substeps_and_solvers_change():
     floor(world)
     boxes = column(world, 10)
     watch = Watch(world).step(60)
-    for substeps, solver in ((3, "soft_step"), (8, "soft_step"), (2, "soft_step"), (4, "sequential_impulse"), (4, "soft_step")):
+    for substeps, solver in (
+        (3, "soft_step"),
+        (8, "soft_step"),
+        (2, "soft_step"),
+        (4, "sequential_impulse"),
+        (4, "soft_step"),
+    ):
         world.substeps, world.solver = substeps, solver
         watch.step(60)
-        assert abs(-boxes[-1].position[1] - 9.5) < sag(world.dt / substeps, 10) and abs(boxes[-1].position[0]) < 0.05 and rms_speed(world) < 0.05
+        assert (
+            abs(-boxes[-1].position[1] - 9.5) < sag(world.dt / substeps, 10)
+            and abs(boxes[-1].position[0]) < 0.05
+            and rms_speed(world) < 0.05
+        )
 
 
 def test_zero_dt_moves_nothing_and_keeps_the_contacts():
@@ -181,6 +241,7 @@ def test_zero_dt_moves_nothing_and_keeps_the_contacts():
 
 # --- far away, mirrored, in another order, of another mass ---------------------------------------------------------------
 
+
 def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", steps=60, round_only=False):
     """A heap of boxes, balls and capsules that falls; poses in the order of making, unmirrored, at the origin."""
     world = metres(solver, gravity=(0, 10))
@@ -192,12 +253,23 @@ def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", 
         plans.append((k, at, angle, velocity))
     ids = {}
     for k, at, angle, velocity in plans if order is None else [plans[j] for j in order]:
-        shape = Circle(0.2 + 0.01 * k) if round_only else (Polygon.box(0.6, 0.4), Circle(0.3), Capsule((-0.2, 0), (0.2, 0), 0.2))[k % 3]
-        ids[k] = world.add_body(shape, position=(x + mirror * at[0], y + at[1]), angle=mirror * angle, velocity=(mirror * velocity[0], velocity[1]),
-                                material=Material(density=density)).id
+        shape = (
+            Circle(0.2 + 0.01 * k)
+            if round_only
+            else (Polygon.box(0.6, 0.4), Circle(0.3), Capsule((-0.2, 0), (0.2, 0), 0.2))[k % 3]
+        )
+        ids[k] = world.add_body(
+            shape,
+            position=(x + mirror * at[0], y + at[1]),
+            angle=mirror * angle,
+            velocity=(mirror * velocity[0], velocity[1]),
+            material=Material(density=density),
+        ).id
     Watch(world).step(steps)
     rows = world.bodies[world.rows([ids[k] for k in range(16)])]
-    return np.column_stack([mirror * (rows["x"] - x), rows["y"] - y, mirror * rows["angle"], mirror * rows["vx"], rows["vy"]])
+    return np.column_stack(
+        [mirror * (rows["x"] - x), rows["y"] - y, mirror * rows["angle"], mirror * rows["vx"], rows["vy"]]
+    )
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -205,9 +277,13 @@ def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", 
 def test_mass_cancels(solver, density):
     steps = 60 if JIT else 20
     # Rounding differs, and a heap multiplies it: compared while it falls together.
-    assert heap(solver=solver, density=density, steps=20) == pytest.approx(heap(solver=solver, steps=20), rel=1e-9, abs=1e-9)
+    assert heap(solver=solver, density=density, steps=20) == pytest.approx(
+        heap(solver=solver, steps=20), rel=1e-9, abs=1e-9
+    )
     power = 2.0 ** (20 if density > 1 else -20)
-    assert (heap(solver=solver, density=power, steps=steps) == heap(solver=solver, steps=steps)).all(), "to the bit for powers of two"
+    assert (heap(solver=solver, density=power, steps=steps) == heap(solver=solver, steps=steps)).all(), (
+        "to the bit for powers of two"
+    )
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -252,7 +328,9 @@ def test_stacks_and_recovery_far_away_are_as_at_the_origin():
         world = metres()
         floor(world, x=x, y=y)
         for row in range(4):
-            world.add_bodies(Polygon.box(1, 1), [(x + 0.75 * (k - (3 - row) / 2), y - 0.5 - 0.75 * row) for k in range(4 - row)])
+            world.add_bodies(
+                Polygon.box(1, 1), [(x + 0.75 * (k - (3 - row) / 2), y - 0.5 - 0.75 * row) for k in range(4 - row)]
+            )
         Watch(world).step(60)
         rows = movers(world)
         return np.column_stack([rows["x"] - x, rows["y"] - y])
@@ -264,6 +342,7 @@ def test_stacks_and_recovery_far_away_are_as_at_the_origin():
         Watch(world).step(120)
         rows = movers(world)
         return np.column_stack([rows["x"] - x, rows["y"] - y])
+
     assert standing(4e4, -2.5e4) == pytest.approx(standing(0, 0), abs=1e-8)
     assert overlapping(8e4, -7e4) == pytest.approx(overlapping(0, 0), abs=1e-6)
 
@@ -277,6 +356,7 @@ def test_angle_after_a_million_turns_is_still_an_angle():
 
 
 # --- an hour -------------------------------------------------------------------------------------------------------------
+
 
 def hour(steps, solver="soft_step"):
     world = metres(solver)

@@ -71,13 +71,16 @@ def test_undeclared_sleeping_never_sleeps():
 
 # --- what wakes ----------------------------------------------------------------------------------------------------------
 
+
 def knock(world, ground, boxes):
     world.add_body(Circle(0.3), position=(-3.0, -1.5), velocity=(30.0, 0.0))
     return 10
 
 
 def shoot(world, ground, boxes):
-    world.add_body(Circle(0.1), position=(-50.0, -1.5), velocity=(400.0, 0.0), bullet=True, material=Material(density=10.0))
+    world.add_body(
+        Circle(0.1), position=(-50.0, -1.5), velocity=(400.0, 0.0), bullet=True, material=Material(density=10.0)
+    )
     return 14
 
 
@@ -127,9 +130,17 @@ def rise(world, ground, boxes):
 
 
 WAKERS = {
-    "contact": knock, "bullet": shoot, "laid on top": lay_down, "support removed": take_the_floor, "support moved": move_the_floor,
-    "box removed": take_a_box, "gravity": turn_gravity, "support reshaped": reshape_the_floor, "reshaped": reshape_a_box,
-    "moved": carry_off, "kinematic": rise,
+    "contact": knock,
+    "bullet": shoot,
+    "laid on top": lay_down,
+    "support removed": take_the_floor,
+    "support moved": move_the_floor,
+    "box removed": take_a_box,
+    "gravity": turn_gravity,
+    "support reshaped": reshape_the_floor,
+    "reshaped": reshape_a_box,
+    "moved": carry_off,
+    "kinematic": rise,
     "impulse": lambda world, ground, boxes: boxes[1].apply_impulse((0.2, 0.0)) or 1,
     "force": lambda world, ground, boxes: boxes[1].apply_force((5.0, 0.0)) or 1,
     "torque": lambda world, ground, boxes: boxes[1].apply_torque(5.0) or 1,
@@ -156,7 +167,9 @@ def test_everything_that_should_wake_a_stack_wakes_all_of_it(wake, solver):
     assert seen.all(), f"asleep: {seen}"
 
 
-@pytest.mark.parametrize("what", ["add far away", "ray", "overlap", "filter far away", "solver", "snapshot", "another pile"])
+@pytest.mark.parametrize(
+    "what", ["add far away", "ray", "overlap", "filter far away", "solver", "snapshot", "another pile"]
+)
 def test_what_does_not_concern_it_lets_a_stack_sleep(what):
     world, ground, boxes = bedroom()
     other = world.add_body(Circle(0.2), position=(30.0, -0.2))
@@ -177,6 +190,7 @@ def test_what_does_not_concern_it_lets_a_stack_sleep(what):
 def test_tiles_that_vanish_wake_what_stood_on_them():
     def ground(world):
         return world.add_body(TileGrid(np.ones((2, 8), bool), 1.0), position=(-4.0, 0.0), kind="static")
+
     world, tiles, boxes = bedroom(ground=ground)
     solid = np.ones((2, 8), bool)
     solid[:, 3:5] = False
@@ -228,7 +242,10 @@ def test_sleeper_over_a_sensor_is_heard_once_and_once_when_it_leaves(kind):
 
     def listen():
         for heard, rows in ((begun, world.events.sensor_begin), (ended, world.events.sensor_end)):
-            heard.extend(b for a, b in zip(rows["body_a"].tolist(), rows["body_b"].tolist()) if a == pad.id and b == box.id)
+            heard.extend(
+                b for a, b in zip(rows["body_a"].tolist(), rows["body_b"].tolist()) if a == pad.id and b == box.id
+            )
+
     Watch(world).step(180, each=listen)
     assert not box.awake and begun == [box.id] and ended == []
     Watch(world).step(60, each=listen)
@@ -260,7 +277,9 @@ def test_row_of_sleepers_wakes_box_by_box_as_the_bullet_comes():
     boxes = [world.add_body(Polygon.box(1, 1), position=(1.5 * k, -0.5)) for k in range(8)]
     Watch(world).step(90)
     assert not any(awake(boxes))
-    world.add_body(Circle(0.2), position=(-10.0, -0.5), velocity=(120.0, 0.0), bullet=True, material=Material(density=4.0))
+    world.add_body(
+        Circle(0.2), position=(-10.0, -0.5), velocity=(120.0, 0.0), bullet=True, material=Material(density=4.0)
+    )
     watch = Watch(world)
     for _ in range(60):
         watch.step()
@@ -294,5 +313,15 @@ def test_all_asleep_is_no_work():
         world.step()
     counters = world.profile.counters
     assert not movers(world)["awake"].any()
-    assert {counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows", "tangent_rows", "restitution_rows",
-                                        "toi_calls", "islands")} == {0}
+    assert {
+        counters[name]
+        for name in (
+            "bodies_integrated",
+            "narrow_tests",
+            "solver_rows",
+            "tangent_rows",
+            "restitution_rows",
+            "toi_calls",
+            "islands",
+        )
+    } == {0}

@@ -10,7 +10,7 @@ from tests.stability.invariants import Watch, deepest, movers, rms_speed
 from tests.stability.piles import SLOP, SOLVERS, column, floor, metres, needs_speed, pile_effects, pyramid, tops
 
 G = 10.0
-STIFFNESS = (math.tau * 30.0) ** 2      # [1/s2] of a soft contact per mass of the lighter side
+STIFFNESS = (math.tau * 30.0) ** 2  # [1/s2] of a soft contact per mass of the lighter side
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -62,7 +62,10 @@ def test_without_friction_in_the_joints_the_shifted_column_slides_apart():
 
 @pytest.mark.deep
 @needs_speed
-@pytest.mark.xfail(strict=True, reason="one pass per substep does not carry a load through 80 boxes: it sags by 2.9 m and folds, at 8 substeps as at 32")
+@pytest.mark.xfail(
+    strict=True,
+    reason="one pass per substep does not carry a load through 80 boxes: it sags by 2.9 m and folds, at 8 substeps as at 32",
+)
 def test_column_of_eighty_stands():
     world = metres(substeps=8)
     floor(world)
@@ -108,7 +111,9 @@ def test_large_and_tiny_pyramids(base, size, steps):
     Watch(world, passive=True).step(steps)
     after = movers(world)
     given = base * G / STIFFNESS
-    assert deepest(world) <= 2 * SLOP + given and abs(tops(world, rows[-1])[0] - (base - 0.5) * size) <= base * (SLOP + given / 4)
+    assert deepest(world) <= 2 * SLOP + given and abs(tops(world, rows[-1])[0] - (base - 0.5) * size) <= base * (
+        SLOP + given / 4
+    )
     assert np.hypot(after["x"] - before["x"], after["y"] - before["y"]).max() < 2 * size and rms_speed(world) < 0.05
 
 
@@ -143,7 +148,9 @@ def test_big_box_falls_on_two_small_props(props):
         small = [world.add_body(Polygon.box(1, 1), position=(x, -0.5)) for x in (-9.0, 9.0)]
         drop = 15.0
     else:
-        small = [world.add_body(Polygon([(-0.5, 0.0), (0.5, 0.0), (0.0, -1.0)]), position=(x, 0.0)) for x in (-9.0, 9.0)]
+        small = [
+            world.add_body(Polygon([(-0.5, 0.0), (0.5, 0.0), (0.0, -1.0)]), position=(x, 0.0)) for x in (-9.0, 9.0)
+        ]
         drop = 2.5
     big = world.add_body(Polygon.box(20, 20), position=(0.0, -11.0 - drop))
     Watch(world, passive=True).step(600)
@@ -171,9 +178,14 @@ def arch(world, blocks, inner, thickness, friction):
     outer, key = inner + thickness, None
     for k in range(blocks):
         ends = [math.pi * k / blocks, math.pi * (k + 1) / blocks]
-        points = [(-r * math.cos(a), -r * math.sin(a)) for r, a in ((inner, ends[0]), (outer, ends[0]), (outer, ends[1]), (inner, ends[1]))]
+        points = [
+            (-r * math.cos(a), -r * math.sin(a))
+            for r, a in ((inner, ends[0]), (outer, ends[0]), (outer, ends[1]), (inner, ends[1]))
+        ]
         x, y = np.mean(points, axis=0)
-        body = world.add_body(Polygon([(px - x, py - y) for px, py in points]), position=(x, y), material=Material(friction=friction))
+        body = world.add_body(
+            Polygon([(px - x, py - y) for px, py in points]), position=(x, y), material=Material(friction=friction)
+        )
         key = body if k == blocks // 2 else key
     return key
 
@@ -190,7 +202,11 @@ def test_arch_stands_when_thick_and_falls_when_thin():
         start = key.position[1]
         if share == 0.25:
             for k in range(4):
-                world.add_body(Polygon.box(1.2, 0.2), position=(0.0, -(inner + 1.0) - 0.1 - 0.2 * k + 0.02), material=Material(friction=0.6, density=0.3))
+                world.add_body(
+                    Polygon.box(1.2, 0.2),
+                    position=(0.0, -(inner + 1.0) - 0.1 - 0.2 * k + 0.02),
+                    material=Material(friction=0.6, density=0.3),
+                )
         watch = Watch(world, passive=share == 0.25).step(300)
         sinks[share] = key.position[1] - start
         watch.step(300)
