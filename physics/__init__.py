@@ -9,30 +9,25 @@ from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
-from physics.collide import Manifold, collide
-from physics.distance import Distance, distance
+from physics.character.character import Character, Moved
 from physics.effects import Effects
-from physics.fitting import TIERS, fit
-from physics.impact import TimeOfImpact, time_of_impact
 from physics.jit import JIT
-from physics.motion.character import Character, Moved
-from physics.queries import RayHit
-from physics.shapes import (
-    Bounds,
-    Capsule,
-    Chain,
-    Circle,
-    Filter,
-    Mass,
-    Material,
-    PixelMask,
-    Polygon,
-    Segment,
-    TileGrid,
-    mass_of,
-)
+from physics.queries.casts import RayHit
+from physics.queries.pair_distance import Distance, distance
+from physics.queries.pair_impact import TimeOfImpact, time_of_impact
+from physics.queries.pair_manifold import Manifold, collide
+from physics.shapes.approximate import TIERS, fit
+from physics.shapes.bounds import Bounds
+from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.filter import Filter
+from physics.shapes.kinds import mass_of
+from physics.shapes.lines import Chain, Segment
+from physics.shapes.mask import PixelMask
+from physics.shapes.mass import Mass
+from physics.shapes.material import Material
+from physics.shapes.tiles import TileGrid
 from physics.snapshot import Snapshot
-from physics.tables import DYNAMIC, KINEMATIC, STATIC
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
 from physics.world import SOLVERS, World
 

@@ -1,7 +1,8 @@
 """Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
 
-from physics import checks, edits, sleep
-from physics.tables import DYNAMIC, KINDS, STATIC
+from physics import checks, editing
+from physics.dynamics import sleep
+from physics.tables.body import DYNAMIC, KINDS, STATIC
 
 
 def _column(name, doc):
@@ -116,11 +117,11 @@ class Body:
     @property
     def filter(self):
         """The filter of the shapes."""
-        return edits.filter_of(self.world, self.id)
+        return editing.filter_of(self.world, self.id)
 
     @filter.setter
     def filter(self, value):
-        edits.set_filter(self.world, self.id, value)
+        editing.set_filter(self.world, self.id, value)
 
     @property
     def tier(self):
@@ -130,7 +131,7 @@ class Body:
 
     @tier.setter
     def tier(self, value):
-        edits.set_tier(self.world, self.id, value)
+        editing.set_tier(self.world, self.id, value)
 
     def apply_force(self, force, point=None):
         """Add a force for the coming step, at the centre of mass or at a world point [px]."""
@@ -185,7 +186,7 @@ class Body:
 
     def move_to(self, position, angle=None):
         """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        edits.move_to(
+        editing.move_to(
             self.world,
             self.id,
             checks.position("position", position),
@@ -194,7 +195,7 @@ class Body:
 
     def set_shapes(self, *shapes):
         """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""
-        edits.set_shapes(self.world, self.id, shapes)
+        editing.set_shapes(self.world, self.id, shapes)
 
     def wake(self):
         """Wake it, and all it is piled up with."""
@@ -204,8 +205,8 @@ class Body:
 
     def set_kind(self, kind):
         """static, kinematic or dynamic. A body that becomes static stops."""
-        edits.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
+        editing.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self):
         """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
-        edits.restore(self.world, self.id)
+        editing.restore(self.world, self.id)

@@ -107,3 +107,12 @@ def columns(name, value, count=None, width=2):
         row = int(np.argwhere(bad)[0][0])
         raise ValueError(f"{name}[{row}] must be finite (got {array[row]!r})")
     return array
+
+
+def pose(name, value):
+    """(x, y, angle) as floats. Raises TypeError or ValueError."""
+    try:
+        x, y, angle = value
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be (x, y, angle) (got {value!r})") from None
+    return (*position(name, (x, y)), number(f"{name}[2]", angle))

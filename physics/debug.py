@@ -4,13 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics import tables
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
-from physics.distance import gjk_steps
-from physics.narrowphase.axes import sat_axes
+from physics.queries.pair_axes import sat_axes
+from physics.queries.pair_distance import gjk_steps
 from physics.settings import MASK_ANGLE_BUCKETS
+from physics.tables.body import DYNAMIC
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT
 
 __all__ = [
     "bounds",
@@ -42,7 +43,7 @@ ROW = np.dtype(
 )
 
 
-LINES = (tables.POLYGON, tables.CAPSULE, tables.SEGMENT, tables.CHAIN)
+LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
@@ -144,29 +145,29 @@ def outlines(world, rows=None) -> list:
     for k, (kind, identity, geometry) in enumerate(
         zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))
     ):
-        if kind == tables.CIRCLE:
+        if kind == CIRCLE:
             found.append(("circle", *circles[k]))
         elif kind in LINES:
-            drawn = (world.library.chain_shapes if kind == tables.CHAIN else world.library.outlines)[geometry]
+            drawn = (world.library.chain_shapes if kind == CHAIN else world.library.outlines)[geometry]
             turn = np.array([[cosine[k], sine[k]], [-sine[k], cosine[k]]])
             found.append(_line(drawn, kind, (bodies["x"][k], bodies["y"][k]) + np.array(drawn.points) @ turn))
-        elif kind == tables.BOUNDS:
+        elif kind == BOUNDS:
             x0, y0, x1, y1 = boxes[k]
             found.append(("polygon", np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])))
         else:
-            found.append(("mask" if kind == tables.MASK else "tiles", identity))
+            found.append(("mask" if kind == MASK else "tiles", identity))
     return found
 
 
 def _line(shape, kind, points):
     """The outline of a polygon, capsule, segment or chain whose points stand in the world."""
-    if kind == tables.CHAIN:
+    if kind == CHAIN:
         return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
-    if kind == tables.CAPSULE:
+    if kind == CAPSULE:
         return "capsule", *points.ravel().tolist(), shape.radius
-    if kind == tables.POLYGON and shape.radius > 0.0:
+    if kind == POLYGON and shape.radius > 0.0:
         return "rounded", points, shape.radius
-    return "segment" if kind == tables.SEGMENT else "polygon", points
+    return "segment" if kind == SEGMENT else "polygon", points
 
 
 class Drawn(NamedTuple):
@@ -180,7 +181,7 @@ class Drawn(NamedTuple):
 
 def masks(world) -> list:
     """(shape id, left, top, solid[row, col]) of every mask as drawn."""
-    ids = world.shapes["id"][world.shapes["kind"] == tables.MASK].tolist()
+    ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
     return [
         (each, left, top, found.solids[k])
@@ -191,7 +192,7 @@ def masks(world) -> list:
 def drawn_masks(world) -> Drawn:
     """What masks() tells, as columns: thousands of masks cost what few do."""
     world.queries.refresh(world)
-    return _drawn(world, np.flatnonzero(world.shapes["kind"] == tables.MASK))
+    return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
@@ -212,7 +213,7 @@ def mask_hits(world) -> list:
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)
-    rows = rows[(world.shapes["kind"][rows] == tables.MASK).all(axis=1)]
+    rows = rows[(world.shapes["kind"][rows] == MASK).all(axis=1)]
     a, b = _drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])
     for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(
         a.left.tolist(), a.top.tolist(), a.which.tolist(), b.left.tolist(), b.top.tolist(), b.which.tolist()
@@ -274,7 +275,7 @@ def islands(world) -> np.ndarray:
     """Island of every body, by row: the lowest body id of those it is piled up with; -1 for what is in none."""
     bodies = world.bodies
     return np.where(
-        (bodies["kind"] == tables.DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
+        (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
     )
 
 

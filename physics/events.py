@@ -3,7 +3,7 @@
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.tables import EVENT, HIT, QUARANTINE
+from physics.tables.contact import EVENT, HIT, QUARANTINE
 
 
 @subkernel

@@ -5,52 +5,7 @@ from time import perf_counter
 
 import numpy as np
 
-COUNTERS = (
-    "bodies_integrated",
-    "nodes_visited",
-    "pairs_tested",
-    "candidates",
-    "filtered",
-    "narrow_tests",
-    "mask_tests",
-    "contacts",
-    "toi_calls",
-    "solver_rows",
-    "tangent_rows",
-    "restitution_rows",
-    "gjk_iterations",
-    "cap_hits",
-    "sensor_tests",
-    "joints_solved",
-    "islands",
-    "carved_pixels",
-    "swaps",
-    "reinserts",
-    "cells_touched",
-)
-(
-    BODIES_INTEGRATED,
-    NODES_VISITED,
-    PAIRS_TESTED,
-    CANDIDATES,
-    FILTERED,
-    NARROW_TESTS,
-    MASK_TESTS,
-    CONTACTS,
-    TOI_CALLS,
-    SOLVER_ROWS,
-    TANGENT_ROWS,
-    RESTITUTION_ROWS,
-    GJK_ITERATIONS,
-    CAP_HITS,
-    SENSOR_TESTS,
-    JOINTS_SOLVED,
-    ISLANDS,
-    CARVED_PIXELS,
-    SWAPS,
-    REINSERTS,
-    CELLS_TOUCHED,
-) = range(len(COUNTERS))
+from physics.tables.counters import COUNTERS
 
 
 class Profile:

@@ -10,9 +10,16 @@ from dataclasses import astuple
 import numpy as np
 
 from physics import checks
-from physics.geometry import Library
-from physics.shapes import Capsule, Chain, Material, PixelMask, Polygon, Segment, TileGrid
-from physics.tables import BODY, CHARACTER, CONTACT, EVENT, SHAPE
+from physics.shapes.convex import Capsule, Polygon
+from physics.shapes.library import Library
+from physics.shapes.lines import Chain, Segment
+from physics.shapes.mask import PixelMask
+from physics.shapes.material import Material
+from physics.shapes.tiles import TileGrid
+from physics.tables.body import BODY
+from physics.tables.character import CHARACTER
+from physics.tables.contact import CONTACT, EVENT
+from physics.tables.shape import SHAPE
 
 VERSION = 2
 DAMAGE = (

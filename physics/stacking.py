@@ -10,20 +10,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics import sleep
-from physics.motion.fat_rectangles import update_fat_rectangles
-from physics.motion.integrate import refresh_centers
-from physics.motion.shove import press, tell_weight
-from physics.narrowphase.activity import is_anything_active
-from physics.narrowphase.dispatch import SENSORS, SOLIDS, NarrowPhase
-from physics.narrowphase.persist import carry_over, follow_bodies, mix_materials
-from physics.narrowphase.placement import refresh_aabbs
-from physics.rasters import add_missing_rasters
+from physics.broadphase.fat_rectangles import update_fat_rectangles
+from physics.character.push import press, tell_weight
+from physics.collision.approach import measure_approach
+from physics.collision.dispatch import SENSORS, SOLIDS, NarrowPhase
+from physics.collision.persist import carry_over, follow_bodies, mix_materials
+from physics.dynamics import sleep
+from physics.dynamics.awake import is_anything_active
+from physics.dynamics.graph import color_groups, group_contacts, order_groups
+from physics.dynamics.integrate import refresh_centers
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, COLORS
+from physics.shapes.placement import refresh_aabbs
+from physics.shapes.rasters import add_missing_rasters
 from physics.solver import sequential_impulse, soft_step
-from physics.solver.approach import measure_approach
 from physics.solver.bounce import restore_bounces
-from physics.solver.coloring import color_groups, group_contacts, order_groups
 from physics.solver.prepare import (
     make_gather,
     make_prepare,
@@ -33,7 +33,8 @@ from physics.solver.prepare import (
     scatter_motions,
     store_impulses,
 )
-from physics.tables import CONSTRAINT, DYNAMIC, MOTION
+from physics.tables.body import DYNAMIC
+from physics.tables.constraint import CONSTRAINT, MOTION
 
 SOLVE = {"sequential_impulse": sequential_impulse.solve, "soft_step": soft_step.solve}
 BOTH = (False, True)

@@ -9,23 +9,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from physics import sleep, stacking, sweeps
+from physics import stacking
 from physics.broadphase.pair_list import PairList
-from physics.motion import carry
-from physics.motion.integrate import find_broken, make_position_pass, make_velocity_pass, refresh_centers
-from physics.motion.rectangles import make_rectangle_pass
-from physics.motion.time_of_impact import find_impacts_by_mode, stop_at_impacts
-from physics.narrowphase.contacts import new_scratch, write_impacts
-from physics.narrowphase.dispatch import NarrowPhase
-from physics.narrowphase.persist import mix_materials
-from physics.narrowphase.placement import refresh_aabbs
-from physics.profile import CONTACTS, COUNTERS
-from physics.rasters import add_missing_rasters
+from physics.broadphase.rectangles import make_rectangle_pass
+from physics.ccd import sweep as sweeps
+from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
+from physics.character import carry
+from physics.collision.approach import advance_contacts, measure_approach, prepare_contacts
+from physics.collision.contacts import new_scratch, write_impacts
+from physics.collision.dispatch import NarrowPhase
+from physics.collision.persist import mix_materials
+from physics.dynamics import sleep
+from physics.dynamics.integrate import find_broken, make_position_pass, make_velocity_pass, refresh_centers
 from physics.settings import POSITION_LIMIT, PROJECTION_PASSES
-from physics.solver.approach import advance_contacts, measure_approach, prepare_contacts
+from physics.shapes.placement import refresh_aabbs
+from physics.shapes.rasters import add_missing_rasters
 from physics.solver.blocking import stay_behind, stop_approach
 from physics.solver.projection import make_projection_pass
-from physics.tables import CONTACT, QUARANTINE
+from physics.tables.contact import CONTACT, QUARANTINE
+from physics.tables.counters import CONTACTS
 
 __all__ = ["PairList", "Stage", "plan"]
 
@@ -321,21 +323,6 @@ def _events(effects):
             bodies["awake"] = ~bodies["quarantined"]
 
     return Stage("events", run)
-
-
-def narrow_phase_for_queries() -> NarrowPhase:
-    """A narrow phase that tests shapes exactly and masks for hits alone."""
-    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
-
-
-def exact_narrow_phase() -> NarrowPhase:
-    """A narrow phase with all that a contact can tell."""
-    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
-
-
-def no_work() -> np.ndarray:
-    """Counters that nobody reads."""
-    return np.zeros(len(COUNTERS), np.int64)
 
 
 def impact_room():

@@ -6,11 +6,15 @@ from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import REBUILD_FROM, DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
+from physics.character.character import Character
 from physics.effects import Effects
-from physics.motion.character import Character
-from physics.narrowphase.trace import steps_of
+from physics.proximity.trace import steps_of
 from physics.settings import SLEEP_TIME
-from physics.shapes import Bounds, Capsule, Chain, Circle, PixelMask, Polygon, TileGrid
+from physics.shapes.bounds import Bounds
+from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.lines import Chain
+from physics.shapes.mask import PixelMask
+from physics.shapes.tiles import TileGrid
 from physics.world import World
 
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}

@@ -4,18 +4,25 @@ from bisect import bisect_left
 
 import numpy as np
 
-from physics import adding, checks, queries, sleep, snapshot, stages
+from physics import checks, editing, snapshot, stages
 from physics.body import Body
 from physics.broadphase.spatial_hash import SpatialHashGrid
+from physics.character import carry
+from physics.dynamics import sleep
 from physics.effects import Effects
 from physics.events import Events, Pairs
-from physics.geometry import Library
-from physics.motion import carry
 from physics.profile import Profile
-from physics.query_index import QueryIndex
+from physics.queries import casts as queries
+from physics.queries.index import QueryIndex
 from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
-from physics.shapes import Filter, Material
-from physics.tables import BODY, CHARACTER, CONTACT, SHAPE, STATIC, Table
+from physics.shapes.filter import Filter
+from physics.shapes.library import Library
+from physics.shapes.material import Material
+from physics.tables.body import BODY, STATIC
+from physics.tables.character import CHARACTER
+from physics.tables.contact import CONTACT
+from physics.tables.shape import SHAPE
+from physics.tables.table import Table
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 NEEDS_STACKING = ("sequential_impulse", "soft_step")
@@ -291,7 +298,7 @@ class World:
         user=None,
     ) -> Body:
         """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
-        ids = adding.add_rows(
+        ids = editing.add_rows(
             self,
             shapes,
             [checks.position("position", position)],
@@ -338,7 +345,7 @@ class World:
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return adding.add_rows(
+        return editing.add_rows(
             self,
             (shape,),
             positions,

@@ -6,7 +6,7 @@ import pygame
 from game.drawing.colors import FOG, GOLD, INK, PAPER
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import arrow
-from physics.tables import DYNAMIC
+from physics.tables.body import DYNAMIC
 
 CENTER_BUDGET = 600  # bodies per picture; the note says how many there are
 SECONDS = 0.1  # the arrow shows the way of this time

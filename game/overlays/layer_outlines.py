@@ -6,7 +6,7 @@ import pygame
 from game.drawing.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
 from game.overlays.outlines import draw_outline
 from physics import TileGrid, debug
-from physics.tables import MASK
+from physics.tables.shape import MASK
 
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN

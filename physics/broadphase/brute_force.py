@@ -5,7 +5,7 @@ Exact, no state, O(changed · n). Best for a few dozen bodies; the truth the oth
 
 from physics.broadphase.proxies import find_pairs, overlaps, write_pair
 from physics.jit import kernel
-from physics.profile import PAIRS_TESTED
+from physics.tables.counters import PAIRS_TESTED
 
 
 @kernel

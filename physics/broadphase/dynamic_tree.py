@@ -14,8 +14,8 @@ from physics.broadphase.proxies import find_pairs, overlaps, write_pair
 from physics.broadphase.tree_nodes import FREE, NODE, ROOT_MOVING, ROOT_STILL, insert_leaf, remove_leaf, take_node
 from physics.broadphase.tree_rebuild import rebuild
 from physics.jit import kernel
-from physics.profile import NODES_VISITED, REINSERTS
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
+from physics.tables.counters import NODES_VISITED, REINSERTS
 
 REBUILD_FROM = 64  # changed proxies below which every leaf is moved by itself
 STACK = 256  # far above any height that fits in memory

@@ -3,9 +3,9 @@
 import numpy as np
 
 from physics.broadphase.proxies import Arena, keep_pairs, merge_pairs, pair_keys
-from physics.motion.rectangles import mark_settled
-from physics.profile import CANDIDATES
-from physics.tables import PROXY
+from physics.broadphase.rectangles import mark_settled
+from physics.tables.counters import CANDIDATES
+from physics.tables.proxy import PROXY
 
 
 class PairList:

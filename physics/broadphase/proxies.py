@@ -7,8 +7,8 @@ test: so the list of pairs is the same from all of them.
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.profile import COUNTERS, FILTERED, PAIRS_TESTED
-from physics.tables import PROXY
+from physics.tables.counters import COUNTERS, FILTERED, PAIRS_TESTED
+from physics.tables.proxy import PROXY
 
 
 @subkernel

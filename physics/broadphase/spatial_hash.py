@@ -13,7 +13,7 @@ import numpy as np
 from physics import checks
 from physics.broadphase.proxies import find_pairs, may_meet, overlaps, write_pair
 from physics.jit import kernel, subkernel
-from physics.profile import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
+from physics.tables.counters import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
 LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
 CELL_OF_MEDIAN = 2.0  # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`

@@ -10,7 +10,7 @@ import numpy as np
 
 from physics.broadphase.proxies import find_pairs, may_meet, write_pair
 from physics.jit import kernel
-from physics.profile import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
+from physics.tables.counters import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0  # the other axis must vary this much more before the order is sorted anew
 AXIS_INTERVAL = 32  # updates between two looks at how the bodies are spread

@@ -7,7 +7,7 @@ Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
 import numpy as np
 
 from physics.jit import subkernel
-from physics.profile import NODES_VISITED
+from physics.tables.counters import NODES_VISITED
 
 NODE = np.dtype(
     [

@@ -5,10 +5,10 @@ towards what is in its way. Every body that stays may be in the way of another, 
 new has to stay: at most once per body, usually two or three rounds.
 """
 
+from physics.collision.approach import closing_speed
 from physics.jit import kernel
-from physics.profile import SOLVER_ROWS
-from physics.solver.approach import closing_speed
-from physics.tables import DYNAMIC
+from physics.tables.body import DYNAMIC
+from physics.tables.counters import SOLVER_ROWS
 
 
 @kernel

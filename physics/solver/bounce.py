@@ -5,8 +5,8 @@ the bounce (Rapier #919, #974). Two points of one manifold are solved together, 
 """
 
 from physics.jit import kernel, subkernel
-from physics.profile import RESTITUTION_ROWS
 from physics.solver.two_points import solve_two
+from physics.tables.counters import RESTITUTION_ROWS
 
 
 @subkernel

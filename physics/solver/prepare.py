@@ -8,9 +8,9 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
-from physics.profile import BODIES_INTEGRATED, SOLVER_ROWS, TANGENT_ROWS
 from physics.settings import CROWD
-from physics.tables import DYNAMIC, STATIC
+from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.counters import BODIES_INTEGRATED, SOLVER_ROWS, TANGENT_ROWS
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool):

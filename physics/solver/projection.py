@@ -4,9 +4,9 @@ Differs from `blocking` in that a body which meets something goes on along it in
 starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the contacts, two loops over none.
 """
 
+from physics.collision.approach import closing_speed
 from physics.jit import kernel, subkernel
-from physics.profile import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
-from physics.solver.approach import closing_speed
+from physics.tables.counters import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
 
 
 @subkernel

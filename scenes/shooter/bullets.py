@@ -5,7 +5,7 @@ from math import cos, pi, sin
 import numpy as np
 
 from game.drawing.sprites import load_atlas
-from physics.tables import Table
+from physics.tables.table import Table
 from scenes.shooter.cast import HEIGHT, MARGIN, WIDTH
 
 DOWN, UP = pi / 2, -pi / 2  # [rad] headings; y points down

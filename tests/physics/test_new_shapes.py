@@ -24,7 +24,7 @@ from physics import (
     debug,
     mass_of,
 )
-from physics.narrowphase.axes import sat_axes
+from physics.queries.pair_axes import sat_axes
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import PAIRS, gap_of, hull_of, random_shape  # noqa: E402

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from physics import Bounds, Capsule, Circle, Effects, PixelMask, Polygon, TileGrid, World, collide
-from physics.geometry import Library
+from physics.shapes.library import Library
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import hull_of  # noqa: E402

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
-from physics.geometry import Library
+from physics.shapes.library import Library
 from physics.jit import kernel
-from physics.motion.advance import advance, new_advance_room, separate_at
-from physics.motion.turning import new_turning_room, sweep_turning
-from physics.profile import CAP_HITS, COUNTERS, GJK_ITERATIONS
-from physics.shape_rows import rounding_of
-from physics.tables import BODY, SHAPE
+from physics.ccd.advance import advance, new_advance_room, separate_at
+from physics.ccd.rotational import new_turning_room, sweep_turning
+from physics.tables.counters import CAP_HITS, COUNTERS, GJK_ITERATIONS
+from physics.shapes.rows import rounding_of
+from physics.tables.body import BODY
+from physics.tables.shape import SHAPE
 from tests.oracles import hulls
 
 O = (0.0, 0.0, 0.0)

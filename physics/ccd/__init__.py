@@ -1,0 +1,1 @@
+"""When moving shapes first meet: continuous collision detection."""

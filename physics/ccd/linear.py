@@ -1,0 +1,422 @@
+"""First time of impact of shapes that move without turning: circles and convex polygons, against each other and tiles.
+
+Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative motion
+enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear per edge
+(Ericson, Real-Time Collision Detection, 5.5). All in closed form, relative to B.
+"""
+
+import math
+
+from physics.collision.circles import collide_polygon_circle
+from physics.collision.clipping import ALL_EDGES, edge_normal
+from physics.collision.tiles import tile_at
+from physics.jit import kernel, subkernel
+from physics.math2d import length_of, turned, unit
+from physics.shapes.placement import corners_at, is_hull
+from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, TOI
+from physics.tables.counters import TOI_CALLS
+from physics.tables.geometry import EMPTY, ONE_WAY
+from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
+
+MISS = 2.0  # a fraction beyond the step
+
+
+@subkernel
+def sweep_circles(x, y, dx, dy, radius):
+    """A point at (x, y) seen from the centre of a disc [px], moved by (dx, dy): (fraction or MISS, normal to the point).
+
+    radius: the sum of both discs'. Touching at the start: 0 when it approaches.
+    """
+    nx, ny = unit(x, y, 1.0, 0.0)
+    approach = x * dx + y * dy
+    if length_of(x, y) <= radius:
+        return (0.0 if approach < 0.0 else MISS), nx, ny
+    if approach >= 0.0:
+        return MISS, nx, ny
+    a = dx * dx + dy * dy
+    c = x * x + y * y - radius * radius
+    discriminant = approach * approach - a * c
+    if discriminant < 0.0:
+        return MISS, nx, ny
+    # The smaller root, in the form that does not cancel.
+    fraction = c / (-approach + math.sqrt(discriminant))
+    if fraction > 1.0:
+        return MISS, nx, ny
+    nx, ny = unit(x + fraction * dx, y + fraction * dy, nx, ny)
+    return fraction, nx, ny
+
+
+@subkernel
+def cast_on_polygon(corners, count, edges, x, y, dx, dy):
+    """A ray from outside against a closed convex polygon [px]: (fraction or MISS, normal).
+
+    By cutting the ray with every half plane, so that nothing slips through between two edges (Cyrus and Beck 1978).
+    edges: bits of the edges that may be touched.
+    """
+    enter = -1.0
+    leave = 1.0
+    entering = 0
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1])
+        speed = nx * dx + ny * dy
+        if speed < 0.0:
+            if gap / -speed > enter:
+                enter = gap / -speed
+                entering = k
+        elif speed > 0.0:
+            leave = min(leave, gap / -speed)
+        elif gap > 0.0:
+            return MISS, 0.0, -1.0
+    if enter < 0.0 or enter > leave or not (edges >> entering) & 1:
+        return MISS, 0.0, -1.0
+    nx, ny = edge_normal(corners, count, entering)
+    return enter, nx, ny
+
+
+@subkernel
+def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
+    """A disc moved by (dx, dy) against a polygon at rest [px]: (fraction or MISS, normal from the polygon to the disc).
+
+    edges: bits of the edges that may be touched. A radius of 0 casts a ray.
+    """
+    hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
+    if hit and separation <= 0.0:
+        return (0.0 if nx * dx + ny * dy < 0.0 else MISS), nx, ny
+    if radius == 0.0:
+        return cast_on_polygon(corners, count, edges, x, y, dx, dy)
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    for k in range(count):
+        following = k + 1 if k + 1 < count else 0
+        nx, ny = edge_normal(corners, count, k)
+        speed = nx * dx + ny * dy
+        if (edges >> k) & 1 and speed < 0.0:
+            gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1]) - radius
+            fraction = gap / -speed
+            if 0.0 <= fraction < best and fraction <= 1.0:
+                at_x = x + fraction * dx
+                at_y = y + fraction * dy
+                ex = corners[following, 0] - corners[k, 0]
+                ey = corners[following, 1] - corners[k, 1]
+                along = ex * (at_x - corners[k, 0]) + ey * (at_y - corners[k, 1])
+                if 0.0 <= along <= ex * ex + ey * ey:
+                    best = fraction
+                    best_x = nx
+                    best_y = ny
+        before = k - 1 if k > 0 else count - 1
+        if radius > 0.0 and (edges >> (16 + k)) & 1 and (edges >> (16 + before)) & 1:
+            fraction, nx, ny = sweep_circles(x - corners[k, 0], y - corners[k, 1], dx, dy, radius)
+            if fraction < best:
+                best = fraction
+                best_x = nx
+                best_y = ny
+    return best, best_x, best_y
+
+
+@subkernel
+def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave, entering, nx, ny):
+    """Cut the time of overlap by the faces of one outline.
+
+    side 1: the faces of B, which A's corners cross; -1: those of A, crossed by B's corners. A face that is crossed by
+    less than `slack` [px] does not count. Returns (enter, leave, entering face or -1 - face of A, normal from B to A).
+    """
+    for k in range(b_count):
+        mx, my = edge_normal(b, b_count, k)
+        gap = math.inf
+        for i in range(a_count):
+            gap = min(gap, mx * (a[i, 0] - b[k, 0]) + my * (a[i, 1] - b[k, 1]))
+        speed = side * (mx * dx + my * dy)
+        if gap + slack > 0.0:
+            if speed >= 0.0:
+                return MISS, leave, entering, nx, ny
+            fraction = (gap + slack) / -speed
+            if fraction > enter:
+                enter = fraction
+                entering = k if side > 0.0 else -1 - k
+                nx = side * mx
+                ny = side * my
+        elif speed > 0.0:
+            leave = min(leave, -(gap + slack) / speed)
+    return enter, leave, entering, nx, ny
+
+
+@subkernel
+def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
+    """Polygon A moved by (dx, dy) against B at rest [px]: (fraction or MISS, normal from B to A).
+
+    b_edges: bits of B's edges that may be touched; slack [px]: shallower overlaps do not count. Already overlapping
+    by more: MISS, the contact solver lets it out.
+    """
+    enter, leave, entering, nx, ny = half_planes(
+        a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0
+    )
+    if enter <= 1.0:
+        enter, leave, entering, nx, ny = half_planes(
+            b, b_count, a, a_count, ALL_EDGES, -1.0, dx, dy, slack, enter, leave, entering, nx, ny
+        )
+    if enter < 0.0 or enter > leave or enter > 1.0:
+        return MISS, nx, ny
+    if entering >= 0 and not (b_edges >> entering) & 1:
+        return MISS, nx, ny
+    # From "slack deep" back to touching.
+    approach = -(nx * dx + ny * dy)
+    if approach <= 0.0:
+        return MISS, nx, ny
+    return max(0.0, enter - slack / approach), nx, ny
+
+
+@subkernel
+def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, edges, slack, corners_inout):
+    """One moving circle or polygon (or a ray from its middle) against an outline at rest: (fraction or MISS, normal to it)."""
+    s = shapes[row]
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        radius = 0.0 if ray else s.radius
+        fraction, nx, ny = sweep_circle_polygon(target, target_count, edges, x + u, y + v, dx, dy, radius)
+        if fraction == 0.0 and s.radius > 0.0:
+            hit, mx, my, _, _, separation, _ = collide_polygon_circle(target, target_count, edges, x + u, y + v, radius)
+            if hit and separation < -slack:
+                return MISS, nx, ny
+        return fraction, nx, ny
+    count = corners_at(geometry, shapes, row, x, y, angle, corners_inout)
+    if ray:
+        middle_x = 0.0
+        middle_y = 0.0
+        for k in range(count):
+            middle_x += corners_inout[k, 0] / count
+            middle_y += corners_inout[k, 1] / count
+        return sweep_circle_polygon(target, target_count, edges, middle_x, middle_y, dx, dy, 0.0)
+    return sweep_polygons(corners_inout, count, target, target_count, edges, dx, dy, slack)
+
+
+@subkernel
+def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, grid_y, one_way, slack, scratch):
+    """One moving shape against the tiles its motion rectangle covers: (fraction or MISS, normal from the tile)."""
+    g = geometry.grids[grid]
+    s = shapes[row]
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        left = x + u - s.radius
+        right = x + u + s.radius
+        top = y + v - s.radius
+        bottom = y + v + s.radius
+    else:
+        count = corners_at(geometry, shapes, row, x, y, angle, scratch.b)
+        left = scratch.b[0, 0]
+        right = left
+        top = scratch.b[0, 1]
+        bottom = top
+        for k in range(1, count):
+            left = min(left, scratch.b[k, 0])
+            right = max(right, scratch.b[k, 0])
+            top = min(top, scratch.b[k, 1])
+            bottom = max(bottom, scratch.b[k, 1])
+    first_column = max(0, math.ceil((left + min(dx, 0.0) - grid_x) / g.tile_size) - 1)
+    last_column = min(g.columns - 1, math.floor((right + max(dx, 0.0) - grid_x) / g.tile_size))
+    first_row = max(0, math.ceil((top + min(dy, 0.0) - grid_y) / g.tile_size) - 1)
+    last_row = min(g.rows - 1, math.floor((bottom + max(dy, 0.0) - grid_y) / g.tile_size))
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    for tile_row in range(first_row, last_row + 1):
+        for tile_column in range(first_column, last_column + 1):
+            kind = geometry.cells[g.offset + tile_row * g.columns + tile_column].kind
+            if kind == EMPTY:
+                continue
+            if kind == ONE_WAY and not (one_way and dy > 0.0 and bottom <= grid_y + tile_row * g.tile_size + slack):
+                continue
+            count, edges = tile_at(geometry, grid, grid_x, grid_y, tile_row, tile_column, scratch.a)
+            fraction, nx, ny = sweep_shape(
+                geometry, shapes, row, x, y, angle, ray, dx, dy, scratch.a, count, edges, slack, scratch.b
+            )
+            if fraction < best:
+                best = fraction
+                best_x = nx
+                best_y = ny
+    return best, best_x, best_y
+
+
+@subkernel
+def is_fast(body, dt, only_straight):
+    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size.
+
+    only_straight: 1 where those that turn on their way are left to the sweep with turning.
+    """
+    if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
+        return False
+    if body.continuous == AUTO and only_straight == 1:
+        return False
+    if body.continuous == AUTO:
+        return length_of(body.vx, body.vy) * dt > body.smallest_half
+    return True
+
+
+@subkernel
+def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, scratch):
+    """Shape `row` against shape `other`, both moving through dt [s]: (fraction or MISS, normal from other to row)."""
+    s = shapes[row]
+    o = shapes[other]
+    p = bodies[s.body_row]
+    q = bodies[o.body_row]
+    dx = dt * p.vx
+    dy = dt * p.vy
+    if q.kind != STATIC:
+        dx -= dt * q.vx
+        dy -= dt * q.vy
+    if o.kind == TILES:
+        return sweep_grid(
+            geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, o.geometry, q.x, q.y, one_way, slack, scratch
+        )
+    if o.kind == CIRCLE:
+        u, v = turned(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
+        if s.kind == CIRCLE:
+            w, z = turned(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
+            radius = o.radius + (0.0 if ray else s.radius)
+            x = p.x + w - q.x - u
+            y = p.y + z - q.y - v
+            fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
+            if fraction == 0.0 and length_of(x, y) < radius - slack:
+                return MISS, nx, ny
+            return fraction, nx, ny
+        count = corners_at(geometry, shapes, row, p.x, p.y, p.angle, scratch.a)
+        if ray:
+            x = 0.0
+            y = 0.0
+            for k in range(count):
+                x += scratch.a[k, 0] / count
+                y += scratch.a[k, 1] / count
+            return sweep_circles(x - q.x - u, y - q.y - v, dx, dy, o.radius)
+        # The circle flies the other way, against the polygon at rest.
+        fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, q.x + u, q.y + v, -dx, -dy, o.radius)
+        return fraction, -nx, -ny
+    count = corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a)
+    return sweep_shape(
+        geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, ALL_EDGES, slack, scratch.b
+    )
+
+
+@subkernel
+def is_straight(shape):
+    """Whether the closed forms here know a shape; what is rounded or a chain is left to the sweep with turning."""
+    return (
+        shape.kind == CIRCLE
+        or shape.kind == BOUNDS
+        or shape.kind == TILES
+        or (shape.kind == POLYGON and shape.radius == 0.0)
+    )
+
+
+@subkernel
+def has_closed_form(mover, other, mode):
+    """Whether a fast shape is swept here: by its own outline, or as a ray from the middle of any hull."""
+    if mode == RAY:
+        return is_straight(other) and is_hull(mover.kind)
+    return is_straight(other) and is_straight(mover)
+
+
+@subkernel
+def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
+    """Write an impact of a candidate pair when there is room, and return the count, which goes on past the capacity.
+
+    nx, ny: from what was met to the mover, which is A of the pair where from_a says so.
+    """
+    if found < impacts_out.shape[0]:
+        impacts_out[found, 0] = float(pair)
+        impacts_out[found, 1] = fraction
+        impacts_out[found, 2] = -nx if from_a else nx
+        impacts_out[found, 3] = -ny if from_a else ny
+        impacts_out[found, 4] = 1.0 if stops else 0.0
+    return found + 1
+
+
+def make_impact_pass(one_way: bool):
+    """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
+
+    @kernel
+    def find_impacts(
+        # read
+        geometry,
+        bodies,
+        shapes,
+        candidates,
+        count,
+        dt,
+        slack,
+        only_straight,
+        # write
+        scratch,
+        impacts_out,
+        work_inout,
+    ):
+        """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets within dt [s].
+
+        Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
+        the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
+        only_straight: see is_fast; impacts_out (n, 5) float64. Returns the number found. O(candidates).
+        """
+        found = 0
+        for i in range(count):
+            a = shapes[candidates[i, 0]]
+            b = shapes[candidates[i, 1]]
+            p = bodies[a.body_row]
+            q = bodies[b.body_row]
+            a_fast = is_fast(p, dt, only_straight)
+            b_fast = is_fast(q, dt, only_straight)
+            if not (a_fast or b_fast):
+                continue
+            from_a = a_fast and a.kind != TILES
+            if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
+                from_a = False
+            mover = candidates[i, 0] if from_a else candidates[i, 1]
+            other = candidates[i, 1] if from_a else candidates[i, 0]
+            body = p if from_a else q
+            if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
+                continue
+            work_inout[TOI_CALLS] += 1
+            fraction, nx, ny = sweep_pair(
+                geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, one_way, slack, scratch
+            )
+            if fraction > 1.0:
+                continue
+            dx = body.vx
+            dy = body.vy
+            rest = q if from_a else p
+            if rest.kind != STATIC:
+                dx -= rest.vx
+                dy -= rest.vy
+            stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
+            found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
+        return found
+
+    return find_impacts
+
+
+find_impacts_by_mode = {o: make_impact_pass(one_way=o) for o in (False, True)}
+
+
+@kernel
+def stop_at_impacts(
+    # read
+    shapes,
+    candidates,
+    impacts,
+    count,
+    # write
+    bodies_inout,
+):
+    """Set each body's free fraction to its first impact with what is no sensor. bodies_inout BODY rows. O(impacts)."""
+    for i in range(count):
+        pair = int(impacts[i, 0])
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        if a.sensor or b.sensor or impacts[i, 4] == 0.0:
+            continue
+        p = bodies_inout[a.body_row]
+        q = bodies_inout[b.body_row]
+        # What is moved by its script goes on; what is met by it is pushed.
+        if p.kind == DYNAMIC:
+            p.fraction = min(p.fraction, impacts[i, 1])
+        if q.kind == DYNAMIC:
+            q.fraction = min(q.fraction, impacts[i, 1])

@@ -1,0 +1,104 @@
+"""The first impact of shapes made of parts, on their way between two poses."""
+
+from physics.ccd.advance import CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, advance, place_at, reach_of
+from physics.ccd.linear import MISS
+from physics.ccd.rotational import sweep_chain, sweep_tiles
+from physics.jit import kernel
+from physics.math2d import length_of
+from physics.proximity.gjk import NX, NY
+from physics.proximity.witness import copy_part
+
+
+@kernel
+def advance_parts(
+    # read
+    a,
+    b,
+    motion_a,
+    motion_b,
+    # write
+    room,
+    impact_out,
+    totals_out,
+):
+    """Write (fraction or MISS, normal from A to B) of the first impact of any part of A with any of B to impact_out (3,).
+
+    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceRoom; room: TurningRoom; totals_out (2,):
+    rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are skipped. O(parts of
+    A · parts of B).
+    """
+    r = room.advance
+    for k in range(6):
+        r.motion_a[k] = motion_a[k]
+        r.motion_b[k] = motion_b[k]
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
+    path = length_of(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
+    impact_out[0] = MISS
+    impact_out[1] = 1.0
+    impact_out[2] = 0.0
+    for i in range(len(a.counts)):
+        copy_part(a.corners, i, a.counts[i], r.local_a)
+        reach_a = reach_of(r.local_a, a.counts[i])
+        for j in range(len(b.counts)):
+            copy_part(b.corners, j, b.counts[j], r.local_b)
+            place_at(r.local_a, a.counts[i], r.motion_a, 0.0, motion_a[CENTER_X], motion_a[CENTER_Y], r.a)
+            place_at(r.local_b, b.counts[j], r.motion_b, 0.0, motion_a[CENTER_X], motion_a[CENTER_Y], r.b)
+            spread = a.radius + b.radius
+            for k in range(1, a.counts[i]):
+                spread = max(spread, a.radius + b.radius + length_of(r.a[k, 0] - r.a[0, 0], r.a[k, 1] - r.a[0, 1]))
+            wide = 0.0
+            for k in range(1, b.counts[j]):
+                wide = max(wide, length_of(r.b[k, 0] - r.b[0, 0], r.b[k, 1] - r.b[0, 1]))
+            apart = length_of(r.b[0, 0] - r.a[0, 0], r.b[0, 1] - r.a[0, 1]) - spread - wide
+            travel = path + abs(motion_a[TURN]) * reach_a + abs(motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
+            if apart > travel * min(1.0, impact_out[0]):
+                continue
+            fraction = advance(a.counts[i], a.radius, b.counts[j], b.radius, r)
+            if fraction < impact_out[0]:
+                impact_out[0] = fraction
+                impact_out[1] = r.gap.gap[NX]
+                impact_out[2] = r.gap.gap[NY]
+    totals_out[0] = r.totals[0]
+    totals_out[1] = r.totals[1]
+
+
+@kernel
+def advance_on_ground(
+    # read
+    geometry,
+    ground,
+    is_chain,
+    a,
+    motion_a,
+    motion_b,
+    # write
+    room,
+    impact_out,
+    totals_out,
+):
+    """As advance_parts, of A's parts against tiles (is_chain 0) or a chain (1): through no covered side, from its front.
+
+    ground: row of the grid or chain.
+    """
+    r = room.advance
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
+    impact_out[0] = MISS
+    impact_out[1] = 1.0
+    impact_out[2] = 0.0
+    for i in range(len(a.counts)):
+        for k in range(6):
+            r.motion_a[k] = motion_a[k]
+            r.motion_b[k] = motion_b[k]
+        copy_part(a.corners, i, a.counts[i], room.mover)
+        if is_chain == 1:
+            fraction, nx, ny, _ = sweep_chain(geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, 0.0, room)
+        else:
+            fraction, nx, ny, _ = sweep_tiles(geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, True, room)
+        if fraction < impact_out[0]:
+            impact_out[0] = fraction
+            impact_out[1] = -nx
+            impact_out[2] = -ny
+    totals_out[0] = r.totals[0]
+    totals_out[1] = r.totals[1]

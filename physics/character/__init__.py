@@ -1,0 +1,1 @@
+"""What walks by whole pixels: characters among solids, belts and lifts."""

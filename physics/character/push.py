@@ -1,0 +1,156 @@
+"""Impulses between characters and the bodies of a world that stacks: shoving, landing, weight.
+
+A character has a mass but no velocity that a solver could change: it is moved by the game. So it acts on bodies by
+impulses of its own, and the solver leaves out what lies under its feet: to that it is a weight and no ceiling.
+"""
+
+from physics.character.solids import BLOCKED, in_loose, meet
+from physics.jit import kernel, subkernel
+from physics.tables.body import DYNAMIC, STATIC
+
+
+@subkernel
+def shove(
+    geometry, shapes, me, direction, speed, rotation, dt, slop, scratch, rows, count, characters_inout, bodies_inout
+):
+    """Push what is in the way sideways towards the speed [px/s] of a move, by no more than the character's strength allows.
+
+    As a force over the coming step, not as a jolt before it: friction that is strong enough then holds a body in place.
+    """
+    c = characters_inout[me]
+    speed += bodies_inout[c.body_row].vx  # of what carries it
+    left = c.mass * c.push * dt
+    for k in range(count):
+        row = -1 - rows[k]
+        if (
+            row < 0
+            or in_loose(
+                geometry,
+                bodies_inout,
+                shapes,
+                row,
+                c.left + direction,
+                c.top,
+                c.width,
+                c.height,
+                direction,
+                0,
+                0.0,
+                slop,
+                scratch,
+            )
+            != BLOCKED
+        ):
+            continue
+        b = bodies_inout[shapes[row].body_row]
+        if b.kind != DYNAMIC or b.inverse_mass == 0.0:
+            continue
+        depth, nx, ny, x, y = meet(
+            geometry, bodies_inout, shapes, row, c.left + direction, c.top, c.width, c.height, scratch
+        )
+        arm = (x - b.center_x) * ny - (y - b.center_y) * nx
+        turning = b.inverse_inertia if rotation == 1 else 0.0
+        now = b.vx * nx + b.vy * ny + dt * b.inverse_mass * (b.force_x * nx + b.force_y * ny)
+        if rotation == 1:
+            now += (b.angular_velocity + dt * turning * b.torque) * arm
+        impulse = min((speed * nx - now) / (b.inverse_mass + turning * arm * arm), left)
+        if impulse > 0.0 and dt > 0.0:
+            left -= impulse
+            b.force_x += impulse / dt * nx
+            b.force_y += impulse / dt * ny
+            b.torque += impulse / dt * arm
+
+
+@subkernel
+def foot_of(c, s):
+    """The point [px] of a character's feet that stands on a shape: their middle, or the nearest to it that does."""
+    return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
+
+
+@subkernel
+def knock(shapes, me, row, direction, speed, rotation, characters_inout, bodies_inout):
+    """Pass on the momentum of a landing (direction 1), or of a head that hits something (-1), as two lumps of clay do."""
+    c = characters_inout[me]
+    x, y = foot_of(c, shapes[row])
+    b = bodies_inout[shapes[row].body_row]
+    if b.inverse_mass == 0.0 or c.mass <= 0.0:
+        return
+    arm = (x - b.center_x) * direction
+    turning = b.inverse_inertia if rotation == 1 else 0.0
+    now = b.vy * direction + (b.angular_velocity * arm if rotation == 1 else 0.0)
+    closing = (speed + bodies_inout[c.body_row].vy) * direction - now
+    if closing > 0.0:
+        impulse = closing / (1.0 / c.mass + b.inverse_mass + turning * arm * arm)
+        b.vy += impulse * b.inverse_mass * direction
+        b.angular_velocity += impulse * turning * arm
+
+
+@kernel
+def press(
+    # read
+    shapes,
+    gravity_x,
+    gravity_y,
+    slow,
+    # write
+    characters_inout,
+    bodies_inout,
+):
+    """Let characters weigh on the awake bodies that they ride, and give their bodies the velocity of what carries them.
+
+    gravity [px/s2]; slow [px/s]: what carries them by less is about to rest, and they must not keep it awake. Remembers the point under their feet [px]. O(characters · shapes).
+    """
+    for me in range(len(characters_inout)):
+        c = characters_inout[me]
+        b = bodies_inout[c.body_row]
+        b.vx = c.push_vx
+        b.vy = c.push_vy
+        if c.riding < 0:
+            continue
+        for row in range(len(shapes)):
+            s = shapes[row]
+            if s.body != c.riding or s.sensor:
+                continue
+            r = bodies_inout[s.body_row]
+            c.foot_x, c.foot_y = foot_of(c, s)
+            arm_x = c.foot_x - r.center_x
+            arm_y = c.foot_y - r.center_y
+            vx = r.vx - r.angular_velocity * arm_y
+            vy = r.vy + r.angular_velocity * arm_x
+            if r.kind != STATIC and abs(vx) + abs(vy) > slow:
+                b.vx = vx
+                b.vy = vy
+            if r.kind == DYNAMIC and r.awake:
+                r.force_x += c.mass * gravity_x
+                r.force_y += c.mass * gravity_y
+                r.torque += c.mass * (arm_x * gravity_y - arm_y * gravity_x)
+            break
+
+
+@kernel
+def tell_weight(
+    # read
+    characters,
+    weight_rate,
+    # write
+    contacts_inout,
+):
+    """Write the weight that characters have put on what they ride into the contacts with it. O(characters · contacts).
+
+    weight_rate [px/s]: gravity times the step; the points of a contact share it.
+    """
+    for me in range(len(characters)):
+        c = characters[me]
+        if c.riding < 0:
+            continue
+        points = 0
+        for k in range(len(contacts_inout)):
+            d = contacts_inout[k]
+            if (d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding):
+                points += 1
+        for k in range(len(contacts_inout)):
+            d = contacts_inout[k]
+            if points > 0 and (
+                (d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding)
+            ):
+                d.normal_impulse = c.mass * weight_rate / points

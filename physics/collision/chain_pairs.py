@@ -1,0 +1,177 @@
+"""The pass over the candidate pairs with a chain, link by link; links far from the other shape are skipped in blocks."""
+
+import math
+
+from physics.collision.chains import collide_link_circle, collide_link_hull, in_front, link_at
+from physics.collision.contacts import CHAIN_ANY, write_contact
+from physics.collision.mask_hulls import collide_mask_polygon, thick_line
+from physics.jit import kernel, subkernel
+from physics.math2d import turned
+from physics.shapes.placement import aabb_at, hull_at, polygon_aabb, polygon_at, rounding
+from physics.tables.counters import MASK_TESTS
+from physics.tables.geometry import BLOCK_LINKS
+from physics.tables.shape import CHAIN, MASK, POLYGON
+
+BACKING = 2.0  # [px] how thick a link is for masks, behind its front: a line has no area to share
+
+
+@subkernel
+def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
+    """The AABB [px] in a body's space of a box in the world; the body stands at (x, y)."""
+    middle_x, middle_y = turned(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
+    half_x = 0.5 * (max_x - min_x)
+    half_y = 0.5 * (max_y - min_y)
+    reach_x = abs(cosine) * half_x + abs(sine) * half_y
+    reach_y = abs(sine) * half_x + abs(cosine) * half_y
+    return middle_x - reach_x, middle_y - reach_y, middle_x + reach_x, middle_y + reach_y
+
+
+@subkernel
+def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
+    """Whether the box of a and b lies beside another."""
+    return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
+
+
+@kernel
+def collide_chain_pairs(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
+    # write
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of a chain and a hull or mask, appended at `found`. Returns the new count.
+
+    The feature is the link's number in the chain times 4096, and what the link met. O(links near the other shape).
+    """
+    links = geometry.links
+    polygons = geometry.polygons
+    table = geometry.corners
+    points = scratch.a
+    manifold = scratch.manifold
+    for i in range(count):
+        if kinds[i] != CHAIN_ANY:
+            continue
+        sign = 1.0 if shapes[candidates[i, 0]].kind == CHAIN else -1.0
+        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
+        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
+        o = shapes[other]
+        p = bodies[shapes[row].body_row]
+        q = bodies[o.body_row]
+        span = geometry.chains[shapes[row].geometry]
+        cosine = math.cos(p.angle)
+        sine = math.sin(p.angle)
+        if o.kind == POLYGON:
+            turn_x = math.cos(q.angle)
+            turn_y = math.sin(q.angle)
+            min_x, min_y, max_x, max_y = polygon_aabb(polygons, table, o.geometry, o.radius, q.x, q.y, turn_x, turn_y)
+            n = polygon_at(polygons, table, o.geometry, q.x, q.y, turn_x, turn_y, scratch.b)
+        else:
+            min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
+            n = 0 if o.kind == MASK else hull_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.b)
+        # Some digits more than the margin: turning the box must not lose what touches.
+        rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
+        min_x, min_y, max_x, max_y = box_in_body(
+            min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
+        )
+        radius = 0.0
+        if o.kind == MASK:
+            work_inout[MASK_TESTS] += 1
+        else:
+            radius = rounding(shapes, other)
+        start = found
+        near = 0
+        for attempt in range(2):
+            # A hull that each link leaves to its neighbour: once more, and then only where it overlaps.
+            if attempt == 1 and (near == 0 or found > start):
+                break
+            reach = margin if attempt == 0 else 0.0
+            for block in range(span.blocks):
+                box = geometry.link_blocks[span.first_block + block]
+                if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+                    continue
+                for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+                    link = links[span.offset + k]
+                    if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
+                        continue
+                    link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
+                    if o.kind == MASK:
+                        r = geometry.rasters[o.raster]
+                        if (
+                            in_front(
+                                points,
+                                0,
+                                1,
+                                o.left + 0.5 * (r.set_left + r.set_right),
+                                o.top + 0.5 * (r.set_top + r.set_bottom),
+                            )
+                            < 0.0
+                        ):
+                            continue
+                        thick_line(points, 0.0, BACKING, scratch.b)
+                        area, nx, ny, x, y, separation, which = collide_mask_polygon(
+                            geometry.rasters, geometry.words, o.raster, o.left, o.top, scratch.b, 4, 1, scratch.depths
+                        )
+                        if area > 0:
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                -sign * nx,
+                                -sign * ny,
+                                x,
+                                y,
+                                separation,
+                                float(area),
+                                4096 * k,
+                                contacts_out,
+                            )
+                    elif n == 1:
+                        hit, nx, ny, x, y, separation, which = collide_link_circle(
+                            link, points, scratch.b[0, 0], scratch.b[0, 1], radius
+                        )
+                        if hit and separation <= margin:
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                sign * nx,
+                                sign * ny,
+                                x,
+                                y,
+                                separation,
+                                0.0,
+                                4096 * k + which,
+                                contacts_out,
+                            )
+                    else:
+                        near += 1
+                        met = collide_link_hull(link, points, scratch.b, n, radius, reach, bias, attempt == 1, manifold)
+                        for point in range(met):
+                            at = 3 + 4 * point
+                            found = write_contact(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                sign * manifold[1],
+                                sign * manifold[2],
+                                manifold[at],
+                                manifold[at + 1],
+                                manifold[at + 2],
+                                0.0,
+                                4096 * k + int(manifold[at + 3]),
+                                contacts_out,
+                            )
+    return found

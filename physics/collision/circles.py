@@ -1,0 +1,81 @@
+"""Circles against circles and convex polygons, in closed form."""
+
+import math
+
+from physics.collision.clipping import edge_normal
+from physics.jit import subkernel
+from physics.math2d import length_of, unit
+
+
+@subkernel
+def collide_circles(ax, ay, a_radius, bx, by, b_radius):
+    """Two discs [px]: (normal from A to B, point midway, separation). Equal centres push along +x. O(1)."""
+    dx = bx - ax
+    dy = by - ay
+    nx, ny = unit(dx, dy, 1.0, 0.0)
+    distance = length_of(dx, dy)
+    separation = distance - (a_radius + b_radius)
+    along = 0.5 * (a_radius + (distance - b_radius))
+    return nx, ny, ax + along * nx, ay + along * ny, separation
+
+
+@subkernel
+def collide_polygon_circle(corners, count, edges, x, y, radius):
+    """A convex polygon against a disc [px]: (found, normal from the polygon to the disc, point midway, separation, feature).
+
+    edges: bits of the edges that may be touched. An edge that may not be touched is covered by a neighbour, so nothing
+    is found where it, or a corner it ends in, is the nearest: the neighbour finds it. With the centre inside, the
+    nearest touchable edge decides. A centre on the outline takes the edge's normal. O(count).
+    """
+    best = -1
+    inner = -1
+    best_separation = -math.inf
+    inner_separation = -math.inf
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        separation = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1])
+        if separation > best_separation:
+            best_separation = separation
+            best = k
+        if (edges >> k) & 1 and separation > inner_separation:
+            inner_separation = separation
+            inner = k
+    if best_separation <= 0.0:
+        best = inner
+        best_separation = inner_separation
+        if best < 0:
+            return False, 0.0, -1.0, x, y, 0.0, 0
+    nx, ny = edge_normal(corners, count, best)
+    if best_separation > 0.0:
+        following = best + 1 if best + 1 < count else 0
+        ex = corners[following, 0] - corners[best, 0]
+        ey = corners[following, 1] - corners[best, 1]
+        from_start = ex * (x - corners[best, 0]) + ey * (y - corners[best, 1])
+        from_end = ex * (x - corners[following, 0]) + ey * (y - corners[following, 1])
+        # Right over a corner the face decides: of two tiles that share a covered corner one has to tell.
+        if from_start < 0.0 or from_end > 0.0:
+            corner = best if from_start < 0.0 else following
+            before = corner - 1 if corner > 0 else count - 1
+            # Both edges of the corner must be free, or the neighbour that covers one of them has the nearer point.
+            if not ((edges >> (16 + corner)) & 1 and (edges >> (16 + before)) & 1):
+                return False, 0.0, -1.0, x, y, 0.0, 0
+            dx = x - corners[corner, 0]
+            dy = y - corners[corner, 1]
+            distance = length_of(dx, dy)
+            nx, ny = unit(dx, dy, nx, ny)
+            separation = distance - radius
+            along = 0.5 * separation
+            return (
+                True,
+                nx,
+                ny,
+                corners[corner, 0] + along * nx,
+                corners[corner, 1] + along * ny,
+                separation,
+                32 + corner,
+            )
+        if not (edges >> best) & 1:
+            return False, 0.0, -1.0, x, y, 0.0, 0
+    separation = best_separation - radius
+    along = best_separation - 0.5 * separation
+    return True, nx, ny, x - along * nx, y - along * ny, separation, best

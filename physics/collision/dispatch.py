@@ -1,0 +1,210 @@
+"""From candidate pairs to contacts: one pass per kind of pair, called only when such pairs are there."""
+
+import numpy as np
+
+from physics.collision.chain_pairs import collide_chain_pairs
+from physics.collision.contacts import (
+    CHAIN_ANY,
+    CIRCLES,
+    GRID_ANY,
+    MASK_CIRCLE,
+    MASK_POLYGON,
+    MASKS,
+    NOTHING,
+    POLYGON_CIRCLE,
+    POLYGONS,
+    new_scratch,
+    place_in_order,
+)
+from physics.collision.hull_pairs import (
+    collide_boxes,
+    collide_circle_pairs,
+    collide_polygon_circle_pairs,
+    collide_polygon_pairs,
+)
+from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
+from physics.collision.persist import recycle_contacts, remember_grids
+from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
+from physics.dynamics.awake import is_active
+from physics.jit import kernel, subkernel
+from physics.tables.contact import CONTACT
+from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
+from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
+
+ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
+
+
+@subkernel
+def kind_of_pair(low, high):
+    """The kind of pair of two shape kinds, the lower first."""
+    if low == CIRCLE and high == CIRCLE:
+        return CIRCLES
+    # Grids and chains carry, and are never moved by what they meet.
+    if high == CHAIN:
+        return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
+    if high == TILES or low == TILES:
+        return GRID_ANY if low != high else NOTHING
+    if low == MASK and high == MASK:
+        return MASKS
+    if low == MASK or high == MASK:
+        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+    return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+
+
+@kernel
+def classify(
+    # read
+    bodies,
+    shapes,
+    candidates,
+    count,
+    margin,
+    which,
+    # write
+    kind_out,
+    counts_out,
+    work_inout,
+):
+    """Write the kind of every candidate pair, and how many there are of each. O(candidates).
+
+    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or only
+    the SENSORS. The others are NOTHING.
+    """
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        sensor = a.sensor or b.sensor
+        kind = NOTHING
+        if which == ALL or sensor == (which == SENSORS):
+            kind = kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind))
+        if kind != NOTHING and which != ALL:
+            if (
+                a.min_x - margin > b.max_x
+                or b.min_x - margin > a.max_x
+                or a.min_y - margin > b.max_y
+                or b.min_y - margin > a.max_y
+            ):
+                kind = NOTHING
+            elif which == SOLIDS and not (is_active(bodies[a.body_row]) or is_active(bodies[b.body_row])):
+                kind = NOTHING
+        kind_out[i] = kind
+        counts_out[kind] += 1
+        if kind != NOTHING:
+            work_inout[NARROW_TESTS] += 1
+            if sensor:
+                work_inout[SENSOR_TESTS] += 1
+
+
+class NarrowPhase:
+    """Turns candidates into contacts; keeps the room for them from step to step.
+
+    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at AABBs.
+    """
+
+    def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool):
+        self.boxes_only, self.one_way = boxes_only, one_way
+        masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
+        grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
+        self.passes = (
+            ((CIRCLES,), collide_circle_pairs),
+            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
+            ((POLYGONS,), collide_polygon_pairs),
+            ((MASKS,), masks),
+            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
+            ((GRID_ANY,), grids),
+            ((CHAIN_ANY,), collide_chain_pairs),
+        )
+        self.scratch = new_scratch()
+        self.kinds = np.zeros(64, np.int64)
+        self.counts = np.zeros(NOTHING + 1, np.int64)
+        self.raw, self.ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
+        self.last_raw, self.last_ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
+
+    def collide(
+        self, geometry, bodies, shapes, candidates, count, margin, bias, work, which=ALL, previous=None, recycle=0.0
+    ) -> np.ndarray:
+        """Contacts of the candidate pairs, in their order: a view that the call after the next one overwrites.
+
+        candidates (capacity, 2) int64 shape rows, `count` of them used; margin [px]: pairs apart by at most that are
+        found too; bias [px]: see hulls.collide_hulls; work: counters; which: see classify. previous: contacts of the
+        step before, used again where nothing moved by more than `recycle` [px].
+        """
+        self.raw, self.last_raw = self.last_raw, self.raw
+        self.ordered, self.last_ordered = self.last_ordered, self.ordered
+        if self.boxes_only:
+            found = self._with_room(
+                work, lambda: collide_boxes(geometry, bodies, shapes, candidates, count, self.raw, work)
+            )
+            return self.raw[:found]
+        if len(self.kinds) < count + 1:
+            self.kinds = np.zeros(2 * count + 1, np.int64)
+        classify(bodies, shapes, candidates, count, margin, which, self.kinds, self.counts, work)
+        if previous is not None and len(previous) > len(self.raw):
+            self.raw = np.zeros(2 * len(previous), CONTACT)
+        again = 0
+        if previous is not None and len(previous):
+            again = recycle_contacts(
+                bodies, shapes, candidates, count, previous, recycle, self.kinds, self.counts, self.raw
+            )
+        scratch = self.scratch
+        if self.one_way and previous is not None and self.counts[GRID_ANY]:
+            if len(scratch.memory) < count:
+                self.scratch = scratch._replace(memory=np.zeros((2 * count, 2), np.int64))
+            scratch = self.scratch._replace(previous=previous)
+            remember_grids(shapes, candidates, count, self.kinds, previous, scratch.memory)
+        used = [run for kinds, run in self.passes if any(self.counts[kind] for kind in kinds)]
+
+        def run_all():
+            found = again
+            for run in used:
+                found = run(
+                    geometry,
+                    bodies,
+                    shapes,
+                    candidates,
+                    self.kinds,
+                    count,
+                    margin,
+                    bias,
+                    scratch,
+                    self.raw,
+                    found,
+                    work,
+                )
+            return found
+
+        found = self._with_room(work, run_all)
+        if len(used) + (again > 0) < 2:
+            return self.raw[:found]
+        if len(self.ordered) < len(self.raw):
+            self.ordered = np.zeros(len(self.raw), CONTACT)
+        place_in_order(self.raw, found, count, self.kinds, self.ordered)
+        return self.ordered[:found]
+
+    def _with_room(self, work, run):
+        before = work.copy()
+        found = run()
+        if found > len(self.raw):
+            kept = self.raw
+            self.raw = np.zeros(2 * found, CONTACT)
+            self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
+            work[:] = before
+            found = run()
+        return found
+
+
+def narrow_phase_for_queries() -> NarrowPhase:
+    """A narrow phase that tests shapes exactly and masks for hits alone."""
+    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
+
+
+def exact_narrow_phase() -> NarrowPhase:
+    """A narrow phase with all that a contact can tell."""
+    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
+
+
+def no_work() -> np.ndarray:
+    """Counters that nobody reads."""
+    return np.zeros(len(COUNTERS), np.int64)

@@ -1,0 +1,224 @@
+"""Passes over the candidate pairs of circles and other hulls, and the pass that stops at AABBs.
+
+Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
+"""
+
+import math
+
+from physics.collision.circles import collide_circles
+from physics.collision.clipping import ALL_EDGES
+from physics.collision.contacts import CIRCLES, POLYGON_CIRCLE, POLYGONS, circle_at, corners_of, write_contact
+from physics.collision.hulls import CORNERS, collide_hull_circle, collide_hulls, passes_by
+from physics.jit import kernel, subkernel
+from physics.shapes.placement import aabb_at, polygon_at, rounding
+from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
+from physics.tables.shape import BOUNDS, CIRCLE
+
+
+@subkernel
+def closing(p, q, ax, ay, bx, by):
+    """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
+    vx = (q.vx - q.angular_velocity * (by - q.center_y)) - (p.vx - p.angular_velocity * (ay - p.center_y))
+    vy = (q.vy + q.angular_velocity * (bx - q.center_x)) - (p.vy + p.angular_velocity * (ax - p.center_x))
+    return vx, vy
+
+
+@kernel
+def collide_circle_pairs(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
+    # write
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of circles, appended at `found`. Returns the new count."""
+    for i in range(count):
+        if kinds[i] != CIRCLES:
+            continue
+        ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
+        bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
+        nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
+        if 0.0 < separation <= margin:
+            vx, vy = closing(
+                bodies[shapes[candidates[i, 0]].body_row], bodies[shapes[candidates[i, 1]].body_row], ax, ay, bx, by
+            )
+            scratch.a[0, 0] = ax
+            scratch.a[0, 1] = ay
+            scratch.b[0, 0] = bx
+            scratch.b[0, 1] = by
+            if passes_by(scratch.a, 1, scratch.b, 1, a_radius + b_radius, vx, vy):
+                continue
+        if separation <= margin:
+            found = write_contact(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, contacts_out)
+    return found
+
+
+@kernel
+def collide_polygon_circle_pairs(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
+    # write
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of a hull of two or more corners and a circle, appended at `found`. Returns the new count."""
+    polygons = geometry.polygons
+    table = geometry.corners
+    for i in range(count):
+        if kinds[i] != POLYGON_CIRCLE:
+            continue
+        sign = -1.0 if shapes[candidates[i, 0]].kind == CIRCLE else 1.0
+        polygon = candidates[i, 1] if sign < 0.0 else candidates[i, 0]
+        circle = candidates[i, 0] if sign < 0.0 else candidates[i, 1]
+        s = shapes[polygon]
+        p = bodies[s.body_row]
+        if s.kind == BOUNDS:
+            n = corners_of(geometry, bodies, shapes, polygon, scratch.a)
+        else:
+            n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), scratch.a)
+        x, y, radius = circle_at(bodies, shapes, circle)
+        hit, nx, ny, px, py, separation, feature = collide_hull_circle(
+            scratch.a, n, ALL_EDGES, rounding(shapes, polygon), x, y, radius
+        )
+        if hit and 0.0 < separation <= margin and feature >= 32:
+            q = bodies[shapes[circle].body_row]
+            vx, vy = closing(p, q, px, py, x, y)
+            scratch.b[0, 0] = x
+            scratch.b[0, 1] = y
+            if passes_by(scratch.a, n, scratch.b, 1, rounding(shapes, polygon) + radius, vx, vy):
+                continue
+        if hit and separation <= margin:
+            found = write_contact(
+                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, contacts_out
+            )
+    return found
+
+
+@kernel
+def collide_polygon_pairs(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
+    # write
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of hulls of two or more corners, appended at `found`. Returns the new count."""
+    manifold = scratch.manifold
+    a = scratch.a
+    b = scratch.b
+    polygons = geometry.polygons
+    table = geometry.corners
+    for i in range(count):
+        if kinds[i] != POLYGONS:
+            continue
+        s = shapes[candidates[i, 0]]
+        o = shapes[candidates[i, 1]]
+        p = bodies[s.body_row]
+        q = bodies[o.body_row]
+        if s.kind == BOUNDS or o.kind == BOUNDS:
+            na = corners_of(geometry, bodies, shapes, candidates[i, 0], a)
+            nb = corners_of(geometry, bodies, shapes, candidates[i, 1], b)
+        else:
+            na = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), a)
+            nb = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), b)
+        a_radius = 0.0 if s.kind == BOUNDS else s.radius
+        b_radius = 0.0 if o.kind == BOUNDS else o.radius
+        points = collide_hulls(a, na, a_radius, ALL_EDGES, b, nb, b_radius, ALL_EDGES, margin, bias, math.inf, manifold)
+        if points == 1 and manifold[6] >= CORNERS and manifold[5] > 0.0:
+            vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
+            if passes_by(a, na, b, nb, a_radius + b_radius, vx, vy):
+                continue
+        for k in range(points):
+            at = 3 + 4 * k
+            found = write_contact(
+                shapes,
+                candidates,
+                i,
+                found,
+                manifold[1],
+                manifold[2],
+                manifold[at],
+                manifold[at + 1],
+                manifold[at + 2],
+                0.0,
+                int(manifold[at + 3]),
+                contacts_out,
+            )
+    return found
+
+
+@kernel
+def collide_boxes(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    # write
+    contacts_out,
+    work_inout,
+):
+    """Contacts of all candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
+
+    Returns the number of contacts. O(candidates).
+    """
+    found = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        work_inout[NARROW_TESTS] += 1
+        if a.sensor or b.sensor:
+            work_inout[SENSOR_TESTS] += 1
+        a_left, a_top, a_right, a_bottom = aabb_at(geometry, shapes, candidates[i, 0], p.x, p.y, p.angle)
+        b_left, b_top, b_right, b_bottom = aabb_at(geometry, shapes, candidates[i, 1], q.x, q.y, q.angle)
+        right = a_right - b_left
+        left = b_right - a_left
+        down = a_bottom - b_top
+        up = b_bottom - a_top
+        least = min(min(right, left), min(down, up))
+        if least < 0.0:
+            continue
+        nx = 0.0
+        ny = -1.0
+        if least == right:
+            nx = 1.0
+            ny = 0.0
+        elif least == left:
+            nx = -1.0
+            ny = 0.0
+        elif least == down:
+            ny = 1.0
+        x = 0.5 * (max(a_left, b_left) + min(a_right, b_right))
+        y = 0.5 * (max(a_top, b_top) + min(a_bottom, b_bottom))
+        found = write_contact(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, contacts_out)
+    return found

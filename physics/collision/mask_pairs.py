@@ -1,0 +1,176 @@
+"""Passes over the candidate pairs with masks: mask against mask by AND, mask against circle, polygon and bounds."""
+
+from physics.collision.clipping import ALL_EDGES
+from physics.collision.contacts import MASK_CIRCLE, MASK_POLYGON, MASKS, circle_at, corners_of, write_contact
+from physics.collision.mask_depth import center_normal, mask_contact
+from physics.collision.mask_hulls import collide_mask_circle, collide_mask_line, collide_mask_polygon
+from physics.collision.mask_rounded import collide_mask_rounded
+from physics.jit import kernel
+from physics.raster.bits import columns_up_to, first_shared_row, lowest_bit
+from physics.raster.overlap import first_pixel, shared_rectangle
+from physics.shapes.placement import rounding
+from physics.tables.counters import MASK_TESTS
+from physics.tables.shape import MASK
+
+
+def make_mask_pass(full: bool):
+    """The pass over pairs of masks: with area, centroid, normal and depth, or with the first shared pixel alone.
+
+    Without them the normal is the direction between the centres and the separation -1: one shared pixel is known.
+    """
+
+    @kernel
+    def collide_mask_pairs(
+        # read
+        geometry,
+        bodies,
+        shapes,
+        candidates,
+        kinds,
+        count,
+        margin,
+        bias,
+        # write
+        scratch,
+        contacts_out,
+        found,
+        work_inout,
+    ):
+        """Contacts of all pairs of masks as drawn, by AND of words, appended at `found`. Returns the new count."""
+        for i in range(count):
+            if kinds[i] != MASKS:
+                continue
+            work_inout[MASK_TESTS] += 1
+            a = shapes[candidates[i, 0]]
+            b = shapes[candidates[i, 1]]
+            left = a.left
+            top = a.top
+            dx = b.left - left
+            dy = b.top - top
+            r = geometry.rasters[a.raster]
+            s = geometry.rasters[b.raster]
+            if r.stride == 1 and s.stride == 1:
+                # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row. Called from here
+                # and not from first_pixel: a call within a call costs as much as the test.
+                x, y, right, bottom = shared_rectangle(r, s, dx, dy)
+                if x >= right or y >= bottom:
+                    continue
+                row, shared = first_shared_row(
+                    geometry.words, r.offset + y, x, s.offset + y - dy, x - dx, bottom - y, columns_up_to(right - x)
+                )
+                if row == bottom - y:
+                    continue
+                x += lowest_bit(shared)
+                y += row
+            else:
+                hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
+                if not hit:
+                    continue
+            feature = y * r.width + x
+            if full:
+                q = bodies[b.body_row]
+                p = bodies[a.body_row]
+                area, px, py, nx, ny, separation = mask_contact(
+                    geometry.rasters,
+                    geometry.words,
+                    a.raster,
+                    b.raster,
+                    dx,
+                    dy,
+                    p.x - r.origin_x + 0.5 - a.left,
+                    p.y - r.origin_y + 0.5 - a.top,
+                    q.x - s.origin_x + 0.5 - b.left,
+                    q.y - s.origin_y + 0.5 - b.top,
+                )
+                found = write_contact(
+                    shapes,
+                    candidates,
+                    i,
+                    found,
+                    nx,
+                    ny,
+                    left + px,
+                    top + py,
+                    separation,
+                    float(area),
+                    feature,
+                    contacts_out,
+                )
+            else:
+                nx, ny = center_normal(r, s, dx, dy)
+                found = write_contact(
+                    shapes,
+                    candidates,
+                    i,
+                    found,
+                    nx,
+                    ny,
+                    left + x + 0.5,
+                    top + y + 0.5,
+                    -1.0,
+                    0.0,
+                    feature,
+                    contacts_out,
+                )
+        return found
+
+    return collide_mask_pairs
+
+
+collide_mask_pairs_full = make_mask_pass(full=True)
+collide_mask_pairs_hit = make_mask_pass(full=False)
+
+
+@kernel
+def collide_mask_shape_pairs(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    kinds,
+    count,
+    margin,
+    bias,
+    # write
+    scratch,
+    contacts_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of a mask and a hull, appended at `found`. Returns the new count."""
+    for i in range(count):
+        if kinds[i] != MASK_CIRCLE and kinds[i] != MASK_POLYGON:
+            continue
+        work_inout[MASK_TESTS] += 1
+        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
+        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
+        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
+        mask = shapes[row].raster
+        left = shapes[row].left
+        top = shapes[row].top
+        if kinds[i] == MASK_CIRCLE:
+            cx, cy, radius = circle_at(bodies, shapes, other)
+            area, nx, ny, x, y, separation, feature = collide_mask_circle(
+                geometry.rasters, geometry.words, mask, left, top, cx, cy, radius
+            )
+        else:
+            n = corners_of(geometry, bodies, shapes, other, scratch.a)
+            radius = rounding(shapes, other)
+        if kinds[i] == MASK_POLYGON and radius > 0.0:
+            area, nx, ny, x, y, separation, feature = collide_mask_rounded(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, radius
+            )
+        elif kinds[i] == MASK_POLYGON and n == 2:
+            area, nx, ny, x, y, separation, feature = collide_mask_line(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, scratch.depths
+            )
+        elif kinds[i] == MASK_POLYGON:
+            area, nx, ny, x, y, separation, feature = collide_mask_polygon(
+                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, ALL_EDGES, scratch.depths
+            )
+        if area > 0:
+            found = write_contact(
+                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area), feature, contacts_out
+            )
+    return found

@@ -1,0 +1,1 @@
+"""How bodies move, what is awake, and what hangs together."""

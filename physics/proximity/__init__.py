@@ -1,0 +1,1 @@
+"""How far apart two convex shapes are, and along which normal."""

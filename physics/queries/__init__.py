@@ -1,0 +1,1 @@
+"""Questions without a step: rays, casts, overlaps, and two shapes alone."""

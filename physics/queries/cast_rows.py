@@ -1,0 +1,159 @@
+"""A ray, a shape that moves without turning, or a point, against listed shapes that stand still."""
+
+import math
+
+from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN
+from physics.ccd.linear import MISS
+from physics.ccd.rotational import sweep_at, sweep_chain, sweep_tiles
+from physics.jit import kernel
+from physics.proximity.gjk import BX, BY, NX, NY, ROUNDS
+from physics.proximity.separation import separate
+from physics.queries.rays import cast_on_shape
+from physics.shapes.placement import hull_at, is_hull, rounding
+from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TOI_CALLS
+from physics.tables.shape import CHAIN, MASK, TILES
+
+
+@kernel
+def cast_ray_at_rows(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
+    dx,
+    dy,
+    # write
+    corners_inout,
+    hits_out,
+    work_inout,
+):
+    """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] meets.
+
+    Returns their number. rows: SHAPE rows; corners_inout (16, 2): scratch; hits_out (rows, 4).
+    """
+    found = 0
+    for k in range(len(rows)):
+        work_inout[NARROW_TESTS] += 1
+        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], x, y, dx, dy, corners_inout)
+        if fraction <= 1.0:
+            hits_out[found, 0] = float(rows[k])
+            hits_out[found, 1] = fraction
+            hits_out[found, 2] = nx
+            hits_out[found, 3] = ny
+            found += 1
+    return found
+
+
+@kernel
+def cast_hull_at_rows(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    corners,
+    count,
+    radius,
+    x,
+    y,
+    dx,
+    dy,
+    # write
+    room,
+    hits_out,
+    work_inout,
+):
+    """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
+
+    Returns their number. rows: SHAPE rows, of which masks are left out; corners (16, 2) [px] from (x, y), `count` of
+    them, moved by (dx, dy); room: TurningRoom; hits_out (rows, 4). Touching at the start counts when it approaches: 0.
+    """
+    r = room.advance
+    found = 0
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if s.kind == MASK:
+            continue
+        b = bodies[s.body_row]
+        work_inout[TOI_CALLS] += 1
+        r.motion_a[CENTER_X] = x
+        r.motion_a[CENTER_Y] = y
+        r.motion_a[ANGLE] = 0.0
+        r.motion_a[MOVE_X] = dx
+        r.motion_a[MOVE_Y] = dy
+        r.motion_a[TURN] = 0.0
+        r.motion_b[CENTER_X] = b.x
+        r.motion_b[CENTER_Y] = b.y
+        r.motion_b[ANGLE] = b.angle if s.kind == CHAIN else 0.0
+        r.motion_b[MOVE_X] = 0.0
+        r.motion_b[MOVE_Y] = 0.0
+        r.motion_b[TURN] = 0.0
+        r.totals[0] = 0.0
+        r.totals[1] = 0.0
+        for i in range(count):
+            room.mover[i, 0] = corners[i, 0]
+            room.mover[i, 1] = corners[i, 1]
+        if s.kind == TILES:
+            fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, room)
+        elif s.kind == CHAIN:
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, 0.0, room)
+        else:
+            n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
+            fraction, _ = sweep_at(count, radius, n, rounding(shapes, rows[k]), 0.0, 0.0, room)
+            nx = -r.gap.gap[NX]
+            ny = -r.gap.gap[NY]
+        work_inout[GJK_ITERATIONS] += int(r.totals[0])
+        work_inout[CAP_HITS] += int(r.totals[1])
+        if fraction < MISS:
+            hits_out[found, 0] = float(rows[k])
+            hits_out[found, 1] = fraction
+            hits_out[found, 2] = nx
+            hits_out[found, 3] = ny
+            found += 1
+    return found
+
+
+@kernel
+def nearest_hull(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
+    # write
+    point_inout,
+    corners_inout,
+    room,
+    nearest_out,
+    work_inout,
+):
+    """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Returns its row, -1 without any.
+
+    rows: SHAPE rows in order, of which tiles, masks and chains are left out; 0 and the point itself when it is inside;
+    point_inout, corners_inout (16, 2): scratch; room: GapRoom.
+    """
+    best = -1
+    nearest_out[0] = math.inf
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if not is_hull(s.kind):
+            continue
+        b = bodies[s.body_row]
+        # Seen from the point, so that no digits are lost far from the origin.
+        point_inout[0, 0] = 0.0
+        point_inout[0, 1] = 0.0
+        n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
+        distance = max(0.0, separate(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, room))
+        work_inout[NARROW_TESTS] += 1
+        work_inout[GJK_ITERATIONS] += int(room.state[ROUNDS])
+        if distance < nearest_out[0]:
+            best = rows[k]
+            nearest_out[0] = distance
+            nearest_out[1] = x + (room.gap[BX] if distance > 0.0 else 0.0)
+            nearest_out[2] = y + (room.gap[BY] if distance > 0.0 else 0.0)
+    return best

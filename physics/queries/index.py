@@ -1,0 +1,164 @@
+"""Which shapes may meet a box right now, asked of the broad phase's structure between steps.
+
+The structure is as the last step left it. What has moved out of its box since then, was added, or was pushed there by
+the step itself is listed as loose and looked at one by one, so an answer is always that of a look at every shape.
+Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies.
+"""
+
+import numpy as np
+
+from physics.jit import kernel
+from physics.shapes.placement import refresh_aabbs
+from physics.shapes.rasters import add_missing_rasters
+from physics.tables.counters import COUNTERS, PAIRS_TESTED
+
+ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
+
+
+@kernel
+def same_poses(bodies, poses_inout):
+    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3). O(bodies), a line of memory each."""
+    same = True
+    for k in range(len(bodies)):
+        b = bodies[k]
+        if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
+            same = False
+            poses_inout[k, 0] = b.x
+            poses_inout[k, 1] = b.y
+            poses_inout[k, 2] = b.angle
+    return same
+
+
+@kernel
+def find_loose(
+    # read
+    bodies,
+    shapes,
+    proxies,
+    known,
+    # write
+    row_of_slot_out,
+    loose_out,
+):
+    """List the shape rows that the structure may not find, and write which row each slot stands for (-1: look elsewhere).
+
+    A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
+    the number of loose rows; those of quarantined bodies are neither. O(shapes).
+    """
+    for slot in range(len(row_of_slot_out)):
+        row_of_slot_out[slot] = -1
+    found = 0
+    for row in range(len(shapes)):
+        s = shapes[row]
+        if bodies[s.body_row].quarantined:
+            continue
+        held = False
+        if known == 1 and s.proxy >= 0:
+            p = proxies[s.proxy]
+            held = (
+                p.row >= 0
+                and not p.changed
+                and p.lower_x <= s.min_x
+                and p.upper_x >= s.max_x
+                and p.lower_y <= s.min_y
+                and p.upper_y >= s.max_y
+            )
+        if held:
+            row_of_slot_out[s.proxy] = row
+        else:
+            loose_out[found] = row
+            found += 1
+    return found
+
+
+@kernel
+def rows_meeting(
+    # read
+    shapes,
+    row_of_slot,
+    slots,
+    slot_count,
+    loose,
+    loose_count,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
+    # write
+    rows_out,
+    work_inout,
+):
+    """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px]. Returns their number."""
+    found = 0
+    for k in range(slot_count + loose_count):
+        if k >= slot_count:
+            row = loose[k - slot_count]
+            work_inout[PAIRS_TESTED] += 1
+        else:
+            row = row_of_slot[slots[k]]
+        if row < 0:
+            continue
+        s = shapes[row]
+        if s.min_x <= upper_x and s.max_x >= lower_x and s.min_y <= upper_y and s.max_y >= lower_y:
+            rows_out[found] = row
+            found += 1
+    return found
+
+
+class QueryIndex:
+    """The look-up of one world. The counters of its last step are left alone: a query counts in `work`."""
+
+    def __init__(self):
+        self.work = np.zeros(len(COUNTERS), np.int64)
+        self.seen = ()  # what the loose rows were found for: other tables or a step make it stale
+        self.poses = np.zeros((0, 3))
+        self.row_of_slot = np.zeros(0, np.int64)
+        self.loose = self.rows = np.zeros(0, np.int64)
+        self.slots = np.zeros(0, np.int64)
+        self.loose_count = 0
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
+        return dict(zip(COUNTERS, self.work.tolist()))
+
+    def begin(self, world):
+        """Start a query: counters to zero, AABBs and loose rows up to date."""
+        self.work[:] = 0
+        self.refresh(world)
+
+    def refresh(self, world):
+        """Bring AABBs and loose rows up to date; where nothing has changed since the last time, that is all that is found."""
+        bodies, shapes = world.bodies, world.shapes
+        if len(self.poses) != len(bodies):
+            self.poses = np.full((len(bodies), 3), np.nan)
+        # A step makes new events; shapes that come, go or come back from quarantine take and leave places.
+        seen = (world.events, world.pairs, world.broadphase, len(shapes), world._next_shape, len(world.pairs.free))
+        same = len(seen) == len(self.seen) and all(
+            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen)
+        )
+        if same_poses(bodies, self.poses) and same:
+            return
+        self.seen = seen
+        add_missing_rasters(world, 0.0)
+        refresh_aabbs(world.library.tables, bodies, shapes)
+        proxies = world.pairs.proxies
+        if len(self.row_of_slot) != len(proxies):
+            self.row_of_slot, self.slots = np.zeros(len(proxies), np.int64), np.zeros(len(proxies), np.int64)
+        if len(self.loose) < len(shapes):
+            self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
+        self.loose_count = find_loose(
+            bodies, shapes, proxies, int(not world.pairs.everything), self.row_of_slot, self.loose
+        )
+
+    def rows_in(self, world, lower, upper) -> np.ndarray:
+        """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it; none quarantined."""
+        reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
+        box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
+        found = 0
+        if not world.pairs.everything and self.loose_count < len(world.shapes):
+            found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
+        count = rows_meeting(
+            world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
+        )
+        return np.sort(self.rows[:count])

@@ -1,0 +1,1 @@
+"""Pixels as 64-bit words: bits, turning, overlap."""

@@ -1,0 +1,114 @@
+"""Two masks by AND of their words: the first pixel they share, how many, and where they lie.
+
+dx, dy [px] is where B's raster starts, seen from A's. Only the rectangle that both solid bounds share is read.
+"""
+
+from physics.jit import subkernel, word
+from physics.raster.bits import (
+    bits_from,
+    both,
+    columns_up_to,
+    count_bits,
+    first_shared_row,
+    lowest_bit,
+    shared_word,
+    without_lowest,
+)
+
+
+@subkernel
+def shared_rectangle(a, b, dx, dy):
+    """(left, top, right, bottom) of the solid bounds that two rasters share, in A's columns and rows."""
+    return (
+        max(a.set_left, b.set_left + dx),
+        max(a.set_top, b.set_top + dy),
+        min(a.set_right, b.set_right + dx),
+        min(a.set_bottom, b.set_bottom + dy),
+    )
+
+
+@subkernel
+def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
+    """The first shared pixel in reading order: (found, x, y) in A's columns and rows. O(words) at worst."""
+    a = rasters[mask_a]
+    b = rasters[mask_b]
+    left, top, right, bottom = shared_rectangle(a, b, dx, dy)
+    if left >= right or top >= bottom:
+        return False, 0, 0
+    if a.stride == 1 and b.stride == 1:
+        row, shared = first_shared_row(
+            words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top, columns_up_to(right - left)
+        )
+        return row < bottom - top, left + lowest_bit(shared), top + row
+    for y in range(top, bottom):
+        row_a = a.offset + y * a.stride
+        row_b = b.offset + (y - dy) * b.stride
+        x = left
+        while x < right:
+            shared = both(
+                both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                columns_up_to(right - x),
+            )
+            if shared != word(0):
+                return True, x + lowest_bit(shared), y
+            x += 64
+    return False, 0, 0
+
+
+@subkernel
+def shared_area(rasters, words, mask_a, mask_b, dx, dy):
+    """The number of shared pixels. O(words)."""
+    a = rasters[mask_a]
+    b = rasters[mask_b]
+    left, top, right, bottom = shared_rectangle(a, b, dx, dy)
+    area = 0
+    if left >= right:
+        return area
+    if a.stride == 1 and b.stride == 1:
+        keep = columns_up_to(right - left)
+        for y in range(top, bottom):
+            area += count_bits(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx, keep))
+        return area
+    for y in range(top, bottom):
+        row_a = a.offset + y * a.stride
+        row_b = b.offset + (y - dy) * b.stride
+        x = left
+        while x < right:
+            area += count_bits(
+                both(
+                    both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                    columns_up_to(right - x),
+                )
+            )
+            x += 64
+    return area
+
+
+@subkernel
+def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
+    """(area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words + shared pixels)."""
+    a = rasters[mask_a]
+    b = rasters[mask_b]
+    left, top, right, bottom = shared_rectangle(a, b, dx, dy)
+    area = 0
+    sum_x = 0
+    sum_y = 0
+    if left >= right:
+        return area, sum_x, sum_y
+    for y in range(top, bottom):
+        row_a = a.offset + y * a.stride
+        row_b = b.offset + (y - dy) * b.stride
+        x = left
+        while x < right:
+            shared = both(
+                both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
+                columns_up_to(right - x),
+            )
+            bits = count_bits(shared)
+            area += bits
+            sum_y += bits * y
+            while shared != word(0):
+                sum_x += x + lowest_bit(shared)
+                shared = without_lowest(shared)
+            x += 64
+    return area, sum_x, sum_y

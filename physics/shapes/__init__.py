@@ -1,0 +1,1 @@
+"""What bodies are made of: shapes as values, and the flat geometry that kernels read of them."""

@@ -1,0 +1,29 @@
+"""Bounds: the AABB tier of another shape."""
+
+import math
+from dataclasses import dataclass
+
+from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.mask import PixelMask
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The wrapped shape's world AABB at its pose, as a shape: the AABB tier."""
+
+    shape: Circle | Capsule | Polygon | PixelMask
+
+    def __post_init__(self):
+        if not isinstance(self.shape, (Circle, Capsule, Polygon, PixelMask)):
+            raise TypeError(f"shape must be a Circle, Capsule, Polygon or PixelMask (got {self.shape!r})")
+
+    @property
+    def smallest_half(self):
+        return self.shape.smallest_half
+
+    def mass_of(self, density):
+        return self.shape.mass_of(density)
+
+    def reach(self, x, y):
+        """Of the AABB at any angle: no corner of it is further from the origin than the shape reaches, times sqrt 2."""
+        return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)

@@ -1,0 +1,213 @@
+"""The corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
+
+A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up.
+"""
+
+from contextlib import contextmanager
+
+import numpy as np
+
+from physics.raster.bits import packed
+from physics.raster.rotate import bucket_of
+from physics.settings import MASK_ANGLE_BUCKETS
+from physics.shapes.bounds import Bounds
+from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.lines import Chain, Segment
+from physics.shapes.mask import PixelMask
+from physics.shapes.tiles import TileGrid
+from physics.tables.geometry import (
+    BLOCK_LINKS,
+    CELL,
+    CHAIN_SPAN,
+    CORNER,
+    EMPTY,
+    GRID,
+    LINK,
+    LINK_BLOCK,
+    ONE_WAY,
+    RASTER,
+    SLOPE,
+    SOLID,
+    SPAN,
+    Geometry,
+)
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT, TILES
+from physics.tables.table import Table
+
+KIND_OF = {Polygon: POLYGON, Capsule: CAPSULE, Segment: SEGMENT, Chain: CHAIN, TileGrid: TILES, PixelMask: MASK}
+
+
+class Library:
+    """Adds shapes to the flat arrays. The same grid or mask, and equal other shapes, are added once."""
+
+    def __init__(self):
+        self.polygons, self.corners = Table(SPAN), Table(CORNER)
+        self.chains, self.links, self.link_blocks = Table(CHAIN_SPAN), Table(LINK), Table(LINK_BLOCK)
+        self.grids, self.cells = Table(GRID), Table(CELL)
+        self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
+        self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
+        self.shapes = {}  # key -> (row, shape); holds the shape, so that an id cannot be given twice
+        self.masks, self.tile_grids = [], []
+        self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by their row; chains by theirs
+        self.tables = self._tables()
+
+    def _tables(self):
+        return Geometry(
+            self.polygons.data,
+            self.corners.data,
+            self.chains.data,
+            self.links.data,
+            self.link_blocks.data,
+            self.grids.data,
+            self.cells.data,
+            self.rasters.data,
+            self.words.data,
+            self.raster_of,
+        )
+
+    def add(self, shape) -> tuple[int, int, int]:
+        """(kind, geometry row, kind inside a Bounds) of a shape."""
+        if isinstance(shape, Bounds):
+            kind, row, _ = self.add(shape.shape)
+            return BOUNDS, row, kind
+        if isinstance(shape, Circle):
+            return CIRCLE, -1, -1
+        key = id(shape) if isinstance(shape, (TileGrid, PixelMask)) else shape
+        if key not in self.shapes:
+            add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(
+                type(shape), self._add_hull
+            )
+            self.shapes[key] = (add(shape), shape)
+            self.tables = self._tables()
+        return KIND_OF[type(shape)], self.shapes[key][0], -1
+
+    def _add_hull(self, shape):
+        row = self.polygons.count
+        self.polygons.append()[:] = (self.corners.count, len(shape.points))
+        self.corners.append(len(shape.points))[:] = list(shape.points)
+        self.outlines.append(shape)
+        return row
+
+    def _add_chain(self, shape):
+        row, count = self.chains.count, shape.links
+        blocks = -(-count // BLOCK_LINKS)
+        self.chains.append()[:] = (self.links.count, count, self.link_blocks.count, blocks)
+        a = np.array(shape.points)
+        b = np.roll(a, -1, axis=0)[:count]
+        # Neighbours: the listed ones, round the loop, or the ghosts at the ends of an open chain.
+        before, after = np.roll(a, 1, axis=0)[:count], np.roll(a, -2, axis=0)[:count]
+        links = self.links.append(count)
+        links["has_before"] = links["has_after"] = links["last_owned"] = True
+        if not shape.loop:
+            ghosts = shape.ghosts or (None, None)
+            links["has_before"][0], links["has_after"][-1] = (each is not None for each in ghosts)
+            links["first_owned"][0] = True
+            before[0] = a[0] if ghosts[0] is None else ghosts[0]
+            after[-1] = b[-1] if ghosts[1] is None else ghosts[1]
+        for name, points in (("a", a[:count]), ("b", b), ("before_", before), ("after_", after)):
+            links[name + "x"], links[name + "y"] = points.T
+        for name, as_shape in (
+            ("friction", -1.0),
+            ("restitution", -1.0),
+            ("rolling_resistance", -1.0),
+            ("surface_speed", np.nan),
+        ):
+            links[name] = as_shape if shape.materials is None else [getattr(each, name) for each in shape.materials]
+        for block, box in enumerate(self.link_blocks.append(blocks)):
+            part = slice(block * BLOCK_LINKS, (block + 1) * BLOCK_LINKS)
+            ends = np.concatenate([a[:count][part], b[part]])
+            box["min_x"], box["min_y"] = ends.min(axis=0)
+            box["max_x"], box["max_y"] = ends.max(axis=0)
+        self.chain_shapes.append(shape)
+        return row
+
+    def _add_grid(self, shape):
+        row = self.grids.count
+        rows, columns = shape.solid.shape
+        self.grids.append()[:] = (self.cells.count, rows, columns, shape.tile_size)
+        cells = self.cells.append(rows * columns)
+        kind = np.where(shape.solid, SOLID, np.where(shape.one_way, ONE_WAY, EMPTY))
+        cells["kind"] = np.where((shape.slopes > 0).any(axis=2), SLOPE, kind).ravel()
+        cells["left"], cells["right"] = shape.slopes.reshape(-1, 2).T
+        kinds = cells["kind"].reshape(rows, columns)
+        first = np.tile(np.arange(columns), (rows, 1))
+        last = first.copy()
+        merges = np.isin(kinds, (SOLID, ONE_WAY))
+        joined = merges[:, 1:] & (kinds[:, 1:] == kinds[:, :-1])
+        for column in range(1, columns):
+            first[:, column] = np.where(joined[:, column - 1], first[:, column - 1], column)
+            last[:, -1 - column] = np.where(joined[:, -column], last[:, -column], columns - 1 - column)
+        cells["first"], cells["last"] = first.ravel(), last.ravel()
+        self.tile_grids.append(shape)
+        return row
+
+    def _add_mask(self, shape):
+        self.masks.append(shape)
+        row = len(self.masks) - 1
+        if row >= len(self.raster_of):
+            self.raster_of = np.concatenate([self.raster_of, np.full_like(self.raster_of, -1)])
+        self.add_raster(row, 0)
+        return row
+
+    def add_raster(self, mask: int, bucket: int):
+        """Add a mask at an angle bucket: turned from its source, once."""
+        shape = self.masks[mask]
+        turned = shape.turned_to(bucket)
+        words = shape.words if bucket == 0 else packed(turned.solid)
+        rows, columns = np.nonzero(turned.solid)
+        bounds = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1) if len(rows) else (1, 1, 0, 0)
+        height, width = turned.solid.shape
+        self.raster_of[mask, bucket] = self.rasters.count
+        self.rasters.append()[:] = (self.words.count, width, height, words.shape[1], *turned.origin, *bounds, len(rows))
+        self.words.append(words.size)[:] = words.ravel()
+        self.tables = self._tables()
+
+    def shape_of(self, row) -> object:
+        """The shape that a SHAPE row stands for."""
+        kind = int(row["kind"])
+        inner = int(row["wrapped"]) if kind == BOUNDS else kind
+        if inner == CIRCLE:
+            shape = Circle(float(row["radius"]), (float(row["local_x"]), float(row["local_y"])))
+        else:
+            shape = {TILES: self.tile_grids, MASK: self.masks, CHAIN: self.chain_shapes}.get(inner, self.outlines)[
+                int(row["geometry"])
+            ]
+        return Bounds(shape) if kind == BOUNDS else shape
+
+    @contextmanager
+    def visited(self):
+        """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
+        kept = [
+            (table, table.count)
+            for table in (
+                self.polygons,
+                self.corners,
+                self.chains,
+                self.links,
+                self.link_blocks,
+                self.grids,
+                self.cells,
+                self.rasters,
+                self.words,
+            )
+        ]
+        lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
+        known = len(self.shapes)
+        try:
+            yield
+        finally:
+            for key in list(self.shapes)[known:]:
+                del self.shapes[key]
+            for table, count in kept:
+                table.count = count
+            for each, count in lists:
+                del each[count:]
+            self.raster_of[self.raster_of >= self.rasters.count] = -1
+            self.tables = self._tables()
+
+    def raster(self, mask: int, angle: float) -> np.void:
+        """The raster of a mask at an angle, added where it is missing."""
+        bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
+        if self.raster_of[mask, bucket] < 0:
+            self.add_raster(mask, bucket)
+        return self.rasters.data[self.raster_of[mask, bucket]]

@@ -1,0 +1,116 @@
+"""PixelMask: the solid pixels of a sprite as a shape."""
+
+from functools import cached_property
+
+import numpy as np
+
+from physics import checks
+from physics.raster.bits import packed
+from physics.raster.rotate import Turned, bucket_of, turn
+from physics.settings import MASK_ANGLE_BUCKETS
+from physics.shapes.mass import NOTHING, Mass
+from physics.shapes.tiles import bools
+
+
+class PixelMask:
+    """The solid pixels of a sprite: pixel (i, j) is the square [i, i+1) x [j, j+1), less the origin.
+
+    Tested as it is drawn, on the pixel grid and at angles in buckets, by AND of packed 64-bit words.
+    """
+
+    def __init__(self, solid, origin=None, snap=True):
+        solid = bools("solid", solid)
+        if snap is not True:
+            raise ValueError(f"snap must be True (got {snap!r}): masks are tested as drawn")
+        height, width = solid.shape
+        self.snap = True
+        self.size = (width, height)
+        self.origin = (width / 2.0, height / 2.0) if origin is None else checks.vector("origin", origin)
+        self.solid = solid
+        solid.flags.writeable = False
+        self._turned = {}
+        self.fitted = {}  # tier -> the shapes that stand for it, kept by fitting.fit
+
+    def __deepcopy__(self, memo):
+        return self  # a value: copies of a world share it
+
+    @classmethod
+    def from_array(cls, solid, origin=None, snap=True) -> "PixelMask":
+        """From solid[row, col]; origin in pixels, None = the image centre. Raises ValueError, TypeError."""
+        return cls(solid, origin, snap)
+
+    @classmethod
+    def from_surface(cls, surface, threshold=127, origin=None, snap=True) -> "PixelMask":
+        """From a pygame surface: solid where alpha > threshold; a colour key is clear. Raises TypeError."""
+        import pygame  # the one door through which sprites enter
+
+        if not isinstance(surface, pygame.Surface):
+            raise TypeError(f"surface must be a pygame.Surface (got {surface!r})")
+        threshold = checks.whole("threshold", threshold, 0, 255)
+        if 0 in surface.get_size():
+            return cls(np.zeros(surface.get_size()[::-1], bool), origin, snap)
+        solid = pygame.surfarray.array_alpha(surface) > threshold
+        if surface.get_colorkey() is not None:
+            solid &= pygame.surfarray.array_colorkey(surface) > 0
+        return cls(np.ascontiguousarray(solid.T), origin, snap)
+
+    def turned(self, angle=0.0) -> Turned:
+        """The mask at the angle bucket nearest to `angle` [rad], cached; always turned from the source."""
+        return self.turned_to(bucket_of(checks.number("angle", angle), MASK_ANGLE_BUCKETS))
+
+    def turned_to(self, bucket: int) -> Turned:
+        if bucket not in self._turned:
+            self._turned[bucket] = turn(self.solid, self.origin, bucket, MASK_ANGLE_BUCKETS)
+        return self._turned[bucket]
+
+    @cached_property
+    def words(self):
+        """(h, ceil(w/64)) uint64: bit b of word k in a row is x = 64k + b."""
+        return packed(self.solid)
+
+    @cached_property
+    def area(self):
+        """Solid pixels."""
+        return int(self.solid.sum())
+
+    @cached_property
+    def centroid(self):
+        """Mean of the solid pixels' centres in body space [px]; None when there is none."""
+        rows, columns = np.nonzero(self.solid)
+        if not len(rows):
+            return None
+        return (float(columns.mean()) + 0.5 - self.origin[0], float(rows.mean()) + 0.5 - self.origin[1])
+
+    @cached_property
+    def bounds(self):
+        """(min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None when there is none."""
+        rows, columns = np.nonzero(self.solid)
+        if not len(rows):
+            return None
+        x, y = self.origin
+        return (columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)
+
+    @property
+    def smallest_half(self):
+        if self.bounds is None:
+            return 0.5
+        return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
+
+    def mass_of(self, density):
+        """Of the union of pixel squares: each adds 1/6 to the second moment about its own centre."""
+        if self.area == 0:
+            return NOTHING
+        rows, columns = np.nonzero(self.solid)
+        x, y = columns + (0.5 - self.origin[0]), rows + (0.5 - self.origin[1])
+        center = (float(x.mean()), float(y.mean()))
+        second = float(((x - center[0]) ** 2 + (y - center[1]) ** 2).sum()) + self.area / 6.0
+        return Mass(density * self.area, center, density * second)
+
+    def reach(self, x, y):
+        if self.bounds is None:
+            return 0.0
+        left, top, right, bottom = self.bounds
+        return float(np.hypot(max(x - left, right - x), max(y - top, bottom - y)))
+
+    def __repr__(self):
+        return f"PixelMask({self.size[0]} x {self.size[1]}, {self.area} solid, origin {self.origin})"

@@ -1,0 +1,248 @@
+"""Where a shape is at a pose: its corners, its raster on the pixel grid, its AABB."""
+
+import math
+
+from physics.jit import kernel, subkernel
+from physics.math2d import turned
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT, TILES
+
+TAU = math.tau
+
+
+@subkernel
+def bucket_at(angle, buckets):
+    """The angle bucket nearest to an angle [rad]."""
+    # Buckets are a power of two: the mask is the remainder, also of negative numbers, without a division.
+    return math.floor(angle * buckets / TAU + 0.5) & (buckets - 1)
+
+
+@subkernel
+def raster_at(geometry, mask, angle):
+    """The raster row of a mask at an angle [rad]; the stage has made sure that it exists."""
+    return geometry.raster_of[mask, bucket_at(angle, geometry.raster_of.shape[1])]
+
+
+@subkernel
+def snapped(coordinate, origin):
+    """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up."""
+    return math.floor(coordinate - origin + 0.5)
+
+
+@subkernel
+def raster_aabb(geometry, raster, x, y):
+    """AABB [px] of the solid pixels of a raster whose body is at (x, y); the point itself when there is none."""
+    r = geometry.rasters[raster]
+    if r.area == 0:
+        return x, y, x, y
+    left = float(snapped(x, r.origin_x))
+    top = float(snapped(y, r.origin_y))
+    return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+
+
+@subkernel
+def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
+    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2). Returns their number.
+
+    polygons, table: geometry.polygons and geometry.corners, by themselves: handing all of a Geometry on costs more than
+    the corners.
+    """
+    span = polygons[polygon]
+    for k in range(span.count):
+        corner = table[span.offset + k]
+        u, v = turned(corner.x, corner.y, cosine, sine)
+        corners_out[k, 0] = x + u
+        corners_out[k, 1] = y + v
+    return span.count
+
+
+@subkernel
+def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
+    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius. Tables as polygon_at."""
+    span = polygons[polygon]
+    first = table[span.offset]
+    min_x, min_y = turned(first.x, first.y, cosine, sine)
+    max_x = min_x
+    max_y = min_y
+    for k in range(1, span.count):
+        corner = table[span.offset + k]
+        u, v = turned(corner.x, corner.y, cosine, sine)
+        min_x = min(min_x, u)
+        max_x = max(max_x, u)
+        min_y = min(min_y, v)
+        max_y = max(max_y, v)
+    return x + min_x - radius, y + min_y - radius, x + max_x + radius, y + max_y + radius
+
+
+@subkernel
+def is_hull(kind):
+    """Whether a kind of shape is a convex hull of corners with a rounding radius: all but TILES, MASK and CHAIN."""
+    return kind != TILES and kind != MASK and kind != CHAIN
+
+
+@subkernel
+def rounding(shapes, row):
+    """Rounding radius [px] of a hull: 0 of a BOUNDS, whatever it wraps."""
+    return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
+
+
+@subkernel
+def chain_aabb(geometry, chain, cosine, sine):
+    """AABB [px] of a chain's links turned about its body's origin. O(links); only blocks at angle 0."""
+    span = geometry.chains[chain]
+    min_x = math.inf
+    min_y = math.inf
+    max_x = -math.inf
+    max_y = -math.inf
+    if sine == 0.0 and cosine == 1.0:
+        for k in range(span.first_block, span.first_block + span.blocks):
+            block = geometry.link_blocks[k]
+            min_x = min(min_x, block.min_x)
+            min_y = min(min_y, block.min_y)
+            max_x = max(max_x, block.max_x)
+            max_y = max(max_y, block.max_y)
+        return min_x, min_y, max_x, max_y
+    for k in range(span.offset, span.offset + span.count):
+        link = geometry.links[k]
+        for end in range(2):
+            u, v = turned(link.ax if end == 0 else link.bx, link.ay if end == 0 else link.by, cosine, sine)
+            min_x = min(min_x, u)
+            min_y = min(min_y, v)
+            max_x = max(max_x, u)
+            max_y = max(max_y, v)
+    return min_x, min_y, max_x, max_y
+
+
+@subkernel
+def aabb_at(geometry, shapes, row, x, y, angle):
+    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a shape when its body is at a pose. O(corners).
+
+    A mask's is that of its solid pixels as drawn; an empty mask's is the point of its origin.
+    """
+    s = shapes[row]
+    kind = s.kind
+    if kind == BOUNDS:
+        kind = s.wrapped
+    if kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        return x + u - s.radius, y + v - s.radius, x + u + s.radius, y + v + s.radius
+    if kind == POLYGON or kind == CAPSULE or kind == SEGMENT:
+        return polygon_aabb(
+            geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, math.cos(angle), math.sin(angle)
+        )
+    if kind == CHAIN:
+        min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, math.cos(angle), math.sin(angle))
+        return x + min_x, y + min_y, x + max_x, y + max_y
+    if kind == TILES:
+        g = geometry.grids[s.geometry]
+        return x, y, x + g.columns * g.tile_size, y + g.rows * g.tile_size
+    return raster_aabb(geometry, raster_at(geometry, s.geometry, angle), x, y)
+
+
+@subkernel
+def hull_at(geometry, shapes, row, x, y, angle, corners_out):
+    """World corners [px] of any hull, clockwise on the screen, to corners_out (16, 2); see `rounding` for its radius.
+
+    A circle has one corner, its centre. Returns their number.
+    """
+    s = shapes[row]
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        corners_out[0, 0] = x + u
+        corners_out[0, 1] = y + v
+        return 1
+    return corners_at(geometry, shapes, row, x, y, angle, corners_out)
+
+
+@subkernel
+def corners_at(geometry, shapes, row, x, y, angle, corners_out):
+    """World corners [px] of a POLYGON, CAPSULE or SEGMENT or, of a BOUNDS, of its AABB, clockwise on the screen.
+
+    Returns their number.
+    """
+    if shapes[row].kind != BOUNDS:
+        return polygon_at(
+            geometry.polygons,
+            geometry.corners,
+            shapes[row].geometry,
+            x,
+            y,
+            math.cos(angle),
+            math.sin(angle),
+            corners_out,
+        )
+    min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
+    corners_out[0, 0] = min_x
+    corners_out[0, 1] = min_y
+    corners_out[1, 0] = max_x
+    corners_out[1, 1] = min_y
+    corners_out[2, 0] = max_x
+    corners_out[2, 1] = max_y
+    corners_out[3, 0] = min_x
+    corners_out[3, 1] = max_y
+    return 4
+
+
+@kernel
+def write_hull(geometry, shapes, x, y, angle, corners_out):
+    """Write the world corners [px] of the first of some SHAPE rows to corners_out (16, 2). Returns their number, the radius."""
+    return hull_at(geometry, shapes, 0, x, y, angle, corners_out), rounding(shapes, 0)
+
+
+@kernel
+def missing_rasters(
+    # read
+    bodies,
+    shapes,
+    raster_of,
+    dt,
+    # write
+    missing_out,
+):
+    """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
+
+    bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice. O(shapes).
+    """
+    found = 0
+    buckets = raster_of.shape[1]
+    for row in range(len(shapes)):
+        s = shapes[row]
+        if s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK):
+            continue
+        b = bodies[s.body_row]
+        if b.angle == 0.0 and b.angular_velocity == 0.0:
+            continue  # as it was added
+        for k in range(2):
+            bucket = bucket_at(b.angle + k * dt * b.angular_velocity, buckets)
+            if raster_of[s.geometry, bucket] < 0:
+                if found < missing_out.shape[0]:
+                    missing_out[found, 0] = s.geometry
+                    missing_out[found, 1] = bucket
+                found += 1
+    return found
+
+
+@kernel
+def refresh_aabbs(
+    # read
+    geometry,
+    bodies,
+    # write
+    shapes_inout,
+):
+    """Write every shape's tight AABB at its body's pose, and where a mask is drawn. shapes_inout SHAPE rows. O(shapes)."""
+    polygons = geometry.polygons
+    table = geometry.corners
+    for row in range(len(shapes_inout)):
+        s = shapes_inout[row]
+        b = bodies[s.body_row]
+        if s.kind == POLYGON:
+            s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
+                polygons, table, s.geometry, s.radius, b.x, b.y, math.cos(b.angle), math.sin(b.angle)
+            )
+            continue
+        if s.kind == MASK:
+            s.raster = raster_at(geometry, s.geometry, b.angle)
+            r = geometry.rasters[s.raster]
+            s.left = snapped(b.x, r.origin_x)
+            s.top = snapped(b.y, r.origin_y)
+        s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -1,0 +1,61 @@
+"""The rows that shapes need: SHAPE rows, masses, places in the broad phase."""
+
+import numpy as np
+
+from physics.shapes.kinds import SHAPES
+from physics.shapes.lines import Chain, Segment
+from physics.shapes.mask import PixelMask
+from physics.shapes.tiles import TileGrid
+from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
+
+
+def check_shapes(shapes, kind, angles, swept):
+    """Refuse what is no shape, dynamic chains, turned or dynamic tiles, and swept masks. Raises TypeError, ValueError."""
+    if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
+        raise ValueError(f"shapes of a dynamic body must hold one with mass, a Segment has none (got {shapes!r})")
+    for shape in shapes:
+        if not isinstance(shape, SHAPES):
+            raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
+        if isinstance(shape, PixelMask) and swept in (RAY, SWEPT):
+            raise ValueError(
+                f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "
+                "masks are not swept, nor is anything against them"
+            )
+        if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
+            raise ValueError(
+                f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
+                f"{np.asarray(angles).tolist()})"
+            )
+        if isinstance(shape, Chain) and kind == DYNAMIC:
+            raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
+
+
+def rounding_of(shape):
+    """(radius, centre of a circle in body space) of a shape, or of what a Bounds wraps: what its SHAPE row holds [px]."""
+    inner = getattr(shape, "shape", shape)
+    return (getattr(inner, "radius", 0.0), *getattr(inner, "center", (0.0, 0.0)))
+
+
+def set_mass(rows, mass, shapes):
+    """Write mass, inertia and size of BODY rows of one kind of body."""
+    rows["mass"], rows["inertia"] = mass.mass, mass.inertia
+    rows["local_center_x"], rows["local_center_y"] = mass.center
+    moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
+    turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
+    rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
+    rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
+    rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
+    rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
+
+
+def place(library, shape, bodies, shapes, row, pose):
+    """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
+    kind, geometry, wrapped = library.add(shape)
+    inner = getattr(shape, "shape", shape)
+    s, b = shapes[row : row + 1], bodies[row : row + 1]
+    s["id"], s["body"], s["body_row"], s["kind"], s["geometry"], s["wrapped"] = row, row, row, kind, geometry, wrapped
+    s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
+    b["id"], b["x"], b["y"], b["angle"] = row, *pose
+    b["previous_x"], b["previous_y"], b["previous_angle"] = pose
+    if geometry >= 0 and hasattr(inner, "turned"):
+        library.raster(geometry, pose[2])

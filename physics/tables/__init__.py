@@ -1,0 +1,1 @@
+"""The tables of a world: dtypes, each field with its unit."""

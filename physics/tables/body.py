@@ -1,0 +1,53 @@
+"""BODY: one row per body, and what the numbers of its kinds mean.
+
+Rows are kept in the order of ids, so the order of rows is the canonical order of everything. A row number changes
+when an earlier row is removed; an id never changes and is never given twice.
+"""
+
+import numpy as np
+
+STATIC, KINEMATIC, DYNAMIC = 0, 1, 2
+KINDS = ("static", "kinematic", "dynamic")
+CONTINUOUS = ("off", "ray", "swept", "auto", "toi")
+OFF, RAY, SWEPT, AUTO, TOI = 0, 1, 2, 3, 4
+BODY = np.dtype(
+    [
+        ("id", np.int64),
+        ("kind", np.int64),  # STATIC KINEMATIC DYNAMIC
+        ("x", np.float64),  # [px] origin
+        ("y", np.float64),
+        ("angle", np.float64),  # [rad] clockwise on the screen
+        ("vx", np.float64),  # [px/s] of the centre of mass
+        ("vy", np.float64),
+        ("angular_velocity", np.float64),  # [rad/s]
+        ("center_x", np.float64),  # [px] centre of mass in the world; refreshed when the body moves
+        ("center_y", np.float64),
+        ("mass", np.float64),  # [density px2] 0 where it has none
+        ("inertia", np.float64),  # [density px4] about the centre of mass
+        ("awake", np.bool_),
+        ("inverse_mass", np.float64),  # 0 = cannot be pushed
+        ("inverse_inertia", np.float64),  # 0 = cannot be turned
+        ("local_center_x", np.float64),  # [px] centre of mass in body space
+        ("local_center_y", np.float64),
+        ("gravity_scale", np.float64),
+        ("force_x", np.float64),  # collected since the last step
+        ("force_y", np.float64),
+        ("torque", np.float64),
+        ("previous_x", np.float64),  # [px] pose before the step: for interpolated drawing and for rolling back
+        ("previous_y", np.float64),
+        ("previous_angle", np.float64),
+        ("settled_x", np.float64),  # [px] last pose that was seen to be finite
+        ("settled_y", np.float64),
+        ("settled_angle", np.float64),
+        ("smallest_half", np.float64),  # [px] smallest half extent of its shapes: what "fast" is measured by
+        ("extent", np.float64),  # [px] of the furthest point of its shapes from the centre of mass
+        ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
+        ("bullet", np.bool_),  # swept against moving bodies too
+        ("fixed_rotation", np.bool_),
+        ("sleep_time", np.float64),  # [s] it has been slow
+        ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
+        ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
+        ("fraction", np.float64),  # of this step's motion that was free, 1 when nothing was in the way
+    ],
+    align=True,
+)

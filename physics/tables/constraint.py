@@ -1,0 +1,68 @@
+"""What a solver works on: the motions of bodies and the constraints between them."""
+
+import numpy as np
+
+MOTION = np.dtype(
+    [  # one per body: what a solver reads and changes in its substeps
+        ("vx", np.float64),
+        ("vy", np.float64),
+        ("angular_velocity", np.float64),
+        ("dx", np.float64),
+        ("dy", np.float64),  # [px] of the centre of mass since the step began
+        ("cosine", np.float64),
+        ("sine", np.float64),  # of the turn since the step began
+        ("inverse_mass", np.float64),
+        ("inverse_inertia", np.float64),  # 0 for what this step does not push
+        ("turn", np.float64),  # [rad]
+        ("acceleration_x", np.float64),
+        ("acceleration_y", np.float64),
+        ("angular_acceleration", np.float64),
+        ("moves", np.bool_),
+        ("pushed", np.bool_),  # is integrated; feels drag and acceleration
+        ("walks", np.bool_),  # a character: what lies under its feet bears it, and is not held down by it
+    ],
+    align=True,
+)
+
+CONSTRAINT = np.dtype(
+    [  # one per manifold, in the order of colours: up to two points on one normal
+        ("body_row_a", np.int32),
+        ("body_row_b", np.int32),
+        ("first", np.int32),
+        ("count", np.int32),  # its rows of the contact table
+        ("normal_x", np.float64),
+        ("normal_y", np.float64),
+        ("friction", np.float64),
+        ("surface_speed", np.float64),
+        ("rolling_limit", np.float64),  # [px] torque per normal impulse
+        ("rolling_mass", np.float64),
+        ("rolling_impulse", np.float64),
+        ("radius_a", np.float64),
+        ("radius_b", np.float64),  # [px] the separation is measured from core to core
+        ("push_share", np.float64),  # of the push-out speed
+        ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
+        ("ax_1", np.float64),
+        ("ay_1", np.float64),
+        ("bx_1", np.float64),
+        ("by_1", np.float64),  # [px] arms from the centres
+        ("base_1", np.float64),  # [px] separation less the arms' part
+        ("normal_mass_1", np.float64),
+        ("tangent_mass_1", np.float64),
+        ("normal_impulse_1", np.float64),
+        ("tangent_impulse_1", np.float64),  # of this substep
+        ("normal_total_1", np.float64),
+        ("tangent_total_1", np.float64),  # of the step
+        ("ax_2", np.float64),
+        ("ay_2", np.float64),
+        ("bx_2", np.float64),
+        ("by_2", np.float64),
+        ("base_2", np.float64),
+        ("normal_mass_2", np.float64),
+        ("tangent_mass_2", np.float64),
+        ("normal_impulse_2", np.float64),
+        ("tangent_impulse_2", np.float64),
+        ("normal_total_2", np.float64),
+        ("tangent_total_2", np.float64),
+    ],
+    align=True,
+)

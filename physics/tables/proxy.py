@@ -1,0 +1,19 @@
+"""PROXY: what a broad phase sees of a shape."""
+
+import numpy as np
+
+PROXY = np.dtype(
+    [  # what a broad phase sees; slots are reused
+        ("lower_x", np.float64),  # [px] bounding motion rectangle
+        ("lower_y", np.float64),
+        ("upper_x", np.float64),
+        ("upper_y", np.float64),
+        ("row", np.int64),  # of the shape, this step; -1: the slot is free
+        ("body", np.int64),  # id: two shapes of one body never pair
+        ("membership", np.int64),
+        ("mask", np.int64),
+        ("still", np.bool_),  # static: two still proxies never pair
+        ("changed", np.bool_),  # box, filter or existence changed since the last update
+    ],
+    align=True,
+)

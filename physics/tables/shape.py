@@ -1,0 +1,35 @@
+"""SHAPE: one row per shape of a body, in the order of ids; and the kinds of shapes."""
+
+import numpy as np
+
+CIRCLE, POLYGON, BOUNDS, TILES, MASK, CAPSULE, SEGMENT, CHAIN = 0, 1, 2, 3, 4, 5, 6, 7
+SHAPE = np.dtype(
+    [
+        ("id", np.int64),
+        ("body", np.int64),  # id
+        ("body_row", np.int64),
+        ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
+        ("geometry", np.int64),  # row of the corners, grids (TILES), masks (MASK) or chains (CHAIN); -1: none
+        ("local_x", np.float64),  # [px] centre of a circle, in body space
+        ("local_y", np.float64),
+        ("radius", np.float64),  # [px] of a circle or capsule, or of a polygon's rounding
+        ("wrapped", np.int64),  # kind inside a BOUNDS
+        ("membership", np.int64),  # 32 bits
+        ("mask", np.int64),  # 32 bits
+        ("sensor", np.bool_),
+        ("density", np.float64),
+        ("friction", np.float64),
+        ("restitution", np.float64),
+        ("rolling_resistance", np.float64),
+        ("surface_speed", np.float64),  # [px/s] along the tangent, see Material
+        ("proxy", np.int64),  # slot in the broad phase, -1 while it has none
+        ("raster", np.int64),  # of a mask at its body's angle, and the pixel column and row it is drawn at
+        ("left", np.int64),
+        ("top", np.int64),
+        ("min_x", np.float64),  # [px] tight AABB at the final pose of the step
+        ("min_y", np.float64),
+        ("max_x", np.float64),
+        ("max_y", np.float64),
+    ],
+    align=True,
+)

@@ -1,0 +1,38 @@
+"""Table: a structured array that grows."""
+
+import numpy as np
+
+
+class Table:
+    """A structured array that grows by doubling; `rows` is the used part."""
+
+    def __init__(self, dtype, capacity=16):
+        self.data = np.zeros(capacity, dtype)
+        self.count = 0
+
+    @property
+    def rows(self):
+        return self.data[: self.count]
+
+    def reserve(self, count):
+        """Make room for `count` rows, keeping what is there."""
+        if count > len(self.data):
+            grown = np.zeros(max(count, 2 * len(self.data)), self.data.dtype)
+            grown[: self.count] = self.rows
+            self.data = grown
+
+    def append(self, count=1):
+        """Room for `count` new zeroed rows at the end; returns them."""
+        self.reserve(self.count + count)
+        added = self.data[self.count : self.count + count]
+        added[:] = np.zeros((), self.data.dtype)
+        self.count += count
+        return added
+
+    def keep(self, flags):
+        """Drop the rows whose flag is False; the others keep their order."""
+        kept = np.flatnonzero(flags)
+        first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))  # what stands before stays where it is
+        whole = self.data.view(np.dtype((np.void, self.data.itemsize)))  # rows in one piece, not field by field
+        whole[first : len(kept)] = whole[kept[first:]]
+        self.count = len(kept)
