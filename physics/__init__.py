@@ -27,9 +27,10 @@ from physics.shapes.mass import Mass
 from physics.shapes.material import Material
 from physics.shapes.tiles import TileGrid
 from physics.snapshot import Snapshot
+from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
-from physics.world import SOLVERS, World
+from physics.world import World
 
 BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 

@@ -176,7 +176,7 @@ class Body:
 
     def _stir(self, row):
         if not row["awake"]:
-            sleep.wake_ids(self.world, [self.id])
+            sleep.disturb(self.world, [self.id])
 
     def _dynamic(self, what):
         row = self._row
@@ -201,7 +201,7 @@ class Body:
         """Wake it, and all it is piled up with."""
         self.world._unlocked()
         self._row
-        sleep.wake_ids(self.world, [self.id])
+        sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind):
         """static, kinematic or dynamic. A body that becomes static stops."""

@@ -7,6 +7,7 @@ import numpy as np
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
+from physics.collision.manifold import contacts_of
 from physics.queries.pair_axes import sat_axes
 from physics.queries.pair_distance import gjk_steps
 from physics.settings import MASK_ANGLE_BUCKETS
@@ -119,7 +120,7 @@ def pairs(world) -> np.ndarray:
 
 def _candidate_rows(world):
     """Shape rows of the last step's candidates whose shapes are still there."""
-    ids = world.pairs.ids
+    ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
     if not len(ids) or not len(known):
         return np.zeros((0, 2), np.int64)
@@ -247,28 +248,41 @@ def contact_points(world) -> np.ndarray:
 
     state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP; color: of the graph colouring, -1 without one.
     """
-    found = world.found_contacts
-    sensed = world.sensed if world.sensed is not None else found[found["sensor"]]
-    parts = []
-    for rows, state in ((found[~found["sensor"]], None), (sensed, SENSOR), (world.parked, ASLEEP)):
-        if not len(rows):
-            continue
-        points = np.zeros(len(rows), POINT)
-        for name in POINT.names:
-            if name != "state":
-                points[name] = rows[name]
-        if state is None:
-            acting = (rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0) | rows["swept"]
-            points["state"] = np.where(rows["persisted"], PERSISTED, np.where(acting, NEW, SPECULATIVE))
-            points["state"][~acting & (rows["separation"] > world.tolerances.slop)] = SPECULATIVE
-            if not world.effects.stacking:  # no contact remembers the step before: the events do
-                begun = world.events.begin
-                old = ~np.isin(rows["shape_a"] << 32 | rows["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
-                points["state"][old & (points["state"] == NEW)] = PERSISTED
-        else:
-            points["state"] = state
-        parts.append(points)
-    return np.concatenate(parts) if parts else np.zeros(0, POINT)
+    found, sensed = world.manifolds, world.sensed
+    if sensed is None:
+        sensed = found[found["sensor"]]
+    parts = [
+        _points(world, found[~found["sensor"]], world.anchors, None),
+        _points(world, sensed, None, SENSOR),
+        _points(world, world.sleepers.manifolds(), None, ASLEEP),
+    ]
+    return np.concatenate(parts)
+
+
+def _points(world, manifolds, anchors, state):
+    """POINT rows of manifolds; state: of all of them, None: of each its own."""
+    contacts = contacts_of(manifolds)
+    points = np.zeros(len(contacts), POINT)
+    for name in contacts.dtype.names:
+        if name in POINT.names:
+            points[name] = contacts[name]
+    points["color"] = -1
+    if state is not None:
+        points["state"] = state
+        return points
+    of = np.repeat(np.arange(len(manifolds)), manifolds["count"])  # the manifold of each point
+    second = np.concatenate([[False], of[1:] == of[:-1]]) if len(of) else np.zeros(0, bool)
+    if anchors is not None and len(anchors) == len(manifolds):
+        points["color"] = anchors["color"][of]
+    acting = (points["separation"] <= 0.0) | (points["normal_impulse"] > 0.0) | manifolds["swept"][of]
+    persisted = np.where(second, manifolds["persisted_2"][of], manifolds["persisted_1"][of])
+    points["state"] = np.where(persisted, PERSISTED, np.where(acting, NEW, SPECULATIVE))
+    points["state"][~acting & (points["separation"] > world.tolerances.slop)] = SPECULATIVE
+    if not world.effects.stacking:  # no contact remembers the step before: the events do
+        begun = world.events.begin
+        old = ~np.isin(points["shape_a"] << 32 | points["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
+        points["state"][old & (points["state"] == NEW)] = PERSISTED
+    return points
 
 
 def islands(world) -> np.ndarray:
@@ -286,7 +300,7 @@ GHOST = np.dtype(
 
 def impact_ghosts(world) -> np.ndarray:
     """GHOST rows of the bodies that a sweep stopped in the last step: the pose that they would have had, and the fraction."""
-    rows = world.impact_ghosts
+    rows = world.ghosts
     if rows is None or not len(rows):
         return np.zeros(0, GHOST)
     ghosts = np.zeros(len(rows), GHOST)

@@ -75,8 +75,11 @@ def add_rows(
         rows["previous_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, continuous, fixed_rotation
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
+    rows["active"] = not world.sleeps  # with it, the next step takes them in
+    if KINDS[kind] != "dynamic":
+        world.awake.stir(ids.tolist())
     set_mass(rows, mass, used)
-    refresh_centers(rows)
+    refresh_centers(np.arange(n), rows)
     add_shapes(world, rows, world._bodies.count - n, used, material, filter, sensor)
     source = tuple(shapes)  # one for all: a swarm costs two entries each, and no object
     for identity in ids.tolist():
@@ -126,7 +129,7 @@ def set_filter(world, identity, value):
     own = world.shapes["body"] == identity
     world.shapes["membership"][own], world.shapes["mask"][own] = value.membership, value.mask
     world.pairs.set_filter(world.shapes["proxy"][own], value)
-    sleep.wake_ids(world, [identity])
+    sleep.disturb(world, [identity])
 
 
 def move_to(world, identity, position, angle):
@@ -143,10 +146,20 @@ def move_to(world, identity, position, angle):
 
 def refresh(world, identity):
     """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle. Its neighbours wake."""
-    sleep.wake_ids(world, [identity])
+    sleep.disturb(world, [identity])
     at = world._row_number(identity)
-    refresh_centers(world.bodies[at : at + 1])
+    refresh_centers(np.array([at]), world.bodies)
     world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
+
+
+def touch(world, ids):
+    """Bring what is derived from the columns of bodies up to date. Raises KeyError, TypeError, ValueError."""
+    many = ids if isinstance(ids, (list, tuple, set, np.ndarray)) else [ids]
+    numbers = checks.ids("ids", [getattr(each, "id", each) for each in many])
+    rows = world.rows(numbers)
+    sleep.disturb(world, numbers)
+    refresh_centers(rows, world.bodies)
+    world.pairs.touch(world.shapes["proxy"][np.isin(world.shapes["body_row"], rows)])
 
 
 def set_kind(world, identity, kind):
@@ -160,6 +173,7 @@ def set_kind(world, identity, kind):
     refresh_mass(world, identity)
     own = world.shapes["body"] == identity
     world.pairs.set_still(world.shapes["proxy"][own], kind == "static")
+    world.awake.start_over()
 
 
 def refresh_mass(world, identity):
@@ -181,7 +195,7 @@ def set_shapes(world, identity, shapes):
     first = world.shapes[own][0] if own.any() else None
     material = Material() if first is None else Material(*(float(first[each.name]) for each in fields(Material)))
     filter, sensor = filter_of(world, identity), bool(first is not None and first["sensor"])
-    sleep.wake_ids(world, [identity])
+    sleep.disturb(world, [identity])
     world._drop_shapes(~own)
     at = world._row_number(identity)
     world._shapes_of[identity] = tuple(shapes)
@@ -219,6 +233,8 @@ def restore(world, identity):
     world._unlocked()
     row = world._body_row(identity)
     if row["quarantined"]:
-        row["quarantined"] = False
+        row["quarantined"], row["awake"] = False, True
+        world.awake.start_over()
+        world.awake.stir([identity])
         own = np.flatnonzero(world.shapes["body"] == identity)
         world.pairs.add_proxies(world.shapes, own, np.full(len(own), row["kind"] == STATIC))

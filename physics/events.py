@@ -1,89 +1,162 @@
 """What began, went on, ended and hit in the last step: arrays, read after the step, valid until the next one."""
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 
 from physics.jit import kernel, subkernel
 from physics.tables.contact import EVENT, HIT, QUARANTINE
+from physics.tables.counters import CONTACTS
+from physics.tables.manifold import MANIFOLD
+from physics.tables.rows import rows_of
+from physics.tables.step_state import stage
+
+NOTHING = np.zeros(0, MANIFOLD)
 
 
 @subkernel
-def write_event(contact, at, events_out):
-    """Copy what an event tells of a contact."""
-    e = events_out[at]
-    e.body_a = contact.body_a
-    e.body_b = contact.body_b
-    e.shape_a = contact.shape_a
-    e.shape_b = contact.shape_b
-    e.point_x = contact.point_x
-    e.point_y = contact.point_y
-    e.normal_x = contact.normal_x
-    e.normal_y = contact.normal_y
+def write_event(manifold, second, event_out):
+    """Copy what an event tells of a point of a manifold: its first, or its second."""
+    e = event_out
+    e.body_a = manifold.body_a
+    e.body_b = manifold.body_b
+    e.shape_a = manifold.shape_a
+    e.shape_b = manifold.shape_b
+    e.point_x = manifold.x_2 if second else manifold.x_1
+    e.point_y = manifold.y_2 if second else manifold.y_1
+    e.normal_x = manifold.normal_x
+    e.normal_y = manifold.normal_y
 
 
 @subkernel
-def copy_event(events, source, target, events_out):
+def copy_event(event, event_out):
     """Copy an event row."""
-    s = events[source]
-    d = events_out[target]
-    d.body_a = s.body_a
-    d.body_b = s.body_b
-    d.shape_a = s.shape_a
-    d.shape_b = s.shape_b
-    d.point_x = s.point_x
-    d.point_y = s.point_y
-    d.normal_x = s.normal_x
-    d.normal_y = s.normal_y
+    d = event_out
+    d.body_a = event.body_a
+    d.body_b = event.body_b
+    d.shape_a = event.shape_a
+    d.shape_b = event.shape_b
+    d.point_x = event.point_x
+    d.point_y = event.point_y
+    d.normal_x = event.normal_x
+    d.normal_y = event.normal_y
+
+
+@subkernel
+def acts(manifold, second, slop):
+    """Whether a point touches: overlaps by no more than -slop [px], was pushed, or was met on the way."""
+    separation = manifold.separation_2 if second else manifold.separation_1
+    impulse = manifold.normal_impulse_2 if second else manifold.normal_impulse_1
+    return separation <= slop or impulse > 0.0 or manifold.swept
+
+
+class Told(NamedTuple):
+    """What a comparison writes."""
+
+    now: np.ndarray  # EVENT: the pairs that touch
+    begin: np.ndarray
+    persist: np.ndarray
+    end: np.ndarray
+    aside: np.ndarray  # EVENT: pairs that touched and have fallen asleep
+    hits: np.ndarray  # HIT
+    keep: np.ndarray  # bool: manifolds of pairs that touch
+    counts: np.ndarray  # rows of now, begin, persist, end, aside, hits
+
+
+def new_told(room: int) -> Told:
+    """Room for that many pairs."""
+    return Told(
+        *(np.zeros(room, EVENT) for _ in range(5)), np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(6, np.int64)
+    )
+
+
+@subkernel
+def tell_pair(manifolds, first, last, old, slop, hit_speed, told_inout):
+    """Write what the manifolds first … last - 1, those of one pair, say. Returns whether the pair touches."""
+    active = False
+    acted = False
+    deepest = first
+    deepest_second = False
+    fastest = first
+    fastest_second = False
+    least = math.inf
+    most = -math.inf
+    total = 0.0
+    for i in range(first, last):
+        m = manifolds[i]
+        for k in range(m.count):
+            second = k == 1
+            active = active or acts(m, second, slop if old else 0.0)
+            separation = m.separation_2 if second else m.separation_1
+            speed = m.speed_2 if second else m.speed_1
+            impulse = m.normal_impulse_2 if second else m.normal_impulse_1
+            acted = acted or impulse > 0.0
+            total += impulse
+            if separation < least:
+                least = separation
+                deepest = i
+                deepest_second = second
+            if speed > most:
+                most = speed
+                fastest = i
+                fastest_second = second
+    counts = told_inout.counts
+    if not active:
+        return False
+    write_event(manifolds[deepest], deepest_second, told_inout.now[counts[0]])
+    counts[0] += 1
+    if old:
+        write_event(manifolds[deepest], deepest_second, told_inout.persist[counts[2]])
+        counts[2] += 1
+    else:
+        write_event(manifolds[deepest], deepest_second, told_inout.begin[counts[1]])
+        counts[1] += 1
+    if (acted or not old) and most > hit_speed:
+        hit = told_inout.hits[counts[5]]
+        write_event(manifolds[fastest], fastest_second, hit)
+        hit.speed = most
+        hit.normal_impulse = total
+        counts[5] += 1
+    return True
 
 
 @kernel
 def compare_pairs(
     # read
     before,
-    contacts,
+    manifolds,
     parked,
     sensors,
     slop,
     hit_speed,
     # write
-    now_out,
-    begin_out,
-    persist_out,
-    end_out,
-    hits_out,
-    keep_out,
-    counts_out,
+    told_inout,
 ):
-    """Compare the pairs that touched before with the contacts of this step, both in the order of shape ids.
+    """Compare the pairs that touched before with the manifolds of this step, both in the order of shape ids.
 
-    before EVENT rows; contacts CONTACT rows; parked CONTACT rows of pairs that sleep: they go on touching and say
-    nothing; sensors: 1 to look at contacts of sensors only, 0 at the others only;
-    slop [px]: a pair that touched goes on touching up to it; hit_speed [px/s]. now_out: the pairs that touch; keep_out
-    (contacts) bool: contacts of such pairs; counts_out: rows written to now, begin, persist, end, hits. O(both).
+    before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
+    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair that
+    touched goes on touching up to it; hit_speed [px/s]. O(both).
     """
-    touching = 0
-    begun = 0
-    persisted = 0
-    ended = 0
-    hits = 0
+    counts = told_inout.counts
+    for k in range(len(counts)):
+        counts[k] = 0
     i = 0
     j = 0
     asleep = 0
-    while i < len(before) or j < len(contacts):
-        if j < len(contacts) and contacts[j].sensor != (sensors == 1):
+    while i < len(before) or j < len(manifolds):
+        if j < len(manifolds) and manifolds[j].sensor != (sensors == 1):
             j += 1
             continue
-        # The group of contacts of one pair, if it comes no later than the next pair that touched before.
-        old = False
-        new = False
-        if j >= len(contacts):
-            old = True
-        elif i >= len(before):
-            new = True
-        else:
+        # The manifolds of one pair, if they come no later than the next pair that touched before.
+        old = j >= len(manifolds)
+        new = i >= len(before)
+        if not (old or new):
             p = before[i]
-            c = contacts[j]
-            old = p.shape_a < c.shape_a or (p.shape_a == c.shape_a and p.shape_b <= c.shape_b)
-            new = not old or (p.shape_a == c.shape_a and p.shape_b == c.shape_b)
+            m = manifolds[j]
+            old = p.shape_a < m.shape_a or (p.shape_a == m.shape_a and p.shape_b <= m.shape_b)
+            new = not old or (p.shape_a == m.shape_a and p.shape_b == m.shape_b)
         if not new:
             p = before[i]
             while asleep < len(parked) and (
@@ -92,60 +165,26 @@ def compare_pairs(
             ):
                 asleep += 1
             if asleep < len(parked) and parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b == p.shape_b:
-                copy_event(before, i, touching, now_out)
-                touching += 1
+                copy_event(p, told_inout.aside[counts[4]])
+                counts[4] += 1
             else:
-                copy_event(before, i, ended, end_out)
-                ended += 1
+                copy_event(p, told_inout.end[counts[3]])
+                counts[3] += 1
             i += 1
             continue
-        c = contacts[j]
+        m = manifolds[j]
         last = j
-        active = False
-        acted = False
-        deepest = j
-        fastest = j
-        while last < len(contacts) and contacts[last].shape_a == c.shape_a and contacts[last].shape_b == c.shape_b:
-            k = contacts[last]
-            if k.separation <= 0.0 or k.normal_impulse > 0.0 or k.swept or (old and k.separation <= slop):
-                active = True
-            if k.normal_impulse > 0.0:
-                acted = True
-            if k.separation < contacts[deepest].separation:
-                deepest = last
-            if k.speed > contacts[fastest].speed:
-                fastest = last
+        while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
             last += 1
-        if active:
-            write_event(contacts[deepest], touching, now_out)
-            touching += 1
-            if old:
-                write_event(contacts[deepest], persisted, persist_out)
-                persisted += 1
-            else:
-                write_event(contacts[deepest], begun, begin_out)
-                begun += 1
-            if (acted or not old) and contacts[fastest].speed > hit_speed:
-                write_event(contacts[fastest], hits, hits_out)
-                total = 0.0
-                for k in range(j, last):
-                    total += contacts[k].normal_impulse
-                hits_out[hits].speed = contacts[fastest].speed
-                hits_out[hits].normal_impulse = total
-                hits += 1
-        elif old:
-            copy_event(before, i, ended, end_out)
-            ended += 1
+        active = tell_pair(manifolds, j, last, old, slop, hit_speed, told_inout)
+        if old and not active:
+            copy_event(before[i], told_inout.end[counts[3]])
+            counts[3] += 1
         for k in range(j, last):
-            keep_out[k] = active
+            told_inout.keep[k] = active
         if old:
             i += 1
         j = last
-    counts_out[0] = touching
-    counts_out[1] = begun
-    counts_out[2] = persisted
-    counts_out[3] = ended
-    counts_out[4] = hits
 
 
 class Pairs:
@@ -153,43 +192,61 @@ class Pairs:
 
     def __init__(self):
         self.count = 0
-        self.tables = [np.zeros(16, dtype) for dtype in (EVENT, EVENT, EVENT, EVENT, HIT)]
+        self.told = new_told(16)
         self.before = np.zeros(16, EVENT)
-        self.keep = np.zeros(16, np.bool_)
-        self.counts = np.zeros(5, np.int64)
 
-    def compare(self, contacts, parked, sensors: bool, slop: float, hit_speed: float):
-        """Take in the contacts of a step. Returns (begin, persist, end, hits, keep)."""
-        room = self.count + len(contacts)
-        if room > len(self.keep):
-            self.tables = [np.zeros(2 * room, each.dtype) for each in self.tables]
+    @property
+    def rows(self) -> np.ndarray:
+        """EVENT rows of the pairs that touch, in the order of shape ids."""
+        return self.before[: self.count]
+
+    def compare(self, manifolds, parked, sensors: bool, slop: float, hit_speed: float) -> Told:
+        """Take in the manifolds of a step. Returns what is told of them, each array as long as it is."""
+        room = self.count + len(manifolds)
+        if room > len(self.told.keep):
+            self.told = new_told(2 * room)
             before = np.zeros(2 * room, EVENT)
-            before[: self.count] = self.before[: self.count]
-            self.before, self.keep = before, np.zeros(2 * room, np.bool_)
-        compare_pairs(
-            self.before[: self.count],
-            contacts,
-            parked,
-            int(sensors),
-            slop,
-            hit_speed,
-            *self.tables,
-            self.keep,
-            self.counts,
+            before[: self.count] = self.rows
+            self.before = before
+        compare_pairs(self.rows, manifolds, parked, int(sensors), slop, hit_speed, self.told)
+        whole, counts = self.told, self.told.counts.tolist()
+        told = Told(
+            *(table[:count] for table, count in zip(whole[:6], counts, strict=True)),
+            whole.keep[: len(manifolds)],
+            whole.counts,
         )
-        now, *changes = (table[:count] for table, count in zip(self.tables, self.counts.tolist()))
-        self.count = len(now)
         # What touches now is what touched before, next time: the two tables change places.
-        self.tables[0], self.before = self.before, self.tables[0]
-        return *changes, self.keep[: len(contacts)]
+        self.count = counts[0]
+        self.told, self.before = whole._replace(now=self.before), whole.now
+        return told
+
+    def give_back(self, rows):
+        """Take in pairs that were kept aside."""
+        if len(rows):
+            both = np.concatenate([self.rows, rows])
+            self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
+
+    def take_resting(self, bodies) -> np.ndarray:
+        """Take out, and return, the pairs of which neither side is among the rows that a step goes over."""
+        rows = self.rows
+        if not len(rows):
+            return rows.copy()
+        resting = np.ones(len(rows), bool)
+        for side in ("body_a", "body_b"):
+            at = rows_of(bodies, rows[side])
+            resting &= (at >= 0) & ~bodies["active"][at]  # what is gone stays, and ends
+        taken = rows[resting]
+        if len(taken):
+            self.restore(rows[~resting])
+        return taken
 
     def restore(self, touching):
         """Set the pairs that touch."""
-        self.__init__()
         self.count = len(touching)
-        self.before = np.zeros(max(16, self.count), EVENT)
+        self.before = np.zeros(max(len(self.told.keep), 2 * self.count), EVENT)
         self.before[: self.count] = touching
-        self.keep = np.zeros(0, np.bool_)  # grown, with all tables, by the next comparison
+        if len(self.told.keep) < len(self.before):
+            self.told = new_told(len(self.before))
 
 
 class Events:
@@ -199,3 +256,43 @@ class Events:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = np.zeros(0, EVENT)
         self.hits = np.zeros(0, HIT)
         self.quarantined = np.zeros(0, QUARANTINE)
+
+
+@stage(
+    "events",
+    reads=(
+        "effects",
+        "tolerances",
+        "bodies",
+        "manifolds",
+        "sensed",
+        "parked",
+        "touching",
+        "sensing",
+        "sleepers",
+        "events",
+        "told",
+    ),
+    writes=("touching", "sensing", "sleepers", "events", "told", "work"),
+)
+def tell(state):
+    """Compare what touches with what touched before, and say what changed."""
+    manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
+    parked, keys = state.parked if state.parked is not None else (NOTHING, None)
+    told = state.touching.compare(manifolds, parked, False, tolerances.slop, tolerances.hit_speed)
+    events.begin, events.end, events.hits = told.begin, told.end, told.hits
+    if effects.persist:
+        events.persist = told.persist
+    keep = told.keep
+    if effects.sensors:
+        sensed = manifolds if state.sensed is None else state.sensed
+        found = state.sensing.compare(sensed, NOTHING, True, 0.0, np.inf)
+        events.sensor_begin, events.sensor_end = found.begin, found.end
+        if state.sensed is None:
+            keep = keep & ~manifolds["sensor"]
+    if keys is not None:
+        if len(told.aside):
+            state.sleepers.keep_touching(told.aside, parked, keys)
+        state.sleepers.keep_told(state)
+    state.told = (manifolds, keep)
+    state.work[CONTACTS] = int(manifolds["count"][keep].sum())

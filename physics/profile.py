@@ -1,8 +1,5 @@
 """What a step cost: seconds and work per stage. Counters are an int64 array that kernels add to."""
 
-from contextlib import contextmanager
-from time import perf_counter
-
 import numpy as np
 
 from physics.tables.counters import COUNTERS
@@ -21,16 +18,7 @@ class Profile:
         for name in self.stages:
             self.stages[name] = 0.0
 
-    @contextmanager
-    def time(self, stage):
-        """Add the seconds spent inside to a stage."""
-        start = perf_counter()
-        try:
-            yield
-        finally:
-            self.stages[stage] += perf_counter() - start
-
     @property
     def counters(self) -> dict[str, int]:
         """{name: int} of the last step, every name always present."""
-        return dict(zip(COUNTERS, self.work.tolist()))
+        return dict(zip(COUNTERS, self.work.tolist(), strict=True))

@@ -10,6 +10,8 @@ from dataclasses import astuple
 import numpy as np
 
 from physics import checks
+from physics.dynamics.awake import Awake
+from physics.dynamics.sleep import Island, Sleepers
 from physics.shapes.convex import Capsule, Polygon
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
@@ -18,10 +20,11 @@ from physics.shapes.material import Material
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.character import CHARACTER
-from physics.tables.contact import CONTACT, EVENT
+from physics.tables.contact import EVENT
+from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
 
-VERSION = 2
+VERSION = 3
 DAMAGE = (
     ValueError,
     TypeError,
@@ -42,9 +45,14 @@ TABLES = {
     "characters": CHARACTER,
     "touching": EVENT,
     "sensing": EVENT,
-    "contacts": CONTACT,
-    "found": CONTACT,
-    "parked": CONTACT,
+    "told": MANIFOLD,
+    "manifolds": MANIFOLD,
+    "anchors": ANCHOR,
+    "resting_touching": EVENT,
+    "resting_sensing": EVENT,
+    "island_manifolds": MANIFOLD,
+    "island_anchors": ANCHOR,
+    "island_touching": EVENT,
 }
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
@@ -117,11 +125,15 @@ def take(world) -> Snapshot:
         "bodies": world.bodies.copy(),
         "shapes": world.shapes.copy(),
         "characters": world.characters.rows.copy(),
-        "touching": world._touching.before[: world._touching.count].copy(),
-        "sensing": world._sensing.before[: world._sensing.count].copy(),
-        "contacts": world.contacts.copy(),
-        "found": world.found_contacts.copy(),
-        "parked": world.parked.copy(),
+        "touching": world.touching.rows.copy(),
+        "sensing": world.sensing.rows.copy(),
+        "told": world.told_manifolds().copy(),
+        "manifolds": world.manifolds.copy(),
+        "anchors": world.anchors.copy(),
+        "resting_touching": world.sleepers.touching.copy(),
+        "resting_sensing": world.sleepers.sensing.copy(),
+        "stirred": np.array(world.awake.stirred, np.int64),
+        **_islands_apart(world.sleepers.islands),
     }
     for number, shape in enumerate(library.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -171,19 +183,52 @@ def restore(world, taken):
     for table, name in ((world._bodies, "bodies"), (world._shapes, "shapes"), (world.characters, "characters")):
         table.count = 0
         table.append(len(arrays[name]))[:] = arrays[name]
-    world._touching.restore(arrays["touching"])
-    world._sensing.restore(arrays["sensing"])
-    world.tell_contacts(arrays["contacts"].copy())
-    world.found_contacts, world.parked = arrays["found"].copy(), arrays["parked"].copy()
+    world.touching.restore(arrays["touching"])
+    world.sensing.restore(arrays["sensing"])
+    world.tell_contacts(arrays["told"].copy())
+    world.manifolds, world.anchors = arrays["manifolds"].copy(), arrays["anchors"].copy()
+    world.sleepers = _sleepers(arrays)
     if facts["stacks"] != world.stacks:
-        # Under the other kind of solver contacts keep other facts, and nobody knows of those that sleep.
-        world.found_contacts, world.parked = world.found_contacts[:0], world.parked[:0]
+        # Under the other kind of solver manifolds keep other facts, and nobody knows of those that sleep.
+        world.manifolds, world.anchors = world.manifolds[:0], world.anchors[:0]
+        world.sleepers = Sleepers()
         world.bodies["awake"] = ~world.bodies["quarantined"]
+    world.bodies["active"] = not world.sleeps
+    world.awake = Awake(world.sleeps)
+    world.awake.stir(arrays["stirred"].tolist())
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
     world.gravity, world.wind, world.drag = facts["gravity"], facts["wind"], facts["drag"]
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
     world.rebuild_proxies()
+
+
+def _islands_apart(islands) -> dict:
+    """Sleeping islands as flat arrays: each with the key that its rows belong to."""
+    keys = sorted(islands)
+    apart = {"island_keys": np.array(keys, np.int64)}
+    for name, empty in (
+        ("bodies", np.zeros(0, np.int64)),
+        ("manifolds", np.zeros(0, MANIFOLD)),
+        ("anchors", np.zeros(0, ANCHOR)),
+        ("touching", np.zeros(0, EVENT)),
+    ):
+        parts = [getattr(islands[key], name) for key in keys]
+        apart["island_" + name] = np.concatenate([empty, *parts])
+        apart[f"island_{name}_counts"] = np.array([len(part) for part in parts], np.int64)
+    return apart
+
+
+def _sleepers(arrays) -> Sleepers:
+    """Sleeping islands from flat arrays."""
+    sleepers, fields = Sleepers(), ("bodies", "manifolds", "anchors", "touching")
+    parts = {
+        name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
+    }
+    for number, key in enumerate(arrays["island_keys"].tolist()):
+        sleepers.put(key, Island(*(parts[name][number].copy() for name in fields)))
+    sleepers.touching, sleepers.sensing = arrays["resting_touching"].copy(), arrays["resting_sensing"].copy()
+    return sleepers
 
 
 def _unpack(arrays, facts):
@@ -198,6 +243,8 @@ def _unpack(arrays, facts):
     sources = {identity: (library.masks[mask],) for identity, _, mask in facts["tiers"]}
     random = np.random.default_rng()
     random.bit_generator.state = facts["random"]
+    _sleepers(arrays)
+    checks.ids("stirred", arrays["stirred"])
     for name in ("next_body", "next_shape"):
         checks.whole(name, facts[name], 0, 2**62)
     for name in ("gravity", "wind"):

@@ -1,14 +1,19 @@
 """World: owns the tables and runs the stages. Start reading at `step`."""
 
 from bisect import bisect_left
+from time import perf_counter
 
 import numpy as np
 
-from physics import checks, editing, snapshot, stages
+from physics import checks, editing, snapshot
 from physics.body import Body
+from physics.broadphase.pair_list import PairList
+from physics.broadphase.rectangles import write_rectangles
 from physics.broadphase.spatial_hash import SpatialHashGrid
-from physics.character import carry
+from physics.collision.manifold import contacts_of
 from physics.dynamics import sleep
+from physics.dynamics.awake import Awake
+from physics.dynamics.sleep import Sleepers
 from physics.effects import Effects
 from physics.events import Events, Pairs
 from physics.profile import Profile
@@ -18,14 +23,14 @@ from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY,
 from physics.shapes.filter import Filter
 from physics.shapes.library import Library
 from physics.shapes.material import Material
-from physics.tables.body import BODY, STATIC
+from physics.step import SOLVERS, STACKING, Workspace, begin, finish, plan
+from physics.tables.body import BODY, DYNAMIC, STATIC
 from physics.tables.character import CHARACTER
-from physics.tables.contact import CONTACT
+from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.rows import rows_of
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 
-SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
-NEEDS_STACKING = ("sequential_impulse", "soft_step")
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
@@ -69,31 +74,28 @@ class World:
         self._solver = self._checked_solver(
             ("soft_step" if effects.stacking else "projection") if solver is None else solver
         )
-        self._bodies, self._shapes = Table(BODY), Table(SHAPE)
+        self._bodies, self._shapes, self.characters = Table(BODY), Table(SHAPE), Table(CHARACTER)
         self.library = Library()
-        self.pairs = stages.PairList()
         self._broadphase, self._stepping = None, False
         self._next_body = self._next_shape = 0
         self._users, self._shapes_of, self._tiers, self._sources = {}, {}, {}, {}
-        self.characters = Table(CHARACTER)
-        self.walk_scratch, self.walk_moved = carry.walk_room()
-        self._touching, self._sensing = Pairs(), Pairs()
-        self.impacts, self.impact_scratch = stages.impact_room()
-        self.impact_count = self.changed_count = 0
-        # All contacts of the last step, also those that are only near; those between what sleeps; those with sensors where
-        # these are looked for apart, None where they stand among the others.
-        self.found_contacts = self.parked = np.zeros(0, CONTACT)
-        self.tell_contacts(self.found_contacts, np.zeros(0, bool))
-        self.sensed = self.impact_ghosts = None
-        self.swept_sensors = self.found_contacts
-        self._room = np.zeros(16, np.int64)
+        # What is remembered from step to step.
+        self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
+        self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+        self.sensed = self.ghosts = None
+        self.touching, self.sensing = Pairs(), Pairs()
+        # What the last step told.
+        self.tell_contacts(self.manifolds)
         self.queries, self.events = QueryIndex(), Events()
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
 
+    def __getstate__(self):
+        return {name: value for name, value in vars(self).items() if name not in ("workspace", "_stages")}
+
     def __setstate__(self, state):
         vars(self).update(state)
-        self._plan_list = stages.plan(self._effects, self._solver)  # a copy's stages keep rows of their own
+        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -102,38 +104,45 @@ class World:
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
         self.profile.begin()
-        self.events = Events()
         self._stepping = True
         try:
-            for stage in self._plan_list:
-                with self.profile.time(stage.name):
-                    stage.run(self, dt)
+            state = begin(self, dt)
+            for stage in self._stages:
+                started = perf_counter()
+                stage(state)
+                self.profile.stages[stage.stage] += perf_counter() - started
+            finish(self, state)
         finally:
             self._stepping = False
 
     def refresh_character_rows(self):
         """Bring the body rows of the characters up to date."""
-        if len(self.characters.rows):
-            self.characters.rows["body_row"] = self.rows(self.characters.rows["body"])
-
-    def scratch_rows(self, count) -> np.ndarray:
-        """Room for that many row numbers, reused by every stage that asks."""
-        if len(self._room) < count:
-            self._room = np.zeros(2 * count, np.int64)
-        return self._room
+        characters = self.characters.rows
+        if len(characters):
+            characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def _plan(self):
-        self._plan_list = stages.plan(self._effects, self._solver)
+        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
         if (self.sensed is not None) != self.stacks:
-            # The two kinds of worlds keep other facts in their contacts.
-            self.sensed = np.zeros(0, CONTACT) if self.stacks else None
-            self.found_contacts = np.zeros(0, CONTACT)
+            # The two kinds of worlds keep other facts of their contacts.
+            self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+            self.sensed = self.manifolds if self.stacks else None
+        if self.awake.sleeping != self.sleeps:
+            self._let_sleep(self.sleeps)
         self.profile = Profile(self.stages)
+
+    def _let_sleep(self, sleeping):
+        """From now on the steps go over what is awake, or over everything."""
+        self.awake = Awake(sleeping)
+        self.bodies["active"] = not sleeping
+        self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
+        self.pairs.let_sleep(sleeping)
+        self.sleepers.return_all(self)
 
     @property
     def stages(self) -> list[str]:
         """Names of the stages that the effects call for, in the order in which they run."""
-        return [stage.name for stage in self._plan_list]
+        return [stage.stage for stage in self._stages]
 
     @property
     def effects(self) -> Effects:
@@ -161,11 +170,16 @@ class World:
     @property
     def stacks(self) -> bool:
         """Whether the solver is one whose contacts remember."""
-        return self._solver in NEEDS_STACKING
+        return self._solver in STACKING
+
+    @property
+    def sleeps(self) -> bool:
+        """Whether what has come to rest is left out of the steps."""
+        return self.stacks and self._effects.sleeping
 
     def _checked_solver(self, name):
         name = checks.choice("solver", name, SOLVERS)
-        self._needs("stacking", f"solver {name!r}", name in NEEDS_STACKING)
+        self._needs("stacking", f"solver {name!r}", name in STACKING)
         return name
 
     @property
@@ -252,30 +266,43 @@ class World:
     @property
     def contacts(self) -> np.ndarray:
         """CONTACT rows of what touches, was pushed, or was met on the way in the last step, in the order of shape ids."""
-        if self._keep is not None:
-            self._contacts = self._contacts if self._keep.all() else self._contacts[self._keep]
-            self._keep = None
+        if self._contacts is None:
+            self._contacts = contacts_of(self.told_manifolds())
         return self._contacts
 
-    def tell_contacts(self, contacts, keep=None):
-        """Take in the contacts of a step, of which the flagged ones count; picked out when somebody looks."""
-        self._contacts, self._keep = contacts, keep
+    def told_manifolds(self) -> np.ndarray:
+        """MANIFOLD rows that `contacts` lists the points of."""
+        manifolds, keep = self._told
+        return manifolds if keep is None or keep.all() else manifolds[keep]
+
+    @property
+    def sleeping_contacts(self) -> np.ndarray:
+        """CONTACT rows, as `contacts`, of the pairs that sleep, as they were when they fell asleep."""
+        return contacts_of(self.sleepers.manifolds())
+
+    def tell_contacts(self, manifolds, keep=None):
+        """Take in the manifolds of a step, of which the flagged ones count; their points are listed when somebody looks."""
+        self._told, self._contacts = (manifolds, keep), None
 
     @property
     def candidates(self) -> np.ndarray:
         """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
-        return self.pairs.ids.astype(np.int32)
+        return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids) -> np.ndarray:
         """Row numbers of body ids in `world.bodies`. Raises KeyError for an id that is not there."""
         ids = np.asarray(ids, np.int64)
-        known = np.ascontiguousarray(self.bodies["id"])
-        rows = np.searchsorted(known, ids)
-        there = rows < len(known)
-        if not there.all() or not np.array_equal(known[rows], ids):
-            missing = ids[~there | (known[np.where(there, rows, 0)] != ids)] if len(known) else ids
-            raise KeyError(f"no body {missing.ravel()[0]} in this world")
-        return rows
+        rows = rows_of(self.bodies, ids.ravel())
+        if (rows < 0).any():
+            raise KeyError(f"no body {ids.ravel()[rows < 0][0]} in this world")
+        return rows.reshape(ids.shape)
+
+    def touch(self, ids):
+        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their boxes
+        follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises KeyError,
+        TypeError, ValueError; nothing is touched then."""
+        self._unlocked()
+        editing.touch(self, ids)
 
     # --- adding and removing ---------------------------------------------------------------------------------------
 
@@ -383,9 +410,10 @@ class World:
             return
         keep = np.ones(self._bodies.count, bool)
         keep[self.rows(ids)] = False
-        sleep.wake_ids(self, ids)
+        sleep.disturb(self, ids)
         self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
+        self.awake.keep_rows(keep)
         self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
         gone = set(ids.tolist())
         for table in (self._users, self._shapes_of, self._tiers, self._sources):
@@ -395,9 +423,11 @@ class World:
         sleep.forget(self)
 
     def _drop_shapes(self, keep):
-        self.pairs.ids  # named while the rows still stand
+        self.pairs.ids(self.shapes)  # named while the rows still stand
         self.pairs.free_proxies(self.shapes["proxy"][~keep])
         self._shapes.keep(keep)
+        self.pairs.rename(self.shapes)
+        self.awake.forget_shapes()
 
     def clear(self):
         """Remove every body. Ids go on from where they were."""
@@ -467,12 +497,16 @@ class World:
 
     def rebuild_proxies(self):
         """Give every shape a new place in the broad phase: the tables were replaced."""
-        self.pairs = stages.PairList()
+        self.pairs = PairList(self.sleeps)
+        self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
         active = ~self.bodies["quarantined"][self.shapes["body_row"]]
         rows = np.flatnonzero(active)
         self.shapes["proxy"] = -1
         self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
+        # What is not awake gets no rectangle in the next step: here, once.
+        changed = write_rectangles(self, rows)
+        self.pairs.again.append(self.pairs.changed[:changed].copy())
 
     def digest(self) -> str:
         """blake2b-128 of the state that the next step depends on, independent of rows, times and broad phase."""

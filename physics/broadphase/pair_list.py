@@ -2,19 +2,24 @@
 
 import numpy as np
 
-from physics.broadphase.proxies import Arena, keep_pairs, merge_pairs, pair_keys
-from physics.broadphase.rectangles import mark_settled
-from physics.tables.counters import CANDIDATES
+from physics.broadphase.proxies import Arena, keep_pairs, mark_settled, merge_pairs, pair_keys
+from physics.tables.counters import CANDIDATES, COUNTERS
 from physics.tables.proxy import PROXY
+from physics.tables.step_state import stage
+
+
+NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 
 class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step.
+    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be awake;
+    pairs of which neither side is awake are not kept.
     """
 
-    def __init__(self):
+    def __init__(self, sleeping: bool = False):
+        self.sleeping = sleeping
         self.arena = Arena()
         self.free = []  # slots that a new shape may take
         self.freed = []  # slots freed since the last update: strategies have not heard yet
@@ -26,18 +31,19 @@ class PairList:
         self.count = 0
         self.rows = self.candidates[:0]
         self.known_ids = self.candidates[:0]  # None until somebody asks
-        self.shapes = None
         self.everything = False  # the strategy is new: tell it about all proxies
+        self.again = []  # slots whose pairs are to be found again, besides those whose rectangles changed
+        self.moved = False  # shape rows have moved since the last update
+        self.resting = False  # pairs may have lost their last side that is awake
 
     @property
     def proxies(self):
         return self.arena.proxies
 
-    @property
-    def ids(self):
-        """(n, 2) shape ids of the candidates; rows may have moved since, so they are named before rows change."""
+    def ids(self, shapes) -> np.ndarray:
+        """(n, 2) shape ids of the candidates, whose rows are those of the SHAPE rows given, unless named before."""
         if self.known_ids is None:
-            self.known_ids = self.shapes["id"][self.rows]
+            self.known_ids = shapes["id"][self.rows]
         return self.known_ids
 
     def add_proxies(self, shapes, rows, still):
@@ -54,6 +60,7 @@ class PairList:
         for name in ("body", "membership", "mask"):
             self.proxies[name][slots] = shapes[name][rows]
         self.proxies["still"][slots] = still
+        self.proxies["awake"][slots] = not self.sleeping
         self.proxies["row"][slots] = -1  # until its rectangle is known
 
     def free_proxies(self, slots):
@@ -64,9 +71,38 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots):
-        """Have the pairs of these slots found anew: the rectangle pass lists what is flagged."""
+        """Have the rectangles of these slots written, and their pairs found, anew."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
+
+    def let_sleep(self, sleeping):
+        """From now on what is new is asleep until it is said to be awake, or everything is awake."""
+        self.sleeping = sleeping
+        self.proxies["awake"] = not sleeping
+        self.start_over()
+
+    def set_awake(self, slots, awake):
+        """Say whether slots are awake: the pairs of what wakes are found again, those of two that sleep are dropped."""
+        self.proxies["awake"][slots] = awake
+        if awake:
+            known = slots[self.proxies["row"][slots] >= 0]  # what is new is listed by its rectangle
+            self.proxies["changed"][known] = True
+            self.again.append(known)
+        else:
+            self.resting = True
+
+    def room_for(self, count) -> np.ndarray:
+        """Room for the slots that a rectangle pass over so many shapes lists."""
+        if len(self.changed) < count:
+            self.changed = np.zeros(2 * count, np.int64)
+        return self.changed
+
+    def rename(self, shapes):
+        """Shape rows have moved: tell the proxies theirs. The next update writes those of the candidates."""
+        slots = shapes["proxy"]
+        there = np.flatnonzero((slots >= 0) & (self.proxies["row"][slots] >= 0))
+        self.proxies["row"][slots[there]] = there
+        self.moved = True
 
     def widen(self, shapes, margin):
         """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed."""
@@ -80,7 +116,7 @@ class PairList:
             pick = np.minimum if axis < 0.0 else np.maximum
             self.proxies[low][slots] = pick(self.proxies[low][slots], shapes[high] + axis * margin)
         self.proxies["changed"][slots] = True
-        self.changed[: len(slots)] = slots
+        self.room_for(len(slots))[: len(slots)] = slots
 
     def set_filter(self, slots, value):
         """Change the filter of slots."""
@@ -111,16 +147,20 @@ class PairList:
             self.rows = self.known_ids = self.candidates[:0]
         else:
             arena.changed = self.changed[:changed_count]
-            if len(freed):
-                arena.changed = np.concatenate([arena.changed, freed])
-        if len(arena.changed):
-            strategy.update(arena)
+            if len(freed) or self.again:
+                arena.changed = np.unique(np.concatenate([arena.changed, freed, *self.again]))
+        self.again = []
+        if len(arena.changed) or (self.resting and self.count):
+            if len(arena.changed):
+                strategy.update(arena)
             self._collect(strategy, shapes)
             mark_settled(arena.changed, self.proxies)
-        elif len(self.rows):
+        elif self.moved and self.count:
             self._rename(shapes)
+        self.moved = self.resting = False
         self.free += self.freed
         self.freed = []
+        arena.work = NOBODY_COUNTS  # the counters are the step's
         work[CANDIDATES] = self.count
 
     def _collect(self, strategy, shapes):
@@ -141,11 +181,15 @@ class PairList:
         self.count = total
         self.rows = self.candidates[:total]
         self.known_ids = None
-        self.shapes = shapes
 
     def _rename(self, shapes):
         """Rows may have moved though nothing changed: a body without proxies was removed."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = None
-        self.shapes = shapes
+
+
+@stage("broad_phase", reads=("broadphase", "pairs", "shapes", "changed_count"), writes=("pairs", "broadphase", "work"))
+def broad_phase(state):
+    """The pairs whose rectangles touch and whose filters agree."""
+    state.pairs.update(state.broadphase, state.shapes, state.changed_count, state.work)

@@ -43,10 +43,10 @@ def may_meet(
     # write
     work_inout,
 ):
-    """Whether two boxes that touch may pair: not both still, not of one body, filters agree both ways. O(1)."""
+    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree both ways. O(1)."""
     p = proxies[a]
     q = proxies[b]
-    if (p.still and q.still) or p.body == q.body:
+    if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake):
         return False
     if (p.membership & q.mask) == 0 or (q.membership & p.mask) == 0:
         work_inout[FILTERED] += 1
@@ -113,7 +113,7 @@ def find_pairs(strategy, lower, upper) -> np.ndarray:
     for name in ("row", "body"):
         arena.proxies[name] = np.arange(len(lower))
     arena.proxies["membership"] = arena.proxies["mask"] = 1
-    arena.proxies["changed"] = True
+    arena.proxies["changed"] = arena.proxies["awake"] = True
     arena.changed = np.arange(len(lower), dtype=np.int64)
     strategy.update(arena)
     count = arena.collect(strategy.query(arena))
@@ -146,7 +146,7 @@ def keep_pairs(
     # write
     kept_out,
 ):
-    """Copy the pairs of which neither side changed or was freed, in their order.
+    """Copy the pairs of which neither side changed or was freed, and a side is awake, in their order.
 
     proxies PROXY rows; old, kept_out (capacity, 2) int32 slots. Returns how many were kept. O(pairs).
     """
@@ -154,7 +154,9 @@ def keep_pairs(
     for i in range(old_count):
         a = old[i, 0]
         b = old[i, 1]
-        if not (proxies[a].changed or proxies[b].changed):
+        p = proxies[a]
+        q = proxies[b]
+        if not (p.changed or q.changed) and (p.awake or q.awake):
             kept_out[kept, 0] = a
             kept_out[kept, 1] = b
             kept += 1
@@ -226,3 +228,10 @@ def merge_pairs(
         pairs_out[at, 1] = shapes[row_b].proxy
         candidates_out[at, 0] = row_a
         candidates_out[at, 1] = row_b
+
+
+@kernel
+def mark_settled(changed, proxies_inout):
+    """Clear the changed flag of the listed slots. O(changed)."""
+    for i in range(len(changed)):
+        proxies_inout[changed[i]].changed = False

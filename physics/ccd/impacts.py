@@ -9,6 +9,7 @@ import math
 
 from physics.ccd.linear import MISS, has_closed_form, write_impact
 from physics.ccd.rotational import sweep_turning
+from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, SWEPT
@@ -19,15 +20,17 @@ from physics.tables.shape import CHAIN, MASK, TILES
 @kernel
 def list_paths(
     # read
+    rows,
     bodies,
     # write
     paths_out,
 ):
-    """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(bodies).
+    """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
 
     What asks for a sweep without turning is swept at the angle it has before.
     """
-    for i in range(len(bodies)):
+    for k in range(len(rows)):
+        i = rows[k]
         b = bodies[i]
         u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.previous_angle), math.sin(b.previous_angle))
         paths_out[i, 0] = b.previous_x + u
@@ -42,20 +45,26 @@ def list_paths(
 @kernel
 def find_fast(
     # read
+    rows,
     bodies,
     paths,
     # write
     fast_out,
 ):
-    """Flag the bodies that a sweep is asked for. Returns their number. O(bodies).
+    """Flag the bodies that a sweep is asked for. Returns (their number, the number of those that are swept without turning,
+    moving or not). O(rows).
 
     "toi", "ray" and "swept" always, while they move; "auto" when a point may move by more than half the body's size.
     fast_out (bodies) bool.
     """
     found = 0
-    for i in range(len(bodies)):
+    straight = 0
+    for k in range(len(rows)):
+        i = rows[k]
         b = bodies[i]
         fast_out[i] = False
+        if b.kind == DYNAMIC and (b.continuous == RAY or b.continuous == SWEPT):
+            straight += 1
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
         moved = length_of(paths[i, 3] - paths[i, 0], paths[i, 4] - paths[i, 1])
@@ -63,19 +72,21 @@ def find_fast(
         if moved > 0.0 and (b.continuous != AUTO or moved > b.smallest_half):
             fast_out[i] = True
             found += 1
-    return found
+    return found, straight
 
 
 @kernel
 def foresee_paths(
     # read
+    rows,
     bodies,
     dt,
     # write
     paths_out,
 ):
-    """Write the paths (see list_paths) that the bodies will take in dt [s] if nothing is in the way. O(bodies)."""
-    for i in range(len(bodies)):
+    """Write the paths (see list_paths) that the bodies will take in dt [s] if nothing is in the way. O(rows)."""
+    for k in range(len(rows)):
+        i = rows[k]
         b = bodies[i]
         moves = 0.0 if b.kind == STATIC or b.quarantined else dt
         paths_out[i, 0] = b.center_x
@@ -136,6 +147,19 @@ def stands_still(bodies, paths, row):
     )
 
 
+@subkernel
+def rest_where_it_is(bodies, row, paths_inout, fast_inout):
+    """Give a body that no pass of this step goes over the path of one that stands."""
+    b = bodies[row]
+    if b.active:
+        return
+    fast_inout[row] = False
+    for k in range(0, 6, 3):
+        paths_inout[row, k] = b.center_x
+        paths_inout[row, k + 1] = b.center_y
+        paths_inout[row, k + 2] = b.angle
+
+
 @kernel
 def find_turning_impacts(
     # read
@@ -144,13 +168,13 @@ def find_turning_impacts(
     shapes,
     candidates,
     count,
-    paths,
-    fast,
     moving,
     everyone,
     slack,
     one_way,
     # write
+    paths,
+    fast,
     cuts,
     room,
     impacts_out,
@@ -168,6 +192,8 @@ def find_turning_impacts(
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
+        rest_where_it_is(bodies, a.body_row, paths, fast)
+        rest_where_it_is(bodies, b.body_row, paths, fast)
         if not (fast[a.body_row] or fast[b.body_row]):
             continue
         p = bodies[a.body_row]
@@ -208,12 +234,14 @@ def find_turning_impacts(
 @kernel
 def move_back(
     # read
+    rows,
     paths,
     # write
     bodies_inout,
 ):
-    """Put the dynamic bodies that were stopped where they stopped; their velocities stay. O(bodies)."""
-    for i in range(len(bodies_inout)):
+    """Put the dynamic bodies that were stopped where they stopped; their velocities stay. O(rows)."""
+    for k in range(len(rows)):
+        i = rows[k]
         b = bodies_inout[i]
         if b.fraction >= 1.0 or b.kind != DYNAMIC:
             continue
@@ -230,3 +258,58 @@ def move_back(
             u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
+
+
+@kernel
+def write_impacts(
+    # read
+    bodies,
+    shapes,
+    candidates,
+    impacts,
+    count,
+    dt,
+    response,
+    # write
+    manifolds_out,
+):
+    """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
+
+    impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the two boxes.
+    With response 1 the separation is that at the final poses: what a side went on by after the impact.
+    """
+    found = 0
+    for i in range(count):
+        pair = int(impacts[i, 0])
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        first = min(p.fraction, q.fraction)
+        if impacts[i, 1] > first:
+            continue
+        nx = impacts[i, 2]
+        ny = impacts[i, 3]
+        small_a = (a.max_x - a.min_x) + (a.max_y - a.min_y) <= (b.max_x - b.min_x) + (b.max_y - b.min_y)
+        s = a if small_a else b
+        side = 1.0 if small_a else -1.0
+        x = 0.5 * (s.min_x + s.max_x) + side * nx * 0.5 * (s.max_x - s.min_x)
+        y = 0.5 * (s.min_y + s.max_y) + side * ny * 0.5 * (s.max_y - s.min_y)
+        separation = 0.0
+        if response == 1:
+            after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)
+            after_y = (q.y - q.previous_y) - (p.y - p.previous_y) - impacts[i, 1] * dt * (q.vy - p.vy)
+            # What it slid on after a graze is no overlap.
+            separation = min(0.0, nx * after_x + ny * after_y) if impacts[i, 4] == 1.0 else 0.0
+        if found < len(manifolds_out):
+            m = manifolds_out[found]
+            open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
+            m.count = 1
+            m.x_1 = x
+            m.y_1 = y
+            m.separation_1 = separation
+            m.area_1 = 0.0
+            m.feature_1 = -1
+            m.swept = True
+        found += 1
+    return found

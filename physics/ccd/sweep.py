@@ -1,189 +1,259 @@
-"""The stage after a stacking solver that stops fast bodies at what they meet on their way.
+"""The stages that stop fast bodies at what they meet on their way.
 
-The solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it
-first met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
+Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the solver
+moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first met
+something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
 """
 
 import numpy as np
 
-from physics.ccd.impacts import find_fast, find_turning_impacts, foresee_paths, list_paths, move_back
+from physics.ccd.impacts import find_fast, find_turning_impacts, foresee_paths, list_paths, move_back, write_impacts
 from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
 from physics.ccd.rotational import new_turning_room
 from physics.collision.approach import measure_approach
-from physics.collision.contacts import new_scratch, write_impacts
+from physics.collision.detect import detect
+from physics.collision.manifold import new_workspace
 from physics.collision.persist import follow_bodies
-from physics.dynamics.sleep import in_order
+from physics.dynamics.integrate import place_shapes
+from physics.dynamics.sleep import in_order, order_of
 from physics.settings import IMPACT_ROUNDS
-from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, RAY, SWEPT
-from physics.tables.contact import CONTACT
 from physics.tables.counters import CAP_HITS
+from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.step_state import stage
 
 SAME_FRACTION = 1e-9  # of a step
+NO_IMPACTS = np.zeros((0, 5))
 
 
 class Sweeper:
-    """Room for the sweeps of one world."""
+    """The arrays that sweeps of one world need, grown and used again."""
 
-    def __init__(self, one_way: bool):
-        self.one_way = one_way
+    def __init__(self):
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
         self.impacts = np.zeros((16, 5))
-        self.turning, self.scratch = new_turning_room(), new_scratch()
+        self.turning, self.workspace = new_turning_room(), new_workspace()
 
-    def run(self, world, dt):
-        """Find the fast bodies, what they meet, and put them there."""
-        bodies, work = world.bodies, world.profile.work
-        world.impact_ghosts = None
-        fast, paths = self._room(len(bodies))
-        list_paths(bodies, paths)
-        found = find_fast(bodies, paths, fast)
-        straight = (bodies["kind"] == DYNAMIC) & ((bodies["continuous"] == RAY) | (bodies["continuous"] == SWEPT))
-        if not found and not straight.any():
-            return
-        refresh_aabbs(world.library.tables, bodies, world.shapes)
-        self._cover(world, fast | straight)
-        bodies["fraction"] = 1.0
-        met = self._straight(world, dt) if straight.any() else np.zeros((0, 5))
-        if found:
-            met = np.concatenate([met, self._find(world, 0)])
-            rounds = 0
-            moving = self._find(world, 1)
-            while len(moving) and self._stop(world, moving):
-                rounds += 1
-                if rounds == IMPACT_ROUNDS:
-                    work[CAP_HITS] += 1
-                    break
-                moving = self._find(world, 1)
-            met = np.concatenate([met, moving])
-        stopped = bodies["fraction"] < 1.0
-        if stopped.any():
-            world.impact_ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
-            move_back(paths, bodies)
-            follow_bodies(bodies, world.found_contacts)
-            add_missing_rasters(world, 0.0)
-            refresh_aabbs(world.library.tables, bodies, world.shapes)
-        self._tell(world, met, dt)
+    def grow(self, state):
+        """Make room for the bodies and the candidates of a step."""
+        bodies, candidates = len(state.bodies), len(state.pairs.rows)
+        if len(self.fast) < bodies:
+            self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
+            self.fast = np.zeros(2 * bodies, bool)
+        if len(self.impacts) < candidates:
+            self.impacts = np.zeros((2 * candidates, 5))
 
-    def foresee(self, world, dt):
-        """Impacts (n, 5) of the bodies that are about to turn or to meet what only this sweep knows, before they move."""
-        bodies = world.bodies
-        fast, paths = self._room(len(bodies))
-        foresee_paths(bodies, dt, paths)
-        if not find_fast(bodies, paths, fast):
-            return np.zeros((0, 5))
-        bodies["fraction"] = 1.0
-        everyone = 1 if world.effects.rotation else 2
-        return np.concatenate([self._look(world, 0, everyone), self._look(world, 1, everyone)])
 
-    def _room(self, n):
-        if len(self.fast) < n:
-            self.paths, self.cuts, self.fast = np.zeros((2 * n, 6)), np.zeros((2 * n, 6)), np.zeros(2 * n, bool)
-        return self.fast[:n], self.paths[:n]
+def _look(state, moving, everyone) -> np.ndarray:
+    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1). everyone: see find_turning_impacts."""
+    sweeper, rows = state.workspace.sweep, state.pairs.rows
+    sweeper.grow(state)
+    found = find_turning_impacts(
+        state.library.tables,
+        state.bodies,
+        state.shapes,
+        rows,
+        len(rows),
+        moving,
+        everyone,
+        state.tolerances.slop,
+        state.effects.one_way,
+        sweeper.paths,
+        sweeper.fast,
+        sweeper.cuts,
+        sweeper.turning,
+        sweeper.impacts,
+        state.work,
+    )
+    return sweeper.impacts[:found].copy()
 
-    def _cover(self, world, rows):
-        """Where a body went further than its rectangle foresaw, look for what it may have met there."""
-        shapes, pairs = world.shapes, world.pairs
-        own = np.flatnonzero(rows[shapes["body_row"]] & (shapes["proxy"] >= 0))
-        proxies = pairs.proxies[shapes["proxy"][own]]
-        s = shapes[own]
-        out = (
-            (s["min_x"] < proxies["lower_x"])
-            | (s["max_x"] > proxies["upper_x"])
-            | (s["min_y"] < proxies["lower_y"])
-            | (s["max_y"] > proxies["upper_y"])
-        )
-        if out.any():
-            pairs.widen(s[out], world.tolerances.slop)
-            pairs.update(world.broadphase, shapes, int(out.sum()), world.profile.work)
 
-    def _find(self, world, moving):
-        """Impacts of the fast with what stands still (moving 0), or moves (1); those that stand still stop them at once."""
-        impacts = self._look(world, moving, 0)
-        if not moving:
-            stop_at_impacts(world.shapes, world.pairs.rows, impacts, len(impacts), world.bodies)
-        return impacts
+def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
+    """Impacts (n, 5) of the bodies whose way has a closed form."""
+    sweeper, rows = state.workspace.sweep, state.pairs.rows
+    sweeper.grow(state)
+    found = find_impacts_by_mode[state.effects.one_way](
+        state.library.tables,
+        bodies,
+        state.shapes,
+        rows,
+        len(rows),
+        dt,
+        state.tolerances.slop,
+        int(only_straight),
+        sweeper.workspace,
+        sweeper.impacts,
+        state.work,
+    )
+    return sweeper.impacts[:found].copy()
 
-    def _look(self, world, moving, everyone):
-        rows, n = world.pairs.rows, len(world.bodies)
-        if len(self.impacts) < len(rows):
-            self.impacts = np.zeros((2 * len(rows), 5))
-        found = find_turning_impacts(
-            world.library.tables,
-            world.bodies,
-            world.shapes,
-            rows,
-            len(rows),
-            self.paths[:n],
-            self.fast[:n],
-            moving,
-            everyone,
-            world.tolerances.slop,
-            self.one_way,
-            self.cuts[:n],
-            self.turning,
-            self.impacts,
-            world.profile.work,
-        )
-        return self.impacts[:found].copy()
 
-    def _stop(self, world, impacts):
-        """Stop the bodies of these impacts. Returns whether anybody stops earlier than before."""
-        before = world.bodies["fraction"].copy()
-        stop_at_impacts(world.shapes, world.pairs.rows, impacts, len(impacts), world.bodies)
-        # The same impact may come out a rounding earlier from the shortened paths: that stops nobody anew.
-        return bool((world.bodies["fraction"] < before - SAME_FRACTION).any())
+FORESEEN = ("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "workspace")
+PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 
-    def _straight(self, world, dt):
-        """Impacts of the bodies that ask for a ray or a sweep without turning: along the way that the solver found."""
-        rows = world.pairs.rows
-        moved = world.bodies.copy()
-        for name, velocity in (("x", "vx"), ("y", "vy")):
-            moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
-            moved[name] = moved["previous_" + name]
-        moved["angle"] = moved["previous_angle"]
-        if len(self.impacts) < len(rows):
-            self.impacts = np.zeros((2 * len(rows), 5))
-        find = find_impacts_by_mode[self.one_way]
-        found = find(
-            world.library.tables,
-            moved,
-            world.shapes,
-            rows,
-            len(rows),
-            dt,
-            world.tolerances.slop,
-            1,
-            self.scratch,
-            self.impacts,
-            world.profile.work,
-        )
-        impacts = self.impacts[:found].copy()
-        stop_at_impacts(world.shapes, rows, impacts, found, world.bodies)
-        return impacts
 
-    def _tell(self, world, met, dt):
-        """Add the impacts to what touches, and to what is sensed: begun in this step, though the push comes in the next."""
-        if not len(met):
-            return
-        room = np.zeros(len(met), CONTACT)
-        found = write_impacts(world.bodies, world.shapes, world.pairs.rows, met, len(met), dt, 0, room)
-        contacts = room[:found]
-        # Two ways of being found are one impact.
-        _, first = np.unique(contacts["shape_a"] << 32 | contacts["shape_b"], return_index=True)
-        contacts = contacts[first]
-        measure_approach(world.bodies, contacts)
-        sensed = contacts[contacts["sensor"]]
-        if len(sensed):
-            world.swept_sensors = sensed
-        solid = contacts[~contacts["sensor"]]
-        known = world.found_contacts["shape_a"] << 32 | world.found_contacts["shape_b"]
-        keys = solid["shape_a"] << 32 | solid["shape_b"]
-        world.found_contacts["swept"][np.isin(known, keys)] = True
-        new = solid[~np.isin(keys, known)]
+@stage("time_of_impact", reads=FORESEEN, writes=("impacts", "work", "workspace", "bodies.fraction"))
+def foresee_impacts(state):
+    """What the bodies are about to meet, and which part of their motion is free."""
+    sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
+    found = _look_straight(state, bodies, dt, state.effects.rotation)
+    foresee_paths(rows, bodies, dt, sweeper.paths)
+    bodies["fraction"][rows] = 1.0
+    if find_fast(rows, bodies, sweeper.paths, sweeper.fast)[0]:
+        everyone = 1 if state.effects.rotation else 2
+        found = np.concatenate([found, _look(state, 0, everyone), _look(state, 1, everyone)])
+    state.impacts = found
+    if state.effects.response:
+        stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
+
+
+@stage("narrow_phase", reads=(*FORESEEN, "impacts"), writes=("manifolds", "work", "workspace"))
+def detect_moved(state):
+    """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
+    manifolds = detect(state)
+    if not len(state.impacts):
+        state.manifolds = manifolds
+        return
+    met = _written(state, state.impacts, int(state.effects.response))
+    # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
+    passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
+    manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
+    # A body that ended just behind what it flew through is near it, but going away: the impact is what counts.
+    two = manifolds["count"] == 2
+    nears = (manifolds["speed_1"] > 0.0) | (two & (manifolds["speed_2"] > 0.0))
+    apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
+    seen = np.isin(manifolds["candidate"], met["candidate"])
+    manifolds["swept"][seen & nears] = True
+    manifolds = manifolds[~(seen & ~nears & apart)]
+    met = met[~np.isin(met["candidate"], manifolds["candidate"])]
+    state.manifolds = in_order(np.concatenate([manifolds, met]))
+
+
+def _written(state, impacts, response) -> np.ndarray:
+    """MANIFOLD rows of the impacts that are the first of a body, with the speeds of approach."""
+    room = np.zeros(len(impacts), MANIFOLD)
+    found = write_impacts(state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, room)
+    measure_approach(state.bodies, room[:found])
+    return room[:found]
+
+
+@stage(
+    "time_of_impact",
+    reads=(*FORESEEN, "manifolds", "anchors", "swept_sensors", "broadphase"),
+    writes=(
+        "manifolds",
+        "anchors",
+        "swept_sensors",
+        "ghosts",
+        "pairs",
+        "broadphase",
+        "library",
+        "work",
+        "workspace",
+        "bodies.fraction",
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")),
+        *PLACED,
+    ),
+)
+def sweep_piles(state):
+    """Find the fast bodies, what they have met in the step, and put them there."""
+    bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
+    state.ghosts = None
+    sweeper.grow(state)
+    paths, fast = sweeper.paths, sweeper.fast
+    list_paths(rows, bodies, paths)
+    found, straight = find_fast(rows, bodies, paths, fast)
+    if not found and not straight:
+        return
+    place_shapes(state)
+    _cover(state)
+    met = _sweep_straight(state) if straight else NO_IMPACTS
+    if found:
+        met = np.concatenate([met, _sweep_turning(state)])
+    stopped = rows[bodies["fraction"][rows] < 1.0]
+    if len(stopped):
+        state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
+        move_back(stopped, paths, bodies)
+        follow_bodies(bodies, state.anchors, state.manifolds)
+        place_shapes(state)
+    _tell(state, met)
+
+
+def _cover(state):
+    """Where a body went further than its rectangle foresaw, look for what it may have met there."""
+    shapes, pairs, bodies = state.shapes, state.pairs, state.bodies
+    own = state.awake.shapes
+    owners = shapes["body_row"][own]
+    asks = np.isin(bodies["continuous"][owners], (RAY, SWEPT)) & (bodies["kind"][owners] == DYNAMIC)
+    own = own[(state.workspace.sweep.fast[owners] | asks) & (shapes["proxy"][own] >= 0)]
+    s, proxies = shapes[own], pairs.proxies[shapes["proxy"][own]]
+    out = (
+        (s["min_x"] < proxies["lower_x"])
+        | (s["max_x"] > proxies["upper_x"])
+        | (s["min_y"] < proxies["lower_y"])
+        | (s["max_y"] > proxies["upper_y"])
+    )
+    if out.any():
+        pairs.widen(s[out], state.tolerances.slop)
+        pairs.update(state.broadphase, shapes, int(out.sum()), state.work)
+
+
+def _sweep_straight(state) -> np.ndarray:
+    """Impacts of the bodies that ask for a ray or a sweep without turning: along the way that the solver found."""
+    dt, moved = state.dt, state.bodies.copy()
+    for name, velocity in (("x", "vx"), ("y", "vy")):
+        moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
+        moved[name] = moved["previous_" + name]
+    moved["angle"] = moved["previous_angle"]
+    impacts = _look_straight(state, moved, dt, True)
+    stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
+    return impacts
+
+
+def _sweep_turning(state) -> np.ndarray:
+    """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
+    met = _look(state, 0, 0)
+    stop_at_impacts(state.shapes, state.pairs.rows, met, len(met), state.bodies)
+    moving, rounds = _look(state, 1, 0), 0
+    while len(moving) and _stop(state, moving):
+        rounds += 1
+        if rounds == IMPACT_ROUNDS:
+            state.work[CAP_HITS] += 1
+            break
+        moving = _look(state, 1, 0)
+    return np.concatenate([met, moving])
+
+
+def _stop(state, impacts) -> bool:
+    """Stop the bodies of these impacts. Returns whether anybody stops earlier than before."""
+    rows = state.awake.bodies
+    before = state.bodies["fraction"][rows]
+    stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
+    # The same impact may come out a rounding earlier from the shortened paths: that stops nobody anew.
+    return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
+
+
+def _tell(state, met):
+    """Add the impacts to what touches, and to what is sensed: begun in this step, though the push comes in the next."""
+    if not len(met):
+        return
+    written = _written(state, met, 0)
+    # Two ways of being found are one impact.
+    _, first = np.unique(written["shape_a"] << 32 | written["shape_b"], return_index=True)
+    written = written[first]
+    sensed = written[written["sensor"]]
+    if len(sensed):
+        state.swept_sensors = sensed
+    solid = written[~written["sensor"]]
+    known = state.manifolds["shape_a"] << 32 | state.manifolds["shape_b"]
+    keys = solid["shape_a"] << 32 | solid["shape_b"]
+    state.manifolds["swept"][np.isin(known, keys)] = True
+    new = solid[~np.isin(keys, known)]
+    if len(new):
         # The impact is told, with its impulse, by the contact of the next step.
-        new["speed"] = 0.0
-        if len(new):
-            world.found_contacts = in_order(np.concatenate([world.found_contacts, new]))
+        new["speed_1"] = 0.0
+        both = np.concatenate([state.manifolds, new])
+        order = order_of(both)
+        state.manifolds = both[order]
+        state.anchors = np.concatenate([state.anchors, np.zeros(len(new), ANCHOR)])[order]

@@ -8,14 +8,17 @@ import math
 
 import numpy as np
 
+from physics.character.push import press, tell_weight
 from physics.character.solids import FEET, FREE, blocked_at, character_of, gather_solids, is_loose, meet, round_half_up
 from physics.character.walk import settle, whole_pixels
-from physics.collision.contacts import new_scratch
+from physics.dynamics.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.shapes.placement import aabb_at, refresh_aabbs
-from physics.tables.body import KINEMATIC, STATIC
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
+from physics.tables.rows import rows_of
 from physics.tables.shape import BOUNDS, POLYGON
+from physics.tables.step_state import stage
 
 GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
 
@@ -438,54 +441,104 @@ def give_way(
             c.squeezed = True
 
 
-def carry_characters(world, dt):
-    """The stage, for dt [s]: does nothing in a world without characters. Those that were moved meet others in this very step."""
-    characters = world.characters.rows
+@stage(
+    "carry",
+    reads=(
+        "effects",
+        "tolerances",
+        "gravity",
+        "dt",
+        "broadphase",
+        "bodies",
+        "shapes",
+        "characters",
+        "library",
+        "pairs",
+        "manifolds",
+        "awake",
+        "workspace",
+    ),
+    writes=(
+        "characters",
+        "manifolds",
+        "pairs",
+        "broadphase",
+        "work",
+        "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y")),
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def carry_characters(state):
+    """Moving solids take characters along, and push them; nothing in a world without any. Those that were moved meet others
+    in this very step."""
+    characters = state.characters
     if not len(characters):
         return
-    world.refresh_character_rows()
-    bodies, shapes, slop = world.bodies, world.shapes, world.tolerances.slop
-    before = bodies[characters["body_row"]][["x", "y"]]
-    piles = int(world.effects.stacking)
+    bodies, shapes, slop, dt, tables = state.bodies, state.shapes, state.tolerances.slop, state.dt, state.library.tables
+    own = characters["body_row"]
+    before = bodies[own][["x", "y"]]
+    piles, belts = int(state.effects.stacking), int(state.effects.conveyor)
+    scratch, room = state.workspace.walk, state.workspace.rows_for(2 * len(shapes))
+    near, more = room[: len(shapes)], room[len(shapes) : 2 * len(shapes)]
     if piles:
+        if state.effects.gravity and dt > 0.0:
+            tell_weight(characters, dt * math.hypot(*state.gravity), state.manifolds)
         take_back(characters, bodies)
-    room = world.scratch_rows(2 * len(shapes))
-    carry_and_push(
-        world.library.tables, shapes, piles, slop, world.walk_scratch, room[: len(shapes)], characters, bodies
-    )
-    belts = int(world.effects.conveyor)
+    carry_and_push(tables, shapes, piles, slop, scratch, near, characters, bodies)
     if piles or belts:
-        ride_bodies(
-            world.library.tables,
-            shapes,
-            piles,
-            belts,
-            dt,
-            slop,
-            world.walk_scratch,
-            room[: len(shapes)],
-            characters,
-            bodies,
-        )
+        ride_bodies(tables, shapes, piles, belts, dt, slop, scratch, near, characters, bodies)
     if piles:
-        give_way(
-            world.library.tables,
-            shapes,
-            slop,
-            world.walk_scratch,
-            room[: len(shapes)],
-            room[len(shapes) : 2 * len(shapes)],
-            characters,
-            bodies,
-        )
-    moved = characters["body"][before != world.bodies[characters["body_row"]][["x", "y"]]]
+        give_way(tables, shapes, slop, scratch, near, more, characters, bodies)
+    moved = own[before != bodies[own][["x", "y"]]]
     if len(moved):
-        refresh_aabbs(world.library.tables, world.bodies, world.shapes)
-        own = world.shapes[np.isin(world.shapes["body"], moved)]
-        world.pairs.widen(own, world.tolerances.slop)
-        world.pairs.update(world.broadphase, world.shapes, len(own), world.profile.work)
+        rows = np.flatnonzero(np.isin(shapes["body_row"], moved))
+        refresh_aabbs(state.awake.shapes, tables, bodies, shapes)  # also what carries them: feet stand on boxes
+        rows = rows[shapes["proxy"][rows] >= 0]
+        state.pairs.widen(shapes[rows], slop)
+        state.pairs.update(state.broadphase, shapes, len(rows), state.work)
 
 
-def walk_room():
-    """Room for the walks of one world."""
-    return new_scratch(), np.zeros(4, np.int64)
+@stage(
+    "weigh",
+    reads=(
+        "effects",
+        "tolerances",
+        "gravity",
+        "bodies",
+        "shapes",
+        "characters",
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+    )
+    + ("pairs", "touching", "sensing"),
+    writes=(
+        "characters",
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+        "pairs",
+        "touching",
+        "sensing",
+        *(f"bodies.{name}" for name in ("awake", "active", "sleep_time", "island", "vx", "vy")),
+        *(f"bodies.{name}" for name in ("force_x", "force_y", "torque")),
+    ),
+)
+def bear_characters(state):
+    """Before a step: characters weigh on what they ride, and wake it when they came, left or walked."""
+    characters, bodies = state.characters, state.bodies
+    if not len(characters):
+        return
+    if state.effects.sleeping:
+        own = bodies[characters["body_row"]]
+        new = characters["riding"] != characters["pressed"]
+        stirred = new | (own["x"] != own["previous_x"]) | (own["y"] != own["previous_y"])
+        ids = np.union1d(characters["riding"][stirred], characters["pressed"][new])
+        rows = rows_of(bodies, ids)
+        disturb(state, ids[(rows >= 0) & (bodies["kind"][rows] == DYNAMIC)])
+    characters["pressed"] = characters["riding"]
+    gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
+    press(state.shapes, *gravity, state.tolerances.sleep_speed, characters, bodies)

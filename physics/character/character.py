@@ -111,7 +111,7 @@ class Character:
         squeezed = bool(rows["squeezed"][me])
         rows["squeezed"][me] = False
         world.refresh_character_rows()
-        room = world.scratch_rows(2 * len(world.shapes))
+        room = world.workspace.rows_for(2 * len(world.shapes))
         walk(
             world.library.tables,
             world.shapes,
@@ -122,18 +122,18 @@ class Character:
             int(world.effects.rotation),
             world.dt,
             world.tolerances.slop,
-            world.walk_scratch,
+            world.workspace.walk,
             room[: len(world.shapes)],
             room[len(world.shapes) : 2 * len(world.shapes)],
             rows,
             world.bodies,
-            world.walk_moved,
+            world.workspace.walked,
         )
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
         return Moved(
-            int(world.walk_moved[0]),
-            int(world.walk_moved[1]),
+            int(world.workspace.walked[0]),
+            int(world.workspace.walked[1]),
             bool(row["grounded"]),
             int(row["wall"]),
             float(row["slope"]),

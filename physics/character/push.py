@@ -127,30 +127,35 @@ def press(
             break
 
 
+@subkernel
+def is_between(manifold, first, second):
+    """Whether a manifold is between two bodies, by id."""
+    m = manifold
+    return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
+
+
 @kernel
 def tell_weight(
     # read
     characters,
     weight_rate,
     # write
-    contacts_inout,
+    manifolds_inout,
 ):
-    """Write the weight that characters have put on what they ride into the contacts with it. O(characters · contacts).
+    """Write the weight that characters have put on what they ride into the manifolds with it. O(characters · manifolds).
 
-    weight_rate [px/s]: gravity times the step; the points of a contact share it.
+    weight_rate [px/s]: gravity times the step; the points between the two share it.
     """
     for me in range(len(characters)):
         c = characters[me]
         if c.riding < 0:
             continue
         points = 0
-        for k in range(len(contacts_inout)):
-            d = contacts_inout[k]
-            if (d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding):
-                points += 1
-        for k in range(len(contacts_inout)):
-            d = contacts_inout[k]
-            if points > 0 and (
-                (d.body_a == c.body and d.body_b == c.riding) or (d.body_b == c.body and d.body_a == c.riding)
-            ):
-                d.normal_impulse = c.mass * weight_rate / points
+        for k in range(len(manifolds_inout)):
+            if is_between(manifolds_inout[k], c.body, c.riding):
+                points += manifolds_inout[k].count
+        for k in range(len(manifolds_inout)):
+            m = manifolds_inout[k]
+            if points > 0 and is_between(m, c.body, c.riding):
+                m.normal_impulse_1 = c.mass * weight_rate / points
+                m.normal_impulse_2 = c.mass * weight_rate / points

@@ -110,9 +110,9 @@ def in_chain(geometry, chain, x, y, angle, min_x, min_y, max_x, max_y, falling, 
         carries = run > 0.0 and abs(rise) <= run
         if carries and abs(rise) <= 1e-9 * run and falling == 0:
             continue
-        points = collide_link_hull(links[k], scratch.a, scratch.b, 4, 0.0, 0.0, 0.0, False, scratch.manifold)
+        points = collide_link_hull(links[k], scratch.a, scratch.b, 4, 0.0, 0.0, 0.0, False, scratch.points)
         for point in range(points):
-            if -1.0 - 2.0 * slop <= scratch.manifold[5 + 4 * point] < -slop:
+            if -1.0 - 2.0 * slop <= scratch.points[5 + 4 * point] < -slop:
                 if not carries or abs(rise) <= 1e-9 * run:
                     return BLOCKED
                 result = ON_SLOPE
@@ -191,18 +191,18 @@ def meet(geometry, bodies, shapes, row, left, top, width, height, scratch):
         0.0,
         0.0,
         math.inf,
-        scratch.manifold,
+        scratch.points,
     )
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
-    depth = -scratch.manifold[5]
-    x = scratch.manifold[3]
-    y = scratch.manifold[4]
+    depth = -scratch.points[5]
+    x = scratch.points[3]
+    y = scratch.points[4]
     if points == 2:
-        depth = max(depth, -scratch.manifold[9])
-        x = 0.5 * (x + scratch.manifold[7])
-        y = 0.5 * (y + scratch.manifold[8])
-    return max(depth, 0.0), scratch.manifold[1], scratch.manifold[2], x, y
+        depth = max(depth, -scratch.points[9])
+        x = 0.5 * (x + scratch.points[7])
+        y = 0.5 * (y + scratch.points[8])
+    return max(depth, 0.0), scratch.points[1], scratch.points[2], x, y
 
 
 @subkernel
@@ -269,10 +269,10 @@ def in_shape(geometry, bodies, shapes, characters, row, left, top, width, height
         )
         return BLOCKED if hit else FREE
     points = collide_hulls(
-        scratch.a, count, radius, ALL_EDGES, scratch.b, 4, 0.0, ALL_EDGES, 0.0, 0.0, math.inf, scratch.manifold
+        scratch.a, count, radius, ALL_EDGES, scratch.b, 4, 0.0, ALL_EDGES, 0.0, 0.0, math.inf, scratch.points
     )
     for k in range(points):
-        if scratch.manifold[5 + 4 * k] < -slop:
+        if scratch.points[5 + 4 * k] < -slop:
             return BLOCKED
     return FREE
 

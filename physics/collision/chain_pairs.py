@@ -3,7 +3,8 @@
 import math
 
 from physics.collision.chains import collide_link_circle, collide_link_hull, in_front, link_at
-from physics.collision.contacts import CHAIN_ANY, write_contact
+from physics.collision.features import part_feature
+from physics.collision.manifold import CHAIN_ANY, add_point, add_points
 from physics.collision.mask_hulls import collide_mask_polygon, thick_line
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
@@ -35,30 +36,29 @@ def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
 @kernel
 def collide_chain_pairs(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    kinds,
-    count,
-    margin,
-    bias,
+    batch,
     # write
-    scratch,
-    contacts_out,
+    workspace,
+    manifolds_out,
     found,
     work_inout,
 ):
     """Contacts of all pairs of a chain and a hull or mask, appended at `found`. Returns the new count.
 
-    The feature is the link's number in the chain times 4096, and what the link met. O(links near the other shape).
+    O(links near the other shape).
     """
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    margin = batch.margin
     links = geometry.links
     polygons = geometry.polygons
     table = geometry.corners
-    points = scratch.a
-    manifold = scratch.manifold
-    for i in range(count):
+    points = workspace.a
+    manifold = workspace.points
+    for i in range(batch.count):
         if kinds[i] != CHAIN_ANY:
             continue
         sign = 1.0 if shapes[candidates[i, 0]].kind == CHAIN else -1.0
@@ -74,10 +74,10 @@ def collide_chain_pairs(
             turn_x = math.cos(q.angle)
             turn_y = math.sin(q.angle)
             min_x, min_y, max_x, max_y = polygon_aabb(polygons, table, o.geometry, o.radius, q.x, q.y, turn_x, turn_y)
-            n = polygon_at(polygons, table, o.geometry, q.x, q.y, turn_x, turn_y, scratch.b)
+            n = polygon_at(polygons, table, o.geometry, q.x, q.y, turn_x, turn_y, workspace.b)
         else:
             min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
-            n = 0 if o.kind == MASK else hull_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.b)
+            n = 0 if o.kind == MASK else hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
         # Some digits more than the margin: turning the box must not lose what touches.
         rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
         min_x, min_y, max_x, max_y = box_in_body(
@@ -117,12 +117,20 @@ def collide_chain_pairs(
                             < 0.0
                         ):
                             continue
-                        thick_line(points, 0.0, BACKING, scratch.b)
+                        thick_line(points, 0.0, BACKING, workspace.b)
                         area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                            geometry.rasters, geometry.words, o.raster, o.left, o.top, scratch.b, 4, 1, scratch.depths
+                            geometry.rasters,
+                            geometry.words,
+                            o.raster,
+                            o.left,
+                            o.top,
+                            workspace.b,
+                            4,
+                            1,
+                            workspace.depths,
                         )
                         if area > 0:
-                            found = write_contact(
+                            found = add_point(
                                 shapes,
                                 candidates,
                                 i,
@@ -133,15 +141,15 @@ def collide_chain_pairs(
                                 y,
                                 separation,
                                 float(area),
-                                4096 * k,
-                                contacts_out,
+                                part_feature(k, 0),
+                                manifolds_out,
                             )
                     elif n == 1:
                         hit, nx, ny, x, y, separation, which = collide_link_circle(
-                            link, points, scratch.b[0, 0], scratch.b[0, 1], radius
+                            link, points, workspace.b[0, 0], workspace.b[0, 1], radius
                         )
                         if hit and separation <= margin:
-                            found = write_contact(
+                            found = add_point(
                                 shapes,
                                 candidates,
                                 i,
@@ -152,26 +160,15 @@ def collide_chain_pairs(
                                 y,
                                 separation,
                                 0.0,
-                                4096 * k + which,
-                                contacts_out,
+                                part_feature(k, which),
+                                manifolds_out,
                             )
                     else:
                         near += 1
-                        met = collide_link_hull(link, points, scratch.b, n, radius, reach, bias, attempt == 1, manifold)
-                        for point in range(met):
-                            at = 3 + 4 * point
-                            found = write_contact(
-                                shapes,
-                                candidates,
-                                i,
-                                found,
-                                sign * manifold[1],
-                                sign * manifold[2],
-                                manifold[at],
-                                manifold[at + 1],
-                                manifold[at + 2],
-                                0.0,
-                                4096 * k + int(manifold[at + 3]),
-                                contacts_out,
-                            )
+                        met = collide_link_hull(
+                            link, points, workspace.b, n, radius, reach, batch.bias, attempt == 1, manifold
+                        )
+                        found = add_points(
+                            shapes, candidates, i, found, sign, manifold, met, part_feature(k, 0), manifolds_out
+                        )
     return found

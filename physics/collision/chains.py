@@ -12,12 +12,12 @@ unless what meets it is behind that one. An open end may push up to a quarter tu
 """
 
 from physics.collision.clipping import ALL_EDGES, best_edge, clip_edges, support_manifold
+from physics.collision.features import CIRCLE_CORNER, OPEN_END
 from physics.collision.hulls import corner_manifold, least_separation, nearest_corners, segments_gap, slack_of
 from physics.jit import subkernel
 from physics.math2d import length_of, turned, unit
 
 STRAIGHT = 1e-9  # sine of a bend between two links that counts as none
-OPEN_END = 3000  # feature: the face across an open end, + 0 at a or 1 at b
 ADMIT, SNAP, SKIP = 0, 1, 2  # a normal that a link may have; that of the link instead; a neighbour's
 
 
@@ -137,7 +137,7 @@ def collide_link_circle(link, points, x, y, radius):
         height = length_of(dx, dy)
     separation = height - radius
     middle = height - 0.5 * separation
-    return True, nx, ny, x - middle * nx, y - middle * ny, separation, 32 + corner if corner >= 0 else 0
+    return True, nx, ny, x - middle * nx, y - middle * ny, separation, CIRCLE_CORNER + corner if corner >= 0 else 0
 
 
 @subkernel

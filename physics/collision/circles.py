@@ -3,6 +3,7 @@
 import math
 
 from physics.collision.clipping import edge_normal
+from physics.collision.features import CIRCLE_CORNER
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
 
@@ -72,7 +73,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
                 corners[corner, 0] + along * nx,
                 corners[corner, 1] + along * ny,
                 separation,
-                32 + corner,
+                CIRCLE_CORNER + corner,
             )
         if not (edges >> best) & 1:
             return False, 0.0, -1.0, x, y, 0.0, 0

@@ -13,10 +13,10 @@ Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds,
 
 import math
 
+from physics.collision.features import clipped_feature, support_feature
 from physics.jit import subkernel
 
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
-MANIFOLD = 11
 ALL_EDGES = 0xFFFFFFFF  # low 16 bits: edges that may be touched; high 16: edges whose corners may be
 
 
@@ -70,7 +70,7 @@ def clip_edges(
     """Manifold of a reference face and the edge of the other polygon that faces it most, each grown by a radius [px].
 
     limit [px]: points further apart are dropped; flipped: the reference belongs to B, so the normal is turned round.
-    manifold_out: see MANIFOLD. Feature: bits of reference edge, incident corner, side. Returns the number of points.
+    manifold_out: see above. Feature: bits of reference edge, incident corner, side. Returns the number of points.
     """
     following = edge + 1 if edge + 1 < reference_count else 0
     nx, ny = edge_normal(reference, reference_count, edge)
@@ -116,9 +116,8 @@ def clip_edges(
             manifold_out[at] = x - down * nx
             manifold_out[at + 1] = y - down * ny
             manifold_out[at + 2] = separation
-            manifold_out[at + 3] = float(
-                ((edge * 16 + (far if side == 0 else facing)) * 2 + side) * 2 + (1 if flipped else 0)
-            )
+            corner = far if side == 0 else facing
+            manifold_out[at + 3] = float(clipped_feature(edge, corner, side, 1 if flipped else 0))
             count += 1
     manifold_out[0] = float(count)
     manifold_out[1] = sign * nx
@@ -147,5 +146,5 @@ def support_manifold(
     manifold_out[3] = incident[deepest, 0] - down * nx
     manifold_out[4] = incident[deepest, 1] - down * ny
     manifold_out[5] = least - reference_radius - incident_radius
-    manifold_out[6] = float((edge * 16 + deepest) * 4 + (1 if flipped else 0))
+    manifold_out[6] = float(support_feature(edge, deepest, 1 if flipped else 0))
     return 1

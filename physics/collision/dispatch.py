@@ -3,7 +3,13 @@
 import numpy as np
 
 from physics.collision.chain_pairs import collide_chain_pairs
-from physics.collision.contacts import (
+from physics.collision.hull_pairs import (
+    collide_boxes,
+    collide_circle_pairs,
+    collide_polygon_circle_pairs,
+    collide_polygon_pairs,
+)
+from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
@@ -13,22 +19,17 @@ from physics.collision.contacts import (
     NOTHING,
     POLYGON_CIRCLE,
     POLYGONS,
-    new_scratch,
+    Batch,
+    new_workspace,
     place_in_order,
 )
-from physics.collision.hull_pairs import (
-    collide_boxes,
-    collide_circle_pairs,
-    collide_polygon_circle_pairs,
-    collide_polygon_pairs,
-)
 from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
-from physics.collision.persist import recycle_contacts, remember_grids
+from physics.collision.persist import recycle_manifolds, remember_grids
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.dynamics.awake import is_active
 from physics.jit import kernel, subkernel
-from physics.tables.contact import CONTACT
 from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
+from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
@@ -98,7 +99,7 @@ def classify(
 
 
 class NarrowPhase:
-    """Turns candidates into contacts; keeps the room for them from step to step.
+    """Turns candidates into manifolds; keeps the workspace for them from step to step.
 
     full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at AABBs.
     """
@@ -116,79 +117,73 @@ class NarrowPhase:
             ((GRID_ANY,), grids),
             ((CHAIN_ANY,), collide_chain_pairs),
         )
-        self.scratch = new_scratch()
+        self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts = np.zeros(NOTHING + 1, np.int64)
-        self.raw, self.ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
-        self.last_raw, self.last_ordered = np.zeros(64, CONTACT), np.zeros(64, CONTACT)
+        self.raw, self.ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
+        self.last_raw, self.last_ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
 
     def collide(
-        self, geometry, bodies, shapes, candidates, count, margin, bias, work, which=ALL, previous=None, recycle=0.0
+        self, geometry, bodies, shapes, candidates, margin, work, which=ALL, bias=0.0, memory=None, recycle=0.0
     ) -> np.ndarray:
-        """Contacts of the candidate pairs, in their order: a view that the call after the next one overwrites.
+        """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
-        candidates (capacity, 2) int64 shape rows, `count` of them used; margin [px]: pairs apart by at most that are
-        found too; bias [px]: see hulls.collide_hulls; work: counters; which: see classify. previous: contacts of the
-        step before, used again where nothing moved by more than `recycle` [px].
+        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters; which:
+        see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used again where
+        nothing moved by more than `recycle` [px].
         """
+        count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
-        if self.boxes_only:
-            found = self._with_room(
-                work, lambda: collide_boxes(geometry, bodies, shapes, candidates, count, self.raw, work)
-            )
-            return self.raw[:found]
         if len(self.kinds) < count + 1:
             self.kinds = np.zeros(2 * count + 1, np.int64)
+        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, float(margin), float(bias))
+        if self.boxes_only:
+            found = self._with_room(work, lambda: collide_boxes(batch, self.raw, work))
+            return self.raw[:found]
         classify(bodies, shapes, candidates, count, margin, which, self.kinds, self.counts, work)
-        if previous is not None and len(previous) > len(self.raw):
-            self.raw = np.zeros(2 * len(previous), CONTACT)
-        again = 0
-        if previous is not None and len(previous):
-            again = recycle_contacts(
-                bodies, shapes, candidates, count, previous, recycle, self.kinds, self.counts, self.raw
-            )
-        scratch = self.scratch
-        if self.one_way and previous is not None and self.counts[GRID_ANY]:
-            if len(scratch.memory) < count:
-                self.scratch = scratch._replace(memory=np.zeros((2 * count, 2), np.int64))
-            scratch = self.scratch._replace(previous=previous)
-            remember_grids(shapes, candidates, count, self.kinds, previous, scratch.memory)
+        again, workspace = 0, self.workspace
+        if memory is not None and len(memory[0]):
+            again = self._recycle(batch, memory, recycle)
+            if self.one_way and self.counts[GRID_ANY]:
+                workspace = self._remember(batch, memory[0])
         used = [run for kinds, run in self.passes if any(self.counts[kind] for kind in kinds)]
 
         def run_all():
             found = again
             for run in used:
-                found = run(
-                    geometry,
-                    bodies,
-                    shapes,
-                    candidates,
-                    self.kinds,
-                    count,
-                    margin,
-                    bias,
-                    scratch,
-                    self.raw,
-                    found,
-                    work,
-                )
+                found = run(batch, workspace, self.raw, found, work)
             return found
 
         found = self._with_room(work, run_all)
         if len(used) + (again > 0) < 2:
             return self.raw[:found]
         if len(self.ordered) < len(self.raw):
-            self.ordered = np.zeros(len(self.raw), CONTACT)
+            self.ordered = np.zeros(len(self.raw), MANIFOLD)
         place_in_order(self.raw, found, count, self.kinds, self.ordered)
         return self.ordered[:found]
+
+    def _recycle(self, batch, memory, distance) -> int:
+        """Use manifolds of the step before again, at the beginning of `raw`. Returns their number."""
+        previous, anchors = memory
+        if len(previous) > len(self.raw):
+            self.raw = np.zeros(2 * len(previous), MANIFOLD)
+        return recycle_manifolds(batch, previous, anchors, distance, self.kinds, self.counts, self.raw)
+
+    def _remember(self, batch, previous):
+        """The workspace with the previous manifolds of every pair with a tile grid."""
+        if len(self.workspace.memory) < batch.count:
+            self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
+        workspace = self.workspace._replace(previous=previous)
+        remember_grids(batch, previous, workspace.memory)
+        return workspace
 
     def _with_room(self, work, run):
         before = work.copy()
         found = run()
         if found > len(self.raw):
             kept = self.raw
-            self.raw = np.zeros(2 * found, CONTACT)
+            self.raw = np.zeros(2 * found, MANIFOLD)
             self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
             work[:] = before
             found = run()

@@ -7,8 +7,9 @@ import math
 
 from physics.collision.circles import collide_circles
 from physics.collision.clipping import ALL_EDGES
-from physics.collision.contacts import CIRCLES, POLYGON_CIRCLE, POLYGONS, circle_at, corners_of, write_contact
-from physics.collision.hulls import CORNERS, collide_hull_circle, collide_hulls, passes_by
+from physics.collision.features import CIRCLE_CORNER, CORNERS
+from physics.collision.hulls import collide_hull_circle, collide_hulls, passes_by
+from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, add_point, add_points, circle_at, corners_of
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, polygon_at, rounding
 from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
@@ -26,22 +27,20 @@ def closing(p, q, ax, ay, bx, by):
 @kernel
 def collide_circle_pairs(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    kinds,
-    count,
-    margin,
-    bias,
+    batch,
     # write
-    scratch,
-    contacts_out,
+    workspace,
+    manifolds_out,
     found,
     work_inout,
 ):
     """Contacts of all pairs of circles, appended at `found`. Returns the new count."""
-    for i in range(count):
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    margin = batch.margin
+    for i in range(batch.count):
         if kinds[i] != CIRCLES:
             continue
         ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
@@ -51,38 +50,37 @@ def collide_circle_pairs(
             vx, vy = closing(
                 bodies[shapes[candidates[i, 0]].body_row], bodies[shapes[candidates[i, 1]].body_row], ax, ay, bx, by
             )
-            scratch.a[0, 0] = ax
-            scratch.a[0, 1] = ay
-            scratch.b[0, 0] = bx
-            scratch.b[0, 1] = by
-            if passes_by(scratch.a, 1, scratch.b, 1, a_radius + b_radius, vx, vy):
+            workspace.a[0, 0] = ax
+            workspace.a[0, 1] = ay
+            workspace.b[0, 0] = bx
+            workspace.b[0, 1] = by
+            if passes_by(workspace.a, 1, workspace.b, 1, a_radius + b_radius, vx, vy):
                 continue
         if separation <= margin:
-            found = write_contact(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, contacts_out)
+            found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
     return found
 
 
 @kernel
 def collide_polygon_circle_pairs(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    kinds,
-    count,
-    margin,
-    bias,
+    batch,
     # write
-    scratch,
-    contacts_out,
+    workspace,
+    manifolds_out,
     found,
     work_inout,
 ):
     """Contacts of all pairs of a hull of two or more corners and a circle, appended at `found`. Returns the new count."""
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    margin = batch.margin
     polygons = geometry.polygons
     table = geometry.corners
-    for i in range(count):
+    for i in range(batch.count):
         if kinds[i] != POLYGON_CIRCLE:
             continue
         sign = -1.0 if shapes[candidates[i, 0]].kind == CIRCLE else 1.0
@@ -91,23 +89,23 @@ def collide_polygon_circle_pairs(
         s = shapes[polygon]
         p = bodies[s.body_row]
         if s.kind == BOUNDS:
-            n = corners_of(geometry, bodies, shapes, polygon, scratch.a)
+            n = corners_of(geometry, bodies, shapes, polygon, workspace.a)
         else:
-            n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), scratch.a)
+            n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), workspace.a)
         x, y, radius = circle_at(bodies, shapes, circle)
         hit, nx, ny, px, py, separation, feature = collide_hull_circle(
-            scratch.a, n, ALL_EDGES, rounding(shapes, polygon), x, y, radius
+            workspace.a, n, ALL_EDGES, rounding(shapes, polygon), x, y, radius
         )
-        if hit and 0.0 < separation <= margin and feature >= 32:
+        if hit and 0.0 < separation <= margin and feature >= CIRCLE_CORNER:
             q = bodies[shapes[circle].body_row]
             vx, vy = closing(p, q, px, py, x, y)
-            scratch.b[0, 0] = x
-            scratch.b[0, 1] = y
-            if passes_by(scratch.a, n, scratch.b, 1, rounding(shapes, polygon) + radius, vx, vy):
+            workspace.b[0, 0] = x
+            workspace.b[0, 1] = y
+            if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, vx, vy):
                 continue
         if hit and separation <= margin:
-            found = write_contact(
-                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, contacts_out
+            found = add_point(
+                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, manifolds_out
             )
     return found
 
@@ -115,27 +113,26 @@ def collide_polygon_circle_pairs(
 @kernel
 def collide_polygon_pairs(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    kinds,
-    count,
-    margin,
-    bias,
+    batch,
     # write
-    scratch,
-    contacts_out,
+    workspace,
+    manifolds_out,
     found,
     work_inout,
 ):
     """Contacts of all pairs of hulls of two or more corners, appended at `found`. Returns the new count."""
-    manifold = scratch.manifold
-    a = scratch.a
-    b = scratch.b
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    margin = batch.margin
+    manifold = workspace.points
+    a = workspace.a
+    b = workspace.b
     polygons = geometry.polygons
     table = geometry.corners
-    for i in range(count):
+    for i in range(batch.count):
         if kinds[i] != POLYGONS:
             continue
         s = shapes[candidates[i, 0]]
@@ -150,48 +147,35 @@ def collide_polygon_pairs(
             nb = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), b)
         a_radius = 0.0 if s.kind == BOUNDS else s.radius
         b_radius = 0.0 if o.kind == BOUNDS else o.radius
-        points = collide_hulls(a, na, a_radius, ALL_EDGES, b, nb, b_radius, ALL_EDGES, margin, bias, math.inf, manifold)
+        points = collide_hulls(
+            a, na, a_radius, ALL_EDGES, b, nb, b_radius, ALL_EDGES, margin, batch.bias, math.inf, manifold
+        )
         if points == 1 and manifold[6] >= CORNERS and manifold[5] > 0.0:
             vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
             if passes_by(a, na, b, nb, a_radius + b_radius, vx, vy):
                 continue
-        for k in range(points):
-            at = 3 + 4 * k
-            found = write_contact(
-                shapes,
-                candidates,
-                i,
-                found,
-                manifold[1],
-                manifold[2],
-                manifold[at],
-                manifold[at + 1],
-                manifold[at + 2],
-                0.0,
-                int(manifold[at + 3]),
-                contacts_out,
-            )
+        found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
     return found
 
 
 @kernel
 def collide_boxes(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    count,
+    batch,
     # write
-    contacts_out,
+    manifolds_out,
     work_inout,
 ):
     """Contacts of all candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
 
     Returns the number of contacts. O(candidates).
     """
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
     found = 0
-    for i in range(count):
+    for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
         p = bodies[a.body_row]
@@ -220,5 +204,5 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a_left, b_left) + min(a_right, b_right))
         y = 0.5 * (max(a_top, b_top) + min(a_bottom, b_bottom))
-        found = write_contact(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, contacts_out)
+        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
     return found

@@ -12,10 +12,9 @@ import math
 
 from physics.collision.circles import collide_polygon_circle
 from physics.collision.clipping import best_edge, clip_edges, support_manifold
+from physics.collision.features import CIRCLE_CORNER, corners_feature
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
-
-CORNERS = 2048  # features from here on: two corners
 
 
 @subkernel
@@ -100,7 +99,7 @@ def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
     manifold_out[3] = a[i, 0] + along * nx
     manifold_out[4] = a[i, 1] + along * ny
     manifold_out[5] = distance - a_radius - b_radius
-    manifold_out[6] = float(CORNERS + i * 16 + j)
+    manifold_out[6] = float(corners_feature(i, j))
     return 1
 
 
@@ -230,7 +229,7 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
             1 if height < 0.0 else 0,
         )
     nx, ny = unit(x - px, y - py, side_x, side_y)
-    return nx, ny, px, py, length_of(x - px, y - py) - radius, 32 if t == 0.0 else 33
+    return nx, ny, px, py, length_of(x - px, y - py) - radius, CIRCLE_CORNER if t == 0.0 else CIRCLE_CORNER + 1
 
 
 @subkernel

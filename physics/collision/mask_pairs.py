@@ -1,7 +1,8 @@
 """Passes over the candidate pairs with masks: mask against mask by AND, mask against circle, polygon and bounds."""
 
 from physics.collision.clipping import ALL_EDGES
-from physics.collision.contacts import MASK_CIRCLE, MASK_POLYGON, MASKS, circle_at, corners_of, write_contact
+from physics.collision.features import pixel_feature
+from physics.collision.manifold import MASK_CIRCLE, MASK_POLYGON, MASKS, add_point, circle_at, corners_of
 from physics.collision.mask_depth import center_normal, mask_contact
 from physics.collision.mask_hulls import collide_mask_circle, collide_mask_line, collide_mask_polygon
 from physics.collision.mask_rounded import collide_mask_rounded
@@ -22,22 +23,20 @@ def make_mask_pass(full: bool):
     @kernel
     def collide_mask_pairs(
         # read
-        geometry,
-        bodies,
-        shapes,
-        candidates,
-        kinds,
-        count,
-        margin,
-        bias,
+        batch,
         # write
-        scratch,
-        contacts_out,
+        workspace,
+        manifolds_out,
         found,
         work_inout,
     ):
         """Contacts of all pairs of masks as drawn, by AND of words, appended at `found`. Returns the new count."""
-        for i in range(count):
+        geometry = batch.geometry
+        bodies = batch.bodies
+        shapes = batch.shapes
+        candidates = batch.candidates
+        kinds = batch.kinds
+        for i in range(batch.count):
             if kinds[i] != MASKS:
                 continue
             work_inout[MASK_TESTS] += 1
@@ -66,7 +65,7 @@ def make_mask_pass(full: bool):
                 hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
                 if not hit:
                     continue
-            feature = y * r.width + x
+            feature = pixel_feature(y, x, r.width)
             if full:
                 q = bodies[b.body_row]
                 p = bodies[a.body_row]
@@ -82,7 +81,7 @@ def make_mask_pass(full: bool):
                     q.x - s.origin_x + 0.5 - b.left,
                     q.y - s.origin_y + 0.5 - b.top,
                 )
-                found = write_contact(
+                found = add_point(
                     shapes,
                     candidates,
                     i,
@@ -94,11 +93,11 @@ def make_mask_pass(full: bool):
                     separation,
                     float(area),
                     feature,
-                    contacts_out,
+                    manifolds_out,
                 )
             else:
                 nx, ny = center_normal(r, s, dx, dy)
-                found = write_contact(
+                found = add_point(
                     shapes,
                     candidates,
                     i,
@@ -110,7 +109,7 @@ def make_mask_pass(full: bool):
                     -1.0,
                     0.0,
                     feature,
-                    contacts_out,
+                    manifolds_out,
                 )
         return found
 
@@ -124,22 +123,20 @@ collide_mask_pairs_hit = make_mask_pass(full=False)
 @kernel
 def collide_mask_shape_pairs(
     # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    kinds,
-    count,
-    margin,
-    bias,
+    batch,
     # write
-    scratch,
-    contacts_out,
+    workspace,
+    manifolds_out,
     found,
     work_inout,
 ):
     """Contacts of all pairs of a mask and a hull, appended at `found`. Returns the new count."""
-    for i in range(count):
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    for i in range(batch.count):
         if kinds[i] != MASK_CIRCLE and kinds[i] != MASK_POLYGON:
             continue
         work_inout[MASK_TESTS] += 1
@@ -155,22 +152,33 @@ def collide_mask_shape_pairs(
                 geometry.rasters, geometry.words, mask, left, top, cx, cy, radius
             )
         else:
-            n = corners_of(geometry, bodies, shapes, other, scratch.a)
+            n = corners_of(geometry, bodies, shapes, other, workspace.a)
             radius = rounding(shapes, other)
         if kinds[i] == MASK_POLYGON and radius > 0.0:
             area, nx, ny, x, y, separation, feature = collide_mask_rounded(
-                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, radius
+                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, radius
             )
         elif kinds[i] == MASK_POLYGON and n == 2:
             area, nx, ny, x, y, separation, feature = collide_mask_line(
-                geometry.rasters, geometry.words, mask, left, top, scratch.a, scratch.depths
+                geometry.rasters, geometry.words, mask, left, top, workspace.a, workspace.depths
             )
         elif kinds[i] == MASK_POLYGON:
             area, nx, ny, x, y, separation, feature = collide_mask_polygon(
-                geometry.rasters, geometry.words, mask, left, top, scratch.a, n, ALL_EDGES, scratch.depths
+                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, ALL_EDGES, workspace.depths
             )
         if area > 0:
-            found = write_contact(
-                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, float(area), feature, contacts_out
+            found = add_point(
+                shapes,
+                candidates,
+                i,
+                found,
+                sign * nx,
+                sign * ny,
+                x,
+                y,
+                separation,
+                float(area),
+                feature,
+                manifolds_out,
             )
     return found

@@ -1,120 +1,163 @@
-"""Contacts that live from step to step: recognised by their features, used again while nothing moved, carried along.
+"""Manifolds that live from step to step: recognised by their features, used again while nothing moved, carried along.
 
-A contact keeps the two surface points and the normal in the body spaces of its sides. From them its separation follows
-at any pose, without detecting again (Catto, Box2D v3: contact recycling; Coumans, Bullet: persistent manifolds).
+An anchor keeps the surface points and the normal in the body spaces of its sides. From them separations follow at any
+pose, without detecting again (Catto, Box2D v3: contact recycling; Coumans, Bullet: persistent manifolds).
 """
 
 import math
 
-from physics.collision.contacts import GRID_ANY, NOTHING, copy_contact
+from physics.collision.manifold import GRID_ANY, NOTHING, copy_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
 from physics.shapes.placement import is_hull
-from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
-
-WITH_A, WITH_B, CORES = 0, 1, 2  # what a contact's normal turns with
+from physics.tables.manifold import CORES, WITH_A, WITH_B
+from physics.tables.shape import BOUNDS, CIRCLE, MASK
 
 
 @subkernel
-def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, contact_inout):
-    """Write point, normal and separation [px] at the present poses. Returns how far the points slid on each other [px].
+def is_before(manifold, shape_a, shape_b):
+    """Whether a manifold stands before those of a pair, in the order of shape ids."""
+    return manifold.shape_a < shape_a or (manifold.shape_a == shape_a and manifold.shape_b < shape_b)
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles.
-    """
-    c = contact_inout
-    ax, ay = turned(c.local_ax, c.local_ay, a_cosine, a_sine)
-    bx, by = turned(c.local_bx, c.local_by, b_cosine, b_sine)
+
+@subkernel
+def is_of(manifold, shape_a, shape_b):
+    """Whether a manifold is one of a pair's."""
+    return manifold.shape_a == shape_a and manifold.shape_b == shape_b
+
+
+@subkernel
+def follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k):
+    """The cores of point k at the present poses: A's [px], and B's seen from it. a, b: BODY rows, with their turns."""
+    local_ax = anchor.local_ax_1 if k == 0 else anchor.local_ax_2
+    local_ay = anchor.local_ay_1 if k == 0 else anchor.local_ay_2
+    local_bx = anchor.local_bx_1 if k == 0 else anchor.local_bx_2
+    local_by = anchor.local_by_1 if k == 0 else anchor.local_by_2
+    ax, ay = turned(local_ax, local_ay, a_cosine, a_sine)
+    bx, by = turned(local_bx, local_by, b_cosine, b_sine)
     ax += a.x
     ay += a.y
-    dx = (b.x + bx) - ax
-    dy = (b.y + by) - ay
-    if c.frame == CORES:
-        nx, ny = unit(dx, dy, c.normal_x, c.normal_y)
-        slid = length_of(nx - c.normal_x, ny - c.normal_y) * max(c.radius_a, c.radius_b)
-    else:
-        with_a = c.frame == WITH_A
-        nx, ny = turned(c.local_nx, c.local_ny, a_cosine if with_a else b_cosine, a_sine if with_a else b_sine)
-        slid = abs(dy * nx - dx * ny)
-    c.normal_x = nx + 0.0
-    c.normal_y = ny + 0.0
-    gap = dx * nx + dy * ny
-    c.separation = gap - c.radius_a - c.radius_b
-    middle = 0.5 * (c.radius_a + (gap - c.radius_b))
-    c.point_x = ax + 0.5 * (dx - gap * nx) + middle * nx
-    c.point_y = ay + 0.5 * (dy - gap * ny) + middle * ny
-    return slid
+    return ax, ay, (b.x + bx) - ax, (b.y + by) - ay
 
 
 @subkernel
-def anchor(bodies, shapes, contact_inout):
-    """Remember a contact that was detected at the present poses in the body spaces of its sides.
+def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
+    """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other [px],
+    by how much a separation differs from that at its detection [px]).
+
+    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
+    """
+    m = manifold_inout
+    slid = 0.0
+    changed = 0.0
+    old_x = m.normal_x
+    old_y = m.normal_y
+    for k in range(m.count):
+        ax, ay, dx, dy = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k)
+        if anchor.frame == CORES:
+            nx, ny = unit(dx, dy, old_x, old_y)
+            slid = max(slid, length_of(nx - old_x, ny - old_y) * max(anchor.radius_a, anchor.radius_b))
+        else:
+            with_a = anchor.frame == WITH_A
+            cosine = a_cosine if with_a else b_cosine
+            sine = a_sine if with_a else b_sine
+            nx, ny = turned(anchor.local_nx, anchor.local_ny, cosine, sine)
+            slid = max(slid, abs(dy * nx - dx * ny))
+        m.normal_x = nx + 0.0
+        m.normal_y = ny + 0.0
+        gap = dx * nx + dy * ny
+        separation = gap - anchor.radius_a - anchor.radius_b
+        middle = 0.5 * (anchor.radius_a + (gap - anchor.radius_b))
+        x = ax + 0.5 * (dx - gap * nx) + middle * nx
+        y = ay + 0.5 * (dy - gap * ny) + middle * ny
+        if k == 0:
+            m.x_1, m.y_1, m.separation_1 = x, y, separation
+            changed = max(changed, abs(separation - anchor.base_1))
+        else:
+            m.x_2, m.y_2, m.separation_2 = x, y, separation
+            changed = max(changed, abs(separation - anchor.base_2))
+    return slid, changed
+
+
+@subkernel
+def core_in_body(body, cosine, sine, x, y, nx, ny, inside):
+    """A point, moved by `inside` [px] along the normal, in a body's space."""
+    return turned(x + inside * nx - body.x, y + inside * ny - body.y, cosine, -sine)
+
+
+@subkernel
+def anchor_manifold(bodies, shapes, manifold, anchor_out):
+    """Remember a manifold that was detected at the present poses in the body spaces of its sides.
 
     A round side keeps its core, or the point would wander off with its spin; the normal turns with the side that is not.
     """
-    c = contact_inout
-    a = bodies[c.body_row_a]
-    b = bodies[c.body_row_b]
-    s = shapes[c.row_a]
-    o = shapes[c.row_b]
+    m = manifold
+    c = anchor_out
+    a = bodies[m.body_row_a]
+    b = bodies[m.body_row_b]
+    s = shapes[m.row_a]
+    o = shapes[m.row_b]
     c.radius_a = s.radius if is_hull(s.kind) and s.kind != BOUNDS else 0.0
     c.radius_b = o.radius if is_hull(o.kind) and o.kind != BOUNDS else 0.0
     c.frame = WITH_A
     if s.kind == CIRCLE:
         c.frame = CORES if o.kind == CIRCLE else WITH_B
-    half = 0.5 * c.separation
-    cosine = math.cos(a.angle)
-    sine = math.sin(a.angle)
-    inside = half + c.radius_a
-    c.local_ax, c.local_ay = turned(
-        c.point_x - inside * c.normal_x - a.x, c.point_y - inside * c.normal_y - a.y, cosine, -sine
-    )
-    inside = half + c.radius_b
+    a_cosine = math.cos(a.angle)
+    a_sine = math.sin(a.angle)
+    b_cosine = math.cos(b.angle)
+    b_sine = math.sin(b.angle)
+    c.local_nx = 0.0
+    c.local_ny = 0.0
     if c.frame == WITH_A:
-        c.local_nx, c.local_ny = turned(c.normal_x, c.normal_y, cosine, -sine)
-    cosine = math.cos(b.angle)
-    sine = math.sin(b.angle)
-    c.local_bx, c.local_by = turned(
-        c.point_x + inside * c.normal_x - b.x, c.point_y + inside * c.normal_y - b.y, cosine, -sine
-    )
-    if c.frame == WITH_B:
-        c.local_nx, c.local_ny = turned(c.normal_x, c.normal_y, cosine, -sine)
+        c.local_nx, c.local_ny = turned(m.normal_x, m.normal_y, a_cosine, -a_sine)
+    elif c.frame == WITH_B:
+        c.local_nx, c.local_ny = turned(m.normal_x, m.normal_y, b_cosine, -b_sine)
     c.turn = b.angle - a.angle
-    c.base = c.separation
+    nx = m.normal_x
+    ny = m.normal_y
+    half = 0.5 * m.separation_1
+    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a))
+    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b)
+    c.base_1 = m.separation_1
+    if m.count == 2:
+        half = 0.5 * m.separation_2
+        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a))
+        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b)
+        c.base_2 = m.separation_2
 
 
 @kernel
-def recycle_contacts(
+def recycle_manifolds(
     # read
-    bodies,
-    shapes,
-    candidates,
-    count,
+    batch,
     previous,
+    anchors,
     distance,
     # write
     kinds_inout,
     counts_inout,
-    contacts_out,
+    manifolds_out,
 ):
     """Use the manifolds of the last step again where no point moved by more than `distance` [px] against its partner.
 
-    candidates (count, 2) shape rows and previous CONTACT rows, both in the order of shape ids; a pair that is served is
-    marked NOTHING in kinds_inout. Masks are always detected again. Returns the number of contacts written. O(both).
+    previous MANIFOLD rows and their ANCHOR rows, in the order of shape ids as the candidates; a pair that is served is
+    marked NOTHING in kinds_inout. Masks are always detected again. Returns the number of manifolds written. O(both).
     """
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
     found = 0
     j = 0
-    for i in range(count):
+    for i in range(batch.count):
         if kinds_inout[i] == NOTHING:
             continue
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        while j < len(previous) and (
-            previous[j].shape_a < a.id or (previous[j].shape_a == a.id and previous[j].shape_b < b.id)
-        ):
+        while j < len(previous) and is_before(previous[j], a.id, b.id):
             j += 1
         if j >= len(previous):
             return found
-        if previous[j].shape_a != a.id or previous[j].shape_b != b.id or a.kind == MASK or b.kind == MASK:
+        if not is_of(previous[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
@@ -127,21 +170,24 @@ def recycle_contacts(
         start = found
         fits = True
         last = j
-        while last < len(previous) and previous[last].shape_a == a.id and previous[last].shape_b == b.id:
-            if fits and found < len(contacts_out) and not previous[last].swept:
-                copy_contact(previous, last, found, contacts_out)
-                c = contacts_out[found]
-                c.body_row_a = a.body_row
-                c.body_row_b = b.body_row
-                c.row_a = candidates[i, 0]
-                c.row_b = candidates[i, 1]
-                c.candidate = i
-                c.swept = False
-                slid = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, c)
+        while last < len(previous) and is_of(previous[last], a.id, b.id):
+            if fits and found < len(manifolds_out) and not previous[last].swept:
+                copy_manifold(previous, last, found, manifolds_out)
+                m = manifolds_out[found]
+                m.body_row_a = a.body_row
+                m.body_row_b = b.body_row
+                m.row_a = candidates[i, 0]
+                m.row_b = candidates[i, 1]
+                m.candidate = i
+                m.previous = last
+                m.persisted_1 = True
+                m.persisted_2 = True
+                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, anchors[last], m)
                 # What is round on both sides, or on one against a face, may turn as it likes.
-                turn = 0.0 if a.kind == CIRCLE or b.kind == CIRCLE else abs((q.angle - p.angle) - c.turn) * reach
-                c.persisted = True
-                fits = slid <= distance and turn <= distance and abs(c.separation - c.base) <= distance
+                turn = 0.0
+                if a.kind != CIRCLE and b.kind != CIRCLE:
+                    turn = abs((q.angle - p.angle) - anchors[last].turn) * reach
+                fits = slid <= distance and turn <= distance and changed <= distance
             else:
                 fits = False
             found += 1
@@ -157,33 +203,93 @@ def recycle_contacts(
 @kernel
 def remember_grids(
     # read
-    shapes,
-    candidates,
-    count,
-    kinds,
+    batch,
     previous,
     # write
     memory_out,
 ):
-    """Write where the previous contacts of every candidate with a tile grid stand: memory_out (count, 2) first, number.
+    """Write where the previous manifolds of every candidate with a tile grid stand: memory_out (count, 2) first, number.
 
     Both in the order of shape ids. One-way tiles ask who stood on them. O(candidates + previous).
     """
     j = 0
-    for i in range(count):
+    for i in range(batch.count):
         memory_out[i, 0] = 0
         memory_out[i, 1] = 0
-        if kinds[i] != GRID_ANY:
+        if batch.kinds[i] != GRID_ANY:
             continue
-        a = shapes[candidates[i, 0]].id
-        b = shapes[candidates[i, 1]].id
-        while j < len(previous) and (previous[j].shape_a < a or (previous[j].shape_a == a and previous[j].shape_b < b)):
+        a = batch.shapes[batch.candidates[i, 0]].id
+        b = batch.shapes[batch.candidates[i, 1]].id
+        while j < len(previous) and is_before(previous[j], a, b):
             j += 1
         last = j
-        while last < len(previous) and previous[last].shape_a == a and previous[last].shape_b == b:
+        while last < len(previous) and is_of(previous[last], a, b):
             last += 1
         memory_out[i, 0] = j
         memory_out[i, 1] = last - j
+
+
+@subkernel
+def copy_anchor(source, anchor_out):
+    """Copy one row field by field."""
+    s = source
+    d = anchor_out
+    d.frame = s.frame
+    d.local_nx = s.local_nx
+    d.local_ny = s.local_ny
+    d.turn = s.turn
+    d.radius_a = s.radius_a
+    d.radius_b = s.radius_b
+    d.friction = s.friction
+    d.restitution = s.restitution
+    d.rolling_resistance = s.rolling_resistance
+    d.surface_speed = s.surface_speed
+    d.rolling_force = s.rolling_force
+    d.color = s.color
+    d.local_ax_1 = s.local_ax_1
+    d.local_ay_1 = s.local_ay_1
+    d.local_bx_1 = s.local_bx_1
+    d.local_by_1 = s.local_by_1
+    d.base_1 = s.base_1
+    d.normal_force_1 = s.normal_force_1
+    d.tangent_force_1 = s.tangent_force_1
+    d.local_ax_2 = s.local_ax_2
+    d.local_ay_2 = s.local_ay_2
+    d.local_bx_2 = s.local_bx_2
+    d.local_by_2 = s.local_by_2
+    d.base_2 = s.base_2
+    d.normal_force_2 = s.normal_force_2
+    d.tangent_force_2 = s.tangent_force_2
+
+
+@subkernel
+def take_over(previous, anchors, first, manifold_inout, anchor_inout):
+    """Give the points of a new manifold the forces of the points with their features, among the previous manifolds of its
+    pair, which begin at `first`."""
+    m = manifold_inout
+    c = anchor_inout
+    for point in range(m.count):
+        feature = m.feature_1 if point == 0 else m.feature_2
+        k = first
+        known = False
+        while not known and k < len(previous) and is_of(previous[k], m.shape_a, m.shape_b):
+            o = previous[k]
+            f = anchors[k]
+            second = o.count == 2 and o.feature_2 == feature and o.feature_1 != feature
+            if o.feature_1 == feature or second:
+                known = True
+                normal_force = f.normal_force_2 if second else f.normal_force_1
+                tangent_force = f.tangent_force_2 if second else f.tangent_force_1
+                if point == 0:
+                    c.normal_force_1 = normal_force
+                    c.tangent_force_1 = tangent_force
+                    c.rolling_force = 0.0 if second else f.rolling_force
+                    m.persisted_1 = True
+                else:
+                    c.normal_force_2 = normal_force
+                    c.tangent_force_2 = tangent_force
+                    m.persisted_2 = True
+            k += 1
 
 
 @kernel
@@ -192,108 +298,66 @@ def carry_over(
     bodies,
     shapes,
     previous,
+    previous_anchors,
     # write
-    contacts_inout,
+    manifolds_inout,
+    anchors_out,
 ):
-    """Give every new contact the forces of the contact of the same pair and feature in the step before. O(both).
+    """Write the anchor of every manifold: as it was where that is used again; else a new one, with the forces of the points
+    of the same pair and feature in the step before. O(both).
 
-    previous and contacts_inout CONTACT rows in the order of shape ids.
+    previous and manifolds_inout MANIFOLD rows in the order of shape ids, anchors row by row beside them.
     """
     j = 0
-    for i in range(len(contacts_inout)):
-        c = contacts_inout[i]
-        c.normal_impulse = 0.0
-        c.tangent_impulse = 0.0
-        c.color = -1
-        if c.persisted:
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        c = anchors_out[i]
+        m.normal_impulse_1 = 0.0
+        m.tangent_impulse_1 = 0.0
+        m.normal_impulse_2 = 0.0
+        m.tangent_impulse_2 = 0.0
+        if m.previous >= 0:
+            copy_anchor(previous_anchors[m.previous], c)
+            c.color = -1
             continue
-        anchor(bodies, shapes, c)
-        while j < len(previous) and (
-            previous[j].shape_a < c.shape_a or (previous[j].shape_a == c.shape_a and previous[j].shape_b < c.shape_b)
-        ):
+        c.color = -1
+        c.rolling_force = 0.0
+        c.normal_force_1 = 0.0
+        c.tangent_force_1 = 0.0
+        c.normal_force_2 = 0.0
+        c.tangent_force_2 = 0.0
+        anchor_manifold(bodies, shapes, m, c)
+        while j < len(previous) and is_before(previous[j], m.shape_a, m.shape_b):
             j += 1
-        k = j
-        while k < len(previous) and previous[k].shape_a == c.shape_a and previous[k].shape_b == c.shape_b:
-            o = previous[k]
-            if o.feature == c.feature:
-                c.normal_force = o.normal_force
-                c.tangent_force = o.tangent_force
-                c.rolling_force = o.rolling_force
-                c.persisted = True
-                break
-            k += 1
+        take_over(previous, previous_anchors, j, m, c)
 
 
 @kernel
 def follow_bodies(
     # read
     bodies,
+    anchors,
     # write
-    contacts_inout,
+    manifolds_inout,
 ):
-    """Carry separations, points and normals of all contacts to the final poses. O(contacts)."""
+    """Carry separations, points and normals of all manifolds to the final poses. O(manifolds)."""
     row_a = -1
     row_b = -1
     a_cosine = 1.0
     a_sine = 0.0
     b_cosine = 1.0
     b_sine = 0.0
-    for i in range(len(contacts_inout)):
-        c = contacts_inout[i]
-        a = bodies[c.body_row_a]
-        b = bodies[c.body_row_b]
-        # The contacts of a pair, and often those of a body, stand together.
-        if c.body_row_a != row_a:
-            row_a = c.body_row_a
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        a = bodies[m.body_row_a]
+        b = bodies[m.body_row_b]
+        # The manifolds of a pair, and often those of a body, stand together.
+        if m.body_row_a != row_a:
+            row_a = m.body_row_a
             a_cosine = math.cos(a.angle)
             a_sine = math.sin(a.angle)
-        if c.body_row_b != row_b:
-            row_b = c.body_row_b
+        if m.body_row_b != row_b:
+            row_b = m.body_row_b
             b_cosine = math.cos(b.angle)
             b_sine = math.sin(b.angle)
-        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, c)
-
-
-@kernel
-def mix_materials(
-    # read
-    geometry,
-    shapes,
-    # write
-    contacts_inout,
-):
-    """Write the mixed materials of every contact that is new; a chain's link has its own. O(contacts).
-
-    Friction is the geometric mean, restitution and rolling resistance the greater, surface speeds add up. Rolling
-    resistance is a length here: the coefficient times the greater radius (Catto, Box2D v3.1).
-    """
-    for i in range(len(contacts_inout)):
-        c = contacts_inout[i]
-        friction = 1.0
-        restitution = 0.0
-        rolling = 0.0
-        radius = 0.0
-        speed = 0.0
-        for side in range(2):
-            s = shapes[c.row_a if side == 0 else c.row_b]
-            own_friction = s.friction
-            own_restitution = s.restitution
-            own_rolling = s.rolling_resistance
-            own_speed = s.surface_speed
-            if s.kind == CHAIN:
-                link = geometry.links[geometry.chains[s.geometry].offset + c.feature // 4096]
-                if link.friction >= 0.0:
-                    own_friction = link.friction
-                    own_restitution = link.restitution
-                    own_rolling = link.rolling_resistance
-                    own_speed = link.surface_speed
-            friction *= own_friction
-            restitution = max(restitution, own_restitution)
-            rolling = max(rolling, own_rolling)
-            speed += own_speed
-            if s.kind != TILES and s.kind != CHAIN and s.kind != MASK:
-                radius = max(radius, s.radius)
-        c.friction = math.sqrt(friction)
-        c.restitution = restitution
-        c.rolling_resistance = rolling * radius
-        c.surface_speed = speed
+        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], m)

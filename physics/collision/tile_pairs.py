@@ -3,8 +3,9 @@
 import math
 
 from physics.collision.clipping import ALL_EDGES
-from physics.collision.contacts import GRID_ANY, circle_at, corners_of, write_contact
+from physics.collision.features import part_feature, part_of
 from physics.collision.hulls import collide_hull_circle, collide_hulls
+from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_at, corners_of
 from physics.collision.mask_hulls import collide_mask_polygon
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import kernel, subkernel
@@ -15,13 +16,16 @@ from physics.tables.shape import BOUNDS, CIRCLE, MASK, POLYGON, TILES
 
 
 @subkernel
-def stood_on(scratch, pair, run):
+def stood_on(workspace, pair, run):
     """Whether the step before had a contact of this candidate with this run of tiles."""
-    if pair >= len(scratch.memory):
+    if pair >= len(workspace.memory):
         return False
-    first = scratch.memory[pair, 0]
-    for k in range(first, first + scratch.memory[pair, 1]):
-        if k < len(scratch.previous) and scratch.previous[k].feature // 4096 == run:
+    first = workspace.memory[pair, 0]
+    for k in range(first, first + workspace.memory[pair, 1]):
+        if k >= len(workspace.previous):
+            return False
+        m = workspace.previous[k]
+        if part_of(m.feature_1) == run or (m.count == 2 and part_of(m.feature_2) == run):
             return True
     return False
 
@@ -32,26 +36,25 @@ def make_grid_pass(one_way: bool):
     @kernel
     def collide_grid_pairs(
         # read
-        geometry,
-        bodies,
-        shapes,
-        candidates,
-        kinds,
-        count,
-        margin,
-        bias,
+        batch,
         # write
-        scratch,
-        contacts_out,
+        workspace,
+        manifolds_out,
         found,
         work_inout,
     ):
         """Contacts of all pairs with a tile grid, run by run, appended at `found`. Returns the new count."""
+        geometry = batch.geometry
+        bodies = batch.bodies
+        shapes = batch.shapes
+        candidates = batch.candidates
+        kinds = batch.kinds
+        margin = batch.margin
         grids = geometry.grids
         cells = geometry.cells
         polygons = geometry.polygons
         table = geometry.corners
-        for i in range(count):
+        for i in range(batch.count):
             if kinds[i] != GRID_ANY:
                 continue
             sign = 1.0 if shapes[candidates[i, 0]].kind == TILES else -1.0
@@ -88,9 +91,9 @@ def make_grid_pass(one_way: bool):
                 cx, cy, radius = circle_at(bodies, shapes, other)
             else:
                 if o.kind == BOUNDS:
-                    n = corners_of(geometry, bodies, shapes, other, scratch.b)
+                    n = corners_of(geometry, bodies, shapes, other, workspace.b)
                 else:
-                    n = polygon_at(polygons, table, o.geometry, q.x, q.y, cosine, sine, scratch.b)
+                    n = polygon_at(polygons, table, o.geometry, q.x, q.y, cosine, sine, workspace.b)
                 radius = rounding(shapes, other)
             # Columns that it overlaps, not only touches.
             low = math.floor((min_x - p.x) / g.tile_size)
@@ -117,19 +120,19 @@ def make_grid_pass(one_way: bool):
                             attempt == 1
                             or (
                                 was_above > p.y + tile_row * g.tile_size + margin
-                                and not stood_on(scratch, i, tile_row * g.columns + cell.first)
+                                and not stood_on(workspace, i, tile_row * g.columns + cell.first)
                             )
                         ):
                             continue
                         if kind == SLOPE:
-                            corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, scratch.a)
+                            corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, workspace.a)
                         else:
                             corners, edges = run_at(
-                                grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, scratch.a
+                                grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, workspace.a
                             )
                         seen += 1
                         edges = edges if attempt == 0 else ALL_EDGES
-                        feature = (tile_row * g.columns + cell.first) * 4096
+                        feature = part_feature(tile_row * g.columns + cell.first, 0)
                         if o.kind == MASK:
                             area, nx, ny, x, y, separation, which = collide_mask_polygon(
                                 geometry.rasters,
@@ -137,13 +140,13 @@ def make_grid_pass(one_way: bool):
                                 mask,
                                 left,
                                 top,
-                                scratch.a,
+                                workspace.a,
                                 corners,
                                 edges,
-                                scratch.depths,
+                                workspace.depths,
                             )
                             if area > 0:
-                                found = write_contact(
+                                found = add_point(
                                     shapes,
                                     candidates,
                                     i,
@@ -155,14 +158,14 @@ def make_grid_pass(one_way: bool):
                                     separation,
                                     float(area),
                                     feature,
-                                    contacts_out,
+                                    manifolds_out,
                                 )
                         elif o.kind == CIRCLE:
                             hit, nx, ny, x, y, separation, which = collide_hull_circle(
-                                scratch.a, corners, edges, 0.0, cx, cy, radius
+                                workspace.a, corners, edges, 0.0, cx, cy, radius
                             )
                             if hit and separation <= margin:
-                                found = write_contact(
+                                found = add_point(
                                     shapes,
                                     candidates,
                                     i,
@@ -174,41 +177,28 @@ def make_grid_pass(one_way: bool):
                                     separation,
                                     0.0,
                                     feature + which,
-                                    contacts_out,
+                                    manifolds_out,
                                 )
                         else:
-                            manifold = scratch.manifold
-                            facing = edges_facing(scratch.b, n, edges) if corners == 4 else ALL_EDGES
+                            manifold = workspace.points
+                            facing = edges_facing(workspace.b, n, edges) if corners == 4 else ALL_EDGES
                             points = collide_hulls(
-                                scratch.a,
+                                workspace.a,
                                 corners,
                                 0.0,
                                 edges,
-                                scratch.b,
+                                workspace.b,
                                 n,
                                 radius,
                                 facing,
                                 margin,
-                                bias,
+                                batch.bias,
                                 deepest,
                                 manifold,
                             )
-                            for k in range(points):
-                                at = 3 + 4 * k
-                                found = write_contact(
-                                    shapes,
-                                    candidates,
-                                    i,
-                                    found,
-                                    sign * manifold[1],
-                                    sign * manifold[2],
-                                    manifold[at],
-                                    manifold[at + 1],
-                                    manifold[at + 2],
-                                    0.0,
-                                    feature + int(manifold[at + 3]),
-                                    contacts_out,
-                                )
+                            found = add_points(
+                                shapes, candidates, i, found, sign, manifold, points, feature, manifolds_out
+                            )
         return found
 
     return collide_grid_pairs

@@ -1,7 +1,18 @@
-"""Which bodies can change anything in a step."""
+"""What is awake: the rows that the passes of a step go over.
+
+In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones that
+move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs nothing.
+The lists are kept as things wake and fall asleep, not searched for.
+"""
+
+import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.tables.body import DYNAMIC
+from physics.tables.body import DYNAMIC, KINEMATIC
+from physics.tables.rows import rows_of
+from physics.tables.step_state import stage
+
+NONE = np.zeros(0, np.int64)
 
 
 @subkernel
@@ -20,9 +31,149 @@ def is_active(body):
 
 
 @kernel
-def is_anything_active(bodies):
-    """Whether any body can change anything: else a step has nothing to do. O(bodies)."""
-    for i in range(len(bodies)):
-        if is_active(bodies[i]) and not bodies[i].quarantined:
-            return True
-    return False
+def list_active(bodies, rows, rows_out):
+    """List those of the rows whose body is active and not quarantined. Returns their number. O(rows)."""
+    found = 0
+    for k in range(len(rows)):
+        b = bodies[rows[k]]
+        if is_active(b) and not b.quarantined:
+            rows_out[found] = rows[k]
+            found += 1
+    return found
+
+
+class Awake:
+    """The awake rows of one world: `bodies` and `shapes`, int64, ascending."""
+
+    def __init__(self, sleeping: bool):
+        self.sleeping = sleeping
+        self.bodies = self.shapes = NONE
+        self.dynamic = NONE  # rows of the dynamic bodies that are awake
+        self.kinematic = NONE  # rows of all kinematic bodies
+        self.stirred = []  # ids of what was added or touched since the last step
+        self.numbers = NONE  # 0, 1, 2 …
+        self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
+        self.known = (0, 0)  # bodies and shapes that the lists have taken in
+        self.stale = True  # rows have moved: everything is looked for again
+
+    def start_over(self):
+        """The tables were replaced, or rows dropped or changed in kind: everything is looked for again."""
+        self.stale = True
+
+    def stir(self, ids):
+        """Have what was added or written by hand looked at in the next step."""
+        if self.sleeping:
+            self.stirred += ids
+
+    def all_rows(self, bodies, shapes):
+        """Every row: for worlds without sleeping."""
+        most = max(len(bodies), len(shapes))
+        if len(self.numbers) < most:
+            self.numbers = np.arange(2 * most)
+        self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
+
+    def keep_rows(self, kept_bodies):
+        """Bodies were dropped: the others have new rows. kept_bodies bool."""
+        if self.sleeping and not self.stale:
+            new = np.cumsum(kept_bodies) - 1
+            for name in ("bodies", "dynamic", "kinematic"):
+                rows = getattr(self, name)
+                setattr(self, name, new[rows[kept_bodies[rows]]])
+            self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
+
+    def forget_shapes(self):
+        """Shape rows came or went: which shapes are whose is looked for again."""
+        self.known = (self.known[0], -1)
+
+    def take_in(self, tables):
+        """Bring the lists up to date with what was added, or with everything."""
+        bodies, shapes = tables.bodies, tables.shapes
+        count, shape_count = len(bodies), len(shapes)
+        if self.stale:
+            self.bodies = self.dynamic = self.kinematic = NONE
+            bodies["active"] = False
+            tables.pairs.proxies["awake"] = False
+            self.known = (0, -1)
+            self.stale = False
+        if self.known[0] < count:
+            new = bodies[self.known[0] :]
+            there = ~new["quarantined"]
+            kinds = new["kind"]
+            self.dynamic = np.concatenate(
+                [self.dynamic, self.known[0] + np.flatnonzero((kinds == DYNAMIC) & new["awake"] & there)]
+            )
+            self.kinematic = np.concatenate(
+                [self.kinematic, self.known[0] + np.flatnonzero((kinds == KINEMATIC) & there)]
+            )
+        if self.known != (count, shape_count):
+            self._sort_shapes(bodies, shapes)
+            self.known = (count, shape_count)
+            self.shapes = self.shapes_of(self.bodies)
+
+    def _sort_shapes(self, bodies, shapes):
+        owners = np.ascontiguousarray(shapes["body_row"])
+        self.order = np.argsort(owners, kind="stable")
+        self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
+
+    def shapes_of(self, rows) -> np.ndarray:
+        """Shape rows of these body rows, ascending."""
+        first, counts = self.starts[rows], self.starts[rows + 1] - self.starts[rows]
+        total = int(counts.sum())
+        places = np.repeat(first - (np.cumsum(counts) - counts), counts) + np.arange(total)
+        return np.sort(self.order[places])
+
+    def include(self, tables, rows):
+        """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
+        self.take_in(tables)
+        self.bodies = np.union1d(self.bodies, rows)
+        new = rows[tables.bodies["kind"][rows] == DYNAMIC]
+        if len(new):
+            self.dynamic = np.union1d(self.dynamic, new)
+        self._set_active(tables, rows, True)
+        self.shapes = self.shapes_of(self.bodies)
+
+    def exclude(self, tables, rows):
+        """Drop body rows from the lists: nothing about them changes until they are included again."""
+        self.take_in(tables)
+        self._set_active(tables, rows, False)
+        flags = tables.bodies["active"]
+        self.bodies = self.bodies[flags[self.bodies]]
+        self.dynamic = self.dynamic[flags[self.dynamic]]
+        self.shapes = self.shapes_of(self.bodies)
+
+    def _set_active(self, tables, rows, active):
+        tables.bodies["active"][rows] = active
+        slots = tables.shapes["proxy"][self.shapes_of(rows)]
+        tables.pairs.set_awake(slots[slots >= 0], active)
+
+
+@stage(
+    "awake",
+    reads=("bodies", "shapes", "characters", "awake", "sleepers", "pairs", "touching", "sensing"),
+    writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active"),
+)
+def list_awake(state):
+    """The rows that this step goes over; who begins to move, and who has come to a stand, among what is not dynamic."""
+    awake, bodies = state.awake, state.bodies
+    awake.take_in(state)
+    moving = np.empty(len(awake.kinematic), np.int64)
+    moving = moving[: list_active(bodies, awake.kinematic, moving)]
+    wanted = [awake.dynamic, moving]
+    if awake.stirred:
+        stirred = rows_of(bodies, np.array(awake.stirred, np.int64))
+        wanted.append(stirred[stirred >= 0])
+        awake.stirred = []
+    if len(state.characters):
+        wanted.append(state.characters["body_row"])
+    rows = np.unique(np.concatenate(wanted)) if sum(map(len, wanted)) > len(awake.dynamic) else awake.dynamic
+    if len(rows) == len(awake.bodies) and np.array_equal(rows, awake.bodies):
+        return
+    flags = bodies["active"]
+    begun = rows[~flags[rows]]
+    ended = np.setdiff1d(awake.bodies, rows, assume_unique=True)
+    if len(begun):
+        awake.include(state, begun)
+        state.sleepers.return_told(state, bodies["id"][begun])
+    if len(ended):
+        awake.exclude(state, ended)
+        state.sleepers.keep_told(state)

@@ -5,10 +5,20 @@ Source of the order and of the implicit drag v / (1 + c h), which is stable for 
 
 import math
 
+import numpy as np
+
+from physics.dynamics.sleep import disturb
 from physics.jit import kernel
 from physics.math2d import turned
+from physics.settings import POSITION_LIMIT
+from physics.shapes.placement import refresh_aabbs
+from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.contact import QUARANTINE
 from physics.tables.counters import BODIES_INTEGRATED
+from physics.tables.step_state import stage
+
+BOTH = (False, True)
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
@@ -19,7 +29,8 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
 
     @kernel
     def integrate_velocities(
-        # read, scalars
+        # read
+        rows,
         gravity_x,
         gravity_y,
         drag_rate,
@@ -29,9 +40,9 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
         # write
         bodies_inout,
     ):
-        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities; O(bodies)."""
-        for i in range(len(bodies_inout)):
-            b = bodies_inout[i]
+        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities; O(rows)."""
+        for k in range(len(rows)):
+            b = bodies_inout[rows[k]]
             if b.kind != DYNAMIC or b.quarantined:
                 continue
             b.vx += dt * b.inverse_mass * b.force_x
@@ -62,15 +73,16 @@ def make_position_pass(rotation: bool):
 
     @kernel
     def integrate_positions(
-        # read, scalars
+        # read
+        rows,
         dt,
         # write
         bodies_inout,
         work_inout,
     ):
-        """Move every body by the free fraction of its motion in dt [s], keeping the pose it came from; O(bodies)."""
-        for i in range(len(bodies_inout)):
-            b = bodies_inout[i]
+        """Move bodies by the free fraction of their motion in dt [s], keeping the poses they came from; O(rows)."""
+        for k in range(len(rows)):
+            b = bodies_inout[rows[k]]
             b.previous_x = b.x
             b.previous_y = b.y
             b.previous_angle = b.angle
@@ -94,10 +106,10 @@ def make_position_pass(rotation: bool):
 
 
 @kernel
-def refresh_centers(bodies_inout):
-    """Write the world centres of mass [px] at the present poses. O(bodies)."""
-    for i in range(len(bodies_inout)):
-        b = bodies_inout[i]
+def refresh_centers(rows, bodies_inout):
+    """Write the world centres of mass [px] at the present poses. O(rows)."""
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
         u = b.local_center_x
         v = b.local_center_y
         if b.angle != 0.0:
@@ -112,7 +124,8 @@ def refresh_centers(bodies_inout):
 
 @kernel
 def find_broken(
-    # read, scalars
+    # read
+    rows,
     speed_limit,
     position_limit,
     dt,
@@ -122,11 +135,11 @@ def find_broken(
 ):
     """List the rows of bodies that are not finite, too fast [px/s] or too far out [px], and put them to rest.
 
-    Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (bodies) rows.
+    Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (rows).
     """
     found = 0
-    for i in range(len(bodies_inout)):
-        b = bodies_inout[i]
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
         if b.quarantined:
             continue
         there = abs(b.x) < position_limit and abs(b.y) < position_limit and abs(b.angle) < math.inf
@@ -139,7 +152,7 @@ def find_broken(
             and abs(b.angle + dt * b.angular_velocity) < math.inf
         )
         if not finite:
-            broken_out[found] = i
+            broken_out[found] = rows[k]
             found += 1
             if not there:
                 b.x = b.settled_x
@@ -154,5 +167,106 @@ def find_broken(
             b.force_x = 0.0
             b.force_y = 0.0
             b.torque = 0.0
+            b.awake = False
             b.quarantined = True
     return found
+
+
+# One compiled pass per combination of effects that it depends on; made here, compiled when first run.
+VELOCITIES = {
+    (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
+    for g in BOTH
+    for d in BOTH
+    for w in BOTH
+    for r in BOTH
+}
+POSITIONS = {r: make_position_pass(rotation=r) for r in BOTH}
+REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
+
+
+@stage(
+    "quarantine",
+    reads=(
+        "bodies",
+        "shapes",
+        "awake",
+        "sleepers",
+        "pairs",
+        "manifolds",
+        "anchors",
+        "touching",
+        "sensing",
+        "tolerances",
+        "dt",
+    ),
+    writes=(
+        "events",
+        "pairs",
+        "awake",
+        "sleepers",
+        "manifolds",
+        "anchors",
+        "touching",
+        "sensing",
+        "shapes.proxy",
+        "bodies.sleep_time",
+        "bodies.island",
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
+        *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
+        *(f"bodies.{name}" for name in REST),
+    ),
+)
+def quarantine(state):
+    """Take what is no longer finite out of the simulation, and tell it; its neighbours go on as if it had been removed."""
+    rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
+    broken = np.empty(len(rows), np.int64)
+    broken = broken[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, broken)]
+    if not len(broken):
+        return
+    ids = bodies["id"][broken]
+    why = "position, angle or velocity is not finite or beyond what a double resolves"
+    state.events.quarantined = np.array([(each, why) for each in ids.tolist()], QUARANTINE)
+    own = np.isin(shapes["body"], ids)
+    state.pairs.free_proxies(shapes["proxy"][own])
+    shapes["proxy"][own] = -1
+    refresh_centers(broken, bodies)
+    disturb(state, ids)
+    state.awake.start_over()
+
+
+@stage(
+    "integrate_velocities",
+    reads=("effects", "awake", "bodies", "gravity", "drag", "wind", "dt"),
+    writes=tuple(f"bodies.{name}" for name in ("vx", "vy", "angular_velocity", "force_x", "force_y", "torque")),
+)
+def integrate_velocities(state):
+    """Velocities from forces."""
+    e = state.effects
+    integrate = VELOCITIES[e.gravity, e.drag, e.wind, e.rotation]
+    integrate(state.awake.bodies, *state.gravity, state.drag, *state.wind, state.dt, state.bodies)
+
+
+@stage(
+    "integrate_positions",
+    reads=("effects", "awake", "bodies", "shapes", "library", "dt"),
+    writes=(
+        "work",
+        "library",
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
+        *(f"bodies.{name}" for name in ("center_x", "center_y", "settled_x", "settled_y", "settled_angle")),
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def integrate_positions(state):
+    """Poses from velocities, as far as the way is free; boxes and pixels where the bodies are now."""
+    rows, bodies = state.awake.bodies, state.bodies
+    POSITIONS[state.effects.rotation](rows, state.dt, bodies, state.work)
+    refresh_centers(rows, bodies)
+    place_shapes(state)
+
+
+def place_shapes(state):
+    """Boxes, and the pixels of masks, at the present poses of what is awake."""
+    # What was stopped on its way, or pushed round, may stand at an angle that was not foreseen.
+    add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
+    refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)

@@ -227,15 +227,14 @@ def overlap(world, shape, pose, filter) -> list:
 
 
 def _contacts(world, bodies, shapes, rows):
-    """Contacts of a probe, as B, with the shapes in these rows; `candidate` tells which."""
+    """Manifolds of a probe, as B, with the shapes in these rows; `candidate` tells which."""
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
     all_bodies = np.concatenate([world.bodies[others], bodies])
     all_shapes = np.concatenate([world.shapes[rows], shapes])
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
-    return narrow_phase_for_queries().collide(
-        world.library.tables, all_bodies, all_shapes, pairs, len(pairs), 0.0, 0.0, world.queries.work
-    )
+    narrow = narrow_phase_for_queries()
+    return narrow.collide(world.library.tables, all_bodies, all_shapes, pairs, 0.0, world.queries.work)
 
 
 def _first_contact(world, bodies, shapes, rows):
@@ -249,7 +248,7 @@ def _first_contact(world, bodies, shapes, rows):
         0.0,
         float(c["normal_x"]),
         float(c["normal_y"]),
-        (float(c["point_x"]), float(c["point_y"])),
+        (float(c["x_1"]), float(c["y_1"])),
     )
 
 
@@ -257,7 +256,7 @@ def _probe(world, shape, pose):
     """BODY and SHAPE of a shape at a pose; it stays in the library only while that is visited."""
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
-    refresh_aabbs(world.library.tables, bodies, shapes)
+    refresh_aabbs(np.arange(1), world.library.tables, bodies, shapes)
     return bodies, shapes
 
 

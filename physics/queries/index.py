@@ -140,8 +140,9 @@ class QueryIndex:
         if same_poses(bodies, self.poses) and same:
             return
         self.seen = seen
-        add_missing_rasters(world, 0.0)
-        refresh_aabbs(world.library.tables, bodies, shapes)
+        rows = np.arange(len(shapes))
+        add_missing_rasters(world.library, rows, bodies, shapes, 0.0)
+        refresh_aabbs(rows, world.library.tables, bodies, shapes)
         proxies = world.pairs.proxies
         if len(self.row_of_slot) != len(proxies):
             self.row_of_slot, self.slots = np.zeros(len(proxies), np.int64), np.zeros(len(proxies), np.int64)

@@ -68,5 +68,5 @@ def _core(name, shape, pose_name, pose):
     library, rows, corners = Library(), np.zeros(1, SHAPE), np.zeros((16, 2))
     rows["kind"], rows["geometry"], rows["wrapped"] = library.add(shape)
     rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
-    count, radius = write_hull(library.tables, rows, x, y, angle, corners)
+    count, radius = write_hull(library.tables, rows, 0, x, y, angle, corners)
     return corners[:count], radius

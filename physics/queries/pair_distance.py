@@ -114,7 +114,7 @@ def _parts(shape_a, pose_a, shape_b, pose_b, x, y):
     bodies, shapes = np.zeros(2, BODY), np.zeros(2, SHAPE)
     for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
         place(library, shape, bodies, shapes, row, pose)
-    refresh_aabbs(library.tables, bodies, shapes)
+    refresh_aabbs(np.arange(2), library.tables, bodies, shapes)
     return tuple(placed_parts(library, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])) for row in (0, 1))
 
 

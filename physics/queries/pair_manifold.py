@@ -6,6 +6,7 @@ import numpy as np
 
 from physics import checks
 from physics.collision.dispatch import exact_narrow_phase, no_work
+from physics.collision.manifold import contacts_of
 from physics.shapes.kinds import SHAPES
 from physics.shapes.library import Library
 from physics.shapes.mask import PixelMask
@@ -61,23 +62,22 @@ def collide(shape_a, pose_a, shape_b, pose_b, margin=0.0) -> Manifold:
     given = ((shape_a, poses[0]), (shape_b, poses[1]))
     for row, (shape, pose) in enumerate(given):
         place(library, shape, bodies, shapes, row, pose)
-    refresh_aabbs(library.tables, bodies, shapes)
+    refresh_aabbs(np.arange(2), library.tables, bodies, shapes)
     narrow = exact_narrow_phase()
 
-    def contacts_of(first, second):
-        return narrow.collide(
-            library.tables, bodies, shapes, np.array([[first, second]], np.int64), 1, margin, 0.0, no_work()
-        )
+    def points_of(first, second):
+        pair = np.array([[first, second]], np.int64)
+        return contacts_of(narrow.collide(library.tables, bodies, shapes, pair, margin, no_work()))
 
     swapped = _order(*given[1]) < _order(*given[0])
-    contacts = contacts_of(1, 0) if swapped else contacts_of(0, 1)
+    contacts = points_of(1, 0) if swapped else points_of(0, 1)
     if not len(contacts):
         return Manifold((0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
     deepest = contacts[np.argmin(contacts["separation"])]
     sign = -1.0 if swapped else 1.0
     features = contacts["feature"].copy()
     if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
-        features = contacts_of(0, 1)["feature"].copy()  # a pixel of the mask that was named first
+        features = points_of(0, 1)["feature"].copy()  # a pixel of the mask that was named first
     return Manifold(
         (sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
         np.stack([contacts["point_x"], contacts["point_y"]], axis=1),

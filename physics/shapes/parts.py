@@ -9,13 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.jit import kernel
 from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
-from physics.shapes.placement import hull_at, rounding
+from physics.shapes.placement import write_hull
 from physics.shapes.tiles import TileGrid
 
 
@@ -26,12 +25,6 @@ class Parts(NamedTuple):
     counts: np.ndarray  # (n,) corners of each
     boxes: np.ndarray  # (n, 4) min_x min_y max_x max_y of each with its rounding
     radius: float  # [px]
-
-
-@kernel
-def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number and its rounding."""
-    return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
 def parts_of(outlines, radius=0.0) -> Parts:

@@ -183,14 +183,15 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 
 @kernel
-def write_hull(geometry, shapes, x, y, angle, corners_out):
-    """Write the world corners [px] of the first of some SHAPE rows to corners_out (16, 2). Returns their number, the radius."""
-    return hull_at(geometry, shapes, 0, x, y, angle, corners_out), rounding(shapes, 0)
+def write_hull(geometry, shapes, row, x, y, angle, corners_out):
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number, and its rounding [px]."""
+    return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
 @kernel
 def missing_rasters(
     # read
+    rows,
     bodies,
     shapes,
     raster_of,
@@ -200,19 +201,20 @@ def missing_rasters(
 ):
     """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
 
-    bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice. O(shapes).
+    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice.
+    O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
-    for row in range(len(shapes)):
-        s = shapes[row]
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
         if s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK):
             continue
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
             continue  # as it was added
-        for k in range(2):
-            bucket = bucket_at(b.angle + k * dt * b.angular_velocity, buckets)
+        for end in range(2):
+            bucket = bucket_at(b.angle + end * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
                 if found < missing_out.shape[0]:
                     missing_out[found, 0] = s.geometry
@@ -224,15 +226,17 @@ def missing_rasters(
 @kernel
 def refresh_aabbs(
     # read
+    rows,
     geometry,
     bodies,
     # write
     shapes_inout,
 ):
-    """Write every shape's tight AABB at its body's pose, and where a mask is drawn. shapes_inout SHAPE rows. O(shapes)."""
+    """Write the tight AABB of the shapes in these rows at their bodies' poses, and where a mask is drawn. O(rows)."""
     polygons = geometry.polygons
     table = geometry.corners
-    for row in range(len(shapes_inout)):
+    for k in range(len(rows)):
+        row = rows[k]
         s = shapes_inout[row]
         b = bodies[s.body_row]
         if s.kind == POLYGON:

@@ -5,11 +5,11 @@ import numpy as np
 from physics.shapes.placement import missing_rasters
 
 
-def add_missing_rasters(world, dt):
-    """Draw the masks at the angles that they have, or will have after dt, and did not have before."""
-    if not world.library.masks:
+def add_missing_rasters(library, rows, bodies, shapes, dt):
+    """Draw the masks of these shape rows at the angles that they have, or will have after dt [s], and did not have before."""
+    if not library.masks:
         return
-    missing = np.zeros((2 * len(world.shapes), 2), np.int64)
-    found = missing_rasters(world.bodies, world.shapes, world.library.raster_of, dt, missing)
+    missing = np.zeros((2 * len(rows), 2), np.int64)
+    found = missing_rasters(rows, bodies, shapes, library.raster_of, dt, missing)
     for mask, bucket in np.unique(missing[:found], axis=0).tolist():
-        world.library.add_raster(mask, bucket)
+        library.add_raster(mask, bucket)

@@ -5,56 +5,129 @@ towards what is in its way. Every body that stays may be in the way of another, 
 new has to stay: at most once per body, usually two or three rounds.
 """
 
+import numpy as np
+
 from physics.collision.approach import closing_speed
-from physics.jit import kernel
+from physics.collision.detect import detect
+from physics.dynamics.integrate import place_shapes
+from physics.dynamics.sleep import in_order
+from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC
 from physics.tables.counters import SOLVER_ROWS
+from physics.tables.step_state import stage
 
 
 @kernel
 def stay_behind(
     # write
     bodies_inout,
-    contacts_inout,
+    manifolds_inout,
     work_inout,
 ):
     """Put the dynamic bodies of every overlap that moved back to their old poses.
 
-    The contact that stopped them is marked as met on the way. Touching (separation 0) stops nobody. Returns the number
-    of bodies put back. O(contacts).
+    The manifold that stopped them is marked as met on the way. Touching (separation 0) stops nobody. Returns the number
+    of bodies put back. O(manifolds).
     """
     put_back = 0
-    for i in range(len(contacts_inout)):
-        c = contacts_inout[i]
-        if c.separation >= 0.0:
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        if m.sensor:
             continue
-        work_inout[SOLVER_ROWS] += 1
+        overlaps = 0
+        if m.separation_1 < 0.0:
+            overlaps += 1
+        if m.count == 2 and m.separation_2 < 0.0:
+            overlaps += 1
+        work_inout[SOLVER_ROWS] += overlaps
+        if overlaps == 0:
+            continue
         for side in range(2):
-            b = bodies_inout[c.body_row_a if side == 0 else c.body_row_b]
+            b = bodies_inout[m.body_row_a if side == 0 else m.body_row_b]
             if b.kind == DYNAMIC and (b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle):
                 b.center_x += b.previous_x - b.x
                 b.center_y += b.previous_y - b.y
                 b.x = b.previous_x
                 b.y = b.previous_y
                 b.angle = b.previous_angle
-                c.swept = True
+                m.swept = True
                 put_back += 1
     return put_back
 
 
+@subkernel
+def stop_at_point(x, y, nx, ny, a_inout, b_inout):
+    """Take out the closing speed at a point, as an impulse without bounce. Returns the impulse."""
+    inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
+    if inverse_masses == 0.0:
+        return 0.0
+    impulse = max(closing_speed(a_inout, b_inout, x, y, nx, ny), 0.0) / inverse_masses
+    a_inout.vx -= a_inout.inverse_mass * impulse * nx
+    a_inout.vy -= a_inout.inverse_mass * impulse * ny
+    b_inout.vx += b_inout.inverse_mass * impulse * nx
+    b_inout.vy += b_inout.inverse_mass * impulse * ny
+    return impulse
+
+
 @kernel
-def stop_approach(bodies_inout, contacts_inout):
-    """Take out the closing speed of the contacts that stopped somebody, as an impulse without bounce. O(contacts)."""
-    for i in range(len(contacts_inout)):
-        c = contacts_inout[i]
-        a = bodies_inout[c.body_row_a]
-        b = bodies_inout[c.body_row_b]
-        inverse_masses = a.inverse_mass + b.inverse_mass
-        if not c.swept or c.sensor or inverse_masses == 0.0:
+def stop_approach(bodies_inout, manifolds_inout):
+    """Take out the closing speed of the manifolds that stopped somebody. O(manifolds)."""
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        if not m.swept or m.sensor:
             continue
-        impulse = max(closing_speed(bodies_inout, c), 0.0) / inverse_masses
-        c.normal_impulse = impulse
-        a.vx -= a.inverse_mass * impulse * c.normal_x
-        a.vy -= a.inverse_mass * impulse * c.normal_y
-        b.vx += b.inverse_mass * impulse * c.normal_x
-        b.vy += b.inverse_mass * impulse * c.normal_y
+        a = bodies_inout[m.body_row_a]
+        b = bodies_inout[m.body_row_b]
+        m.normal_impulse_1 = stop_at_point(m.x_1, m.y_1, m.normal_x, m.normal_y, a, b)
+        if m.count == 2:
+            m.normal_impulse_2 = stop_at_point(m.x_2, m.y_2, m.normal_x, m.normal_y, a, b)
+
+
+def _advance(bodies, manifolds, anchors):
+    """Carry the separations of manifolds to the present poses; anchors (n, 2): B's centre seen from A's when they were found."""
+    a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
+    moved_x = b["center_x"] - a["center_x"] - anchors[:, 0]
+    moved_y = b["center_y"] - a["center_y"] - anchors[:, 1]
+    for k in (1, 2):
+        manifolds[f"separation_{k}"] += manifolds["normal_x"] * moved_x + manifolds["normal_y"] * moved_y
+
+
+def solve(state, sets) -> float:
+    """Put back whoever would overlap, until nobody does. Returns the step [s]. It needs no rows but the manifolds."""
+    bodies, stopped, anchors = state.bodies, [], []
+    while True:
+        manifolds = state.manifolds
+        a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
+        seen = np.column_stack([b["center_x"] - a["center_x"], b["center_y"] - a["center_y"]])
+        if not stay_behind(bodies, manifolds, state.work):
+            break
+        met = manifolds["swept"] & ~manifolds["sensor"]
+        stopped.append(manifolds[met])
+        anchors.append(seen[met])
+        place_shapes(state)
+        state.manifolds = detect(state)
+    stop_approach(bodies, state.manifolds)
+    if stopped:
+        met = np.concatenate(stopped)
+        stop_approach(bodies, met)
+        _advance(bodies, met, np.concatenate(anchors))
+        others = state.manifolds[~np.isin(state.manifolds["candidate"], met["candidate"])]
+        state.manifolds = in_order(np.concatenate([others, met]))
+    return state.dt
+
+
+@stage(
+    "blocking",
+    reads=("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
+    writes=(
+        "manifolds",
+        "library",
+        "work",
+        "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "vx", "vy")),
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def blocking(state):
+    """Let whoever would overlap stay where it was."""
+    solve(state, state.workspace.sets)

@@ -31,23 +31,23 @@ def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
 
 
 @subkernel
-def bounces(contact, threshold, total):
+def bounces(speed, restitution, threshold, total):
     """Whether a point bounces: fast enough before the step, and an impulse acted in it."""
-    return contact.speed > threshold and total > 0.0 and contact.restitution > 0.0
+    return speed > threshold and total > 0.0 and restitution > 0.0
 
 
 @subkernel
-def bounce_once(contact, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout):
-    """Bounce one point. Returns the change of its impulse."""
-    missing = contact.restitution * contact.speed - relative_speed(a_inout, b_inout, nx, ny, ax, ay, bx, by)
+def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout):
+    """Bounce one point, to part at the wanted speed [px/s]. Returns the change of its impulse."""
+    missing = wanted - relative_speed(a_inout, b_inout, nx, ny, ax, ay, bx, by)
     change = max(impulse + mass * missing, 0.0) - impulse
     push_pair(nx, ny, ax, ay, bx, by, change, a_inout, b_inout)
     return change
 
 
 @subkernel
-def bounce_together(c, d, r, a_inout, b_inout):
-    """Bounce two points at once by the 2 x 2 system. Returns (solved, change of the first, of the second impulse)."""
+def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
+    """Bounce two points at once, to part at the wanted speeds [px/s], by the 2 x 2 system. Returns (solved, change of the first, of the second impulse)."""
     nx = r.normal_x
     ny = r.normal_y
     a_1 = r.ax_1 * ny - r.ay_1 * nx
@@ -58,8 +58,8 @@ def bounce_together(c, d, r, a_inout, b_inout):
     k_11 = masses + a_inout.inverse_inertia * a_1 * a_1 + b_inout.inverse_inertia * b_1 * b_1
     k_22 = masses + a_inout.inverse_inertia * a_2 * a_2 + b_inout.inverse_inertia * b_2 * b_2
     k_12 = masses + a_inout.inverse_inertia * a_1 * a_2 + b_inout.inverse_inertia * b_1 * b_2
-    missing_1 = c.restitution * c.speed - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
-    missing_2 = d.restitution * d.speed - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
+    missing_1 = wanted_1 - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
+    missing_2 = wanted_2 - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
     solved, x_1, x_2 = solve_two(k_11, k_12, k_22, missing_1, missing_2, r.normal_impulse_1, r.normal_impulse_2)
     if not solved:
         return False, 0.0, 0.0
@@ -73,7 +73,8 @@ def bounce_together(c, d, r, a_inout, b_inout):
 @kernel
 def restore_bounces(
     # read
-    contacts,
+    manifolds,
+    anchors,
     threshold,
     count,
     # write
@@ -83,31 +84,35 @@ def restore_bounces(
 ):
     """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
 
-    contacts CONTACT, constraints_inout CONSTRAINT (count), motions_inout MOTION rows. O(count).
+    MANIFOLD, ANCHOR and MOTION rows, constraints_inout CONSTRAINT (count). O(count).
     """
     for i in range(count):
         r = constraints_inout[i]
-        c = contacts[r.first]
-        a = motions_inout[r.body_row_a]
-        b = motions_inout[r.body_row_b]
-        first = bounces(c, threshold, r.normal_total_1)
-        second = r.count == 2 and bounces(contacts[r.first + r.count - 1], threshold, r.normal_total_2)
+        m = manifolds[r.manifold]
+        restitution = anchors[r.manifold].restitution
+        first = bounces(m.speed_1, restitution, threshold, r.normal_total_1)
+        second = r.count == 2 and bounces(m.speed_2, restitution, threshold, r.normal_total_2)
         if not (first or second):
             continue
-        d = contacts[r.first + r.count - 1]
+        a = motions_inout[r.motion_a]
+        b = motions_inout[r.motion_b]
         work_inout[RESTITUTION_ROWS] += int(first) + int(second)
         solved = False
         change_1 = 0.0
         change_2 = 0.0
+        wanted_1 = restitution * m.speed_1
+        wanted_2 = restitution * m.speed_2 if r.count == 2 else 0.0
+        nx = r.normal_x
+        ny = r.normal_y
         if first and second:
-            solved, change_1, change_2 = bounce_together(c, d, r, a, b)
+            solved, change_1, change_2 = bounce_together(wanted_1, wanted_2, r, a, b)
         if first and not solved:
             change_1 = bounce_once(
-                c, r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
+                wanted_1, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
             )
         if second and not solved:
             change_2 = bounce_once(
-                d, r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
+                wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
             )
         r.normal_impulse_1 += change_1
         r.normal_total_1 += change_1

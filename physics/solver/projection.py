@@ -5,8 +5,11 @@ starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the con
 """
 
 from physics.collision.approach import closing_speed
+from physics.dynamics.integrate import place_shapes
 from physics.jit import kernel, subkernel
+from physics.settings import PROJECTION_PASSES
 from physics.tables.counters import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
+from physics.tables.step_state import stage
 
 
 @subkernel
@@ -28,7 +31,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
         first,
         # write
         bodies_inout,
-        contacts_inout,
+        pushes_inout,
         work_inout,
     ):
         """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
@@ -36,8 +39,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
         bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step. Impulses add up in
         the contacts. O(contacts).
         """
-        for i in range(len(contacts_inout)):
-            c = contacts_inout[i]
+        for i in range(len(pushes_inout)):
+            c = pushes_inout[i]
             a = bodies_inout[c.body_row_a]
             b = bodies_inout[c.body_row_b]
             inverse_masses = a.inverse_mass + b.inverse_mass
@@ -53,10 +56,10 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
             if separation > 0.0 and not c.swept and c.normal_impulse == 0.0:
                 continue
             work_inout[SOLVER_ROWS] += 1
-            ax = c.point_x - a.center_x
-            ay = c.point_y - a.center_y
-            bx = c.point_x - b.center_x
-            by = c.point_y - b.center_y
+            ax = c.x - a.center_x
+            ay = c.y - a.center_y
+            bx = c.x - b.center_x
+            by = c.y - b.center_y
             wanted = 0.0
             if restitution and c.speed > bounce_speed:
                 wanted = c.restitution * c.speed
@@ -66,7 +69,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                 a_arm = ax * ny - ay * nx
                 b_arm = bx * ny - by * nx
                 effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
-            change = (wanted + closing_speed(bodies_inout, c)) / effective
+            change = (wanted + closing_speed(a, b, c.x, c.y, nx, ny)) / effective
             impulse = max(c.normal_impulse + change, 0.0)
             change = impulse - c.normal_impulse
             c.normal_impulse = impulse
@@ -106,3 +109,44 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                 b.center_y += b.inverse_mass * y
 
     return project
+
+
+PASSES = {
+    (r, f, b): make_projection_pass(rotation=r, friction=f, restitution=b)
+    for r in (False, True)
+    for f in (False, True)
+    for b in (False, True)
+}
+
+
+def solve(state, sets) -> float:
+    """Push everything apart. Returns the step [s]."""
+    effects = state.effects
+    run = PASSES[effects.rotation, effects.friction, effects.restitution]
+    for each in sets:
+        each.prepare(state)
+    for number in range(PROJECTION_PASSES):
+        for each in sets:
+            each.solve(state, run, state.tolerances.restitution_speed, int(number == 0))
+    for each in sets:
+        each.store(state)
+    return state.dt
+
+
+@stage(
+    "projection",
+    reads=("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "manifolds", "workspace"),
+    writes=(
+        "manifolds",
+        "library",
+        "work",
+        "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "vx", "vy", "angular_velocity")),
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def projection(state):
+    """Push the bodies apart where they ended. Without time nothing moves: contacts are reported, nothing is pushed."""
+    if state.dt > 0.0:
+        solve(state, state.workspace.sets)
+        place_shapes(state)

@@ -10,7 +10,11 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
+from physics.tables.step_state import stage
+
+BOTH = (False, True)
 
 
 @subkernel
@@ -43,8 +47,8 @@ def make_sequential_pass(rotation: bool, friction: bool):
         """
         for i in range(count):
             r = constraints_inout[i]
-            a = motions_inout[r.body_row_a]
-            b = motions_inout[r.body_row_b]
+            a = motions_inout[r.motion_a]
+            b = motions_inout[r.motion_b]
             nx = r.normal_x
             ny = r.normal_y
             masses = a.inverse_mass + b.inverse_mass
@@ -153,16 +157,32 @@ def sum_up(count, constraints_inout):
         r.tangent_total_2 = r.tangent_impulse_2
 
 
-PASSES = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in (False, True) for f in (False, True)}
+# The passes of this solver over the constraint sets, by their names.
+PASSES = {"contacts": {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
 
-def solve(effects, passes, tolerances, substeps, dt, drag, count, motions, constraints) -> float:
-    """Advance motions (MOTION rows) by dt [s] under `count` constraints. Returns the substep [s] that impulses belong to."""
-    iterate = PASSES[effects.rotation, effects.friction]
-    passes.velocities(dt, drag, motions)
-    passes.warm_start(constraints, count, motions)
-    for _ in range(math.ceil(ITERATIONS_PER_SUBSTEP * substeps)):
-        iterate(count, 1.0 / dt, tolerances.push_speed, tolerances.slop, BAUMGARTE, motions, constraints)
-    sum_up(count, constraints)
-    passes.positions(dt, motions)
+def solve(state, sets) -> float:
+    """Advance the motions by a step under the constraints of all sets. Returns the step [s] that impulses belong to."""
+    effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
+    rotation, friction = effects.rotation, effects.friction
+    for each in sets:
+        each.prepare(state, motions, dt)
+    SUBSTEP_VELOCITIES[effects.drag, rotation](dt, state.drag, motions.used)
+    for each in sets:
+        each.warm_start(motions, rotation)
+    for _ in range(math.ceil(ITERATIONS_PER_SUBSTEP * state.substeps)):
+        for each in sets:
+            run = PASSES[each.name][rotation, friction]
+            each.solve(motions, run, 1.0 / dt, tolerances.push_speed, tolerances.slop, BAUMGARTE)
+    for each in sets:
+        sum_up(each.count, each.constraints)
+    SUBSTEP_POSITIONS[rotation](dt, motions.used)
+    for each in sets:
+        each.store(state, motions, dt)
     return dt
+
+
+@stage("sequential_impulse", reads=READS, writes=WRITES)
+def sequential_impulse(state):
+    """Push and move the bodies of a world that stacks."""
+    push_piles(state, solve)

@@ -11,7 +11,11 @@ from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
+from physics.tables.step_state import stage
+
+BOTH = (False, True)
 
 
 class Softness(NamedTuple):
@@ -77,8 +81,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
         """
         for i in range(count):
             r = constraints_inout[i]
-            a = motions_inout[r.body_row_a]
-            b = motions_inout[r.body_row_b]
+            a = motions_inout[r.motion_a]
+            b = motions_inout[r.motion_b]
             nx = r.normal_x
             ny = r.normal_y
             bias_rate = soft_still.bias_rate if r.still else soft.bias_rate
@@ -215,21 +219,37 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
     return solve_soft
 
 
-BIASED = {r: make_soft_pass(biased=True, rotation=r, friction=False) for r in (False, True)}
-RELAXING = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in (False, True) for f in (False, True)}
+# The passes of this solver over the constraint sets, by their names.
+BIASED = {"contacts": {r: make_soft_pass(biased=True, rotation=r, friction=False) for r in BOTH}}
+RELAXING = {"contacts": {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
 
-def solve(effects, passes, tolerances, substeps, dt, drag, count, motions, constraints) -> float:
-    """Advance motions (MOTION rows) by dt [s] under `count` constraints. Returns the substep [s] that impulses belong to."""
-    h = dt / substeps
+def solve(state, sets) -> float:
+    """Advance the motions by a step under the constraints of all sets. Returns the substep [s] that impulses belong to."""
+    effects, motions, push_speed = state.effects, state.workspace.motions, state.tolerances.push_speed
+    rotation, friction = effects.rotation, effects.friction
+    h = state.dt / state.substeps
     hertz = min(CONTACT_HERTZ, 0.125 / h)
     soft = softness(hertz, CONTACT_DAMPING, h)
     soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
-    biased, relaxing = BIASED[effects.rotation], RELAXING[effects.rotation, effects.friction]
-    for _ in range(substeps):
-        passes.velocities(h, drag, motions)
-        passes.warm_start(constraints, count, motions)
-        biased(count, 1.0 / h, tolerances.push_speed, soft, soft_still, motions, constraints)
-        passes.positions(h, motions)
-        relaxing(count, 1.0 / h, tolerances.push_speed, soft, soft_still, motions, constraints)
+    velocities, positions = SUBSTEP_VELOCITIES[effects.drag, rotation], SUBSTEP_POSITIONS[rotation]
+    for each in sets:
+        each.prepare(state, motions, h)
+    for _ in range(state.substeps):
+        velocities(h, state.drag, motions.used)
+        for each in sets:
+            each.warm_start(motions, rotation)
+        for each in sets:
+            each.solve(motions, BIASED[each.name][rotation], 1.0 / h, push_speed, soft, soft_still)
+        positions(h, motions.used)
+        for each in sets:
+            each.solve(motions, RELAXING[each.name][rotation, friction], 1.0 / h, push_speed, soft, soft_still)
+    for each in sets:
+        each.store(state, motions, h)
     return h
+
+
+@stage("soft_step", reads=READS, writes=WRITES)
+def soft_step(state):
+    """Push and move the bodies of a world that stacks."""
+    push_piles(state, solve)

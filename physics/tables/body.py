@@ -25,6 +25,7 @@ BODY = np.dtype(
         ("mass", np.float64),  # [density px2] 0 where it has none
         ("inertia", np.float64),  # [density px4] about the centre of mass
         ("awake", np.bool_),
+        ("active", np.bool_),  # in the rows that a step goes over; all are in a world without sleeping
         ("inverse_mass", np.float64),  # 0 = cannot be pushed
         ("inverse_inertia", np.float64),  # 0 = cannot be turned
         ("local_center_x", np.float64),  # [px] centre of mass in body space

@@ -3,7 +3,7 @@
 import numpy as np
 
 MOTION = np.dtype(
-    [  # one per body: what a solver reads and changes in its substeps
+    [  # one per awake body, and the first for all that stands: what a solver reads and changes in its substeps
         ("vx", np.float64),
         ("vy", np.float64),
         ("angular_velocity", np.float64),
@@ -26,10 +26,10 @@ MOTION = np.dtype(
 
 CONSTRAINT = np.dtype(
     [  # one per manifold, in the order of colours: up to two points on one normal
-        ("body_row_a", np.int32),
-        ("body_row_b", np.int32),
-        ("first", np.int32),
-        ("count", np.int32),  # its rows of the contact table
+        ("motion_a", np.int32),  # rows of MOTION
+        ("motion_b", np.int32),
+        ("manifold", np.int32),  # its row, and the number of its points
+        ("count", np.int32),
         ("normal_x", np.float64),
         ("normal_y", np.float64),
         ("friction", np.float64),
@@ -63,6 +63,30 @@ CONSTRAINT = np.dtype(
         ("tangent_impulse_2", np.float64),
         ("normal_total_2", np.float64),
         ("tangent_total_2", np.float64),
+    ],
+    align=True,
+)
+
+PUSH = np.dtype(
+    [  # one per point, for the solvers that remember nothing, in the order of shape ids
+        ("manifold", np.int32),  # its row, and which of its points
+        ("second", np.bool_),
+        ("swept", np.bool_),  # met on the way
+        ("body_row_a", np.int32),
+        ("body_row_b", np.int32),
+        ("x", np.float64),  # [px] the point, where it was detected
+        ("y", np.float64),
+        ("normal_x", np.float64),
+        ("normal_y", np.float64),
+        ("separation", np.float64),  # [px] when it was detected
+        ("anchor_x", np.float64),  # [px] centre of B seen from A's then
+        ("anchor_y", np.float64),
+        ("speed", np.float64),  # [px/s] approach before the response
+        ("friction", np.float64),  # mixed
+        ("restitution", np.float64),
+        ("surface_speed", np.float64),
+        ("normal_impulse", np.float64),
+        ("tangent_impulse", np.float64),
     ],
     align=True,
 )

@@ -12,6 +12,7 @@ PROXY = np.dtype(
         ("body", np.int64),  # id: two shapes of one body never pair
         ("membership", np.int64),
         ("mask", np.int64),
+        ("awake", np.bool_),  # in the rows that a step goes over: two that are not never pair
         ("still", np.bool_),  # static: two still proxies never pair
         ("changed", np.bool_),  # box, filter or existence changed since the last update
     ],

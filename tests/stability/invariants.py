@@ -15,7 +15,7 @@ DYNAMIC = 2
 def deepest(world):
     """How far the deepest contact overlaps [px], sensors aside."""
     contacts = world.contacts
-    solid = contacts["separation"][~contacts["sensor"]]
+    solid = contacts["separation"]
     return max(0.0, -float(solid.min())) if len(solid) else 0.0
 
 

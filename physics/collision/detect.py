@@ -1,0 +1,94 @@
+"""The narrow phase as stages: where bodies stand before a solver pushes them, and what sensors see in the end."""
+
+import numpy as np
+
+from physics.collision.approach import measure_approach
+from physics.collision.dispatch import SENSORS, SOLIDS
+from physics.collision.materials import mix_materials
+from physics.collision.persist import carry_over
+from physics.dynamics.sleep import in_order
+from physics.shapes.placement import refresh_aabbs
+from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.step_state import stage
+
+NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
+
+
+def detect(state) -> np.ndarray:
+    """Manifolds at the present poses, with how fast their sides approach."""
+    slop = state.tolerances.slop
+    narrow = state.workspace.narrow
+    manifolds = narrow.collide(
+        state.library.tables, state.bodies, state.shapes, state.pairs.rows, slop, state.work, bias=BIAS * slop
+    )
+    measure_approach(state.bodies, manifolds)
+    return manifolds
+
+
+@stage(
+    "narrow_phase",
+    reads=("tolerances", "bodies", "shapes", "library", "pairs", "workspace"),
+    writes=("manifolds", "work", "workspace"),
+)
+def detect_ended(state):
+    """Manifolds where the bodies ended."""
+    state.manifolds = detect(state)
+
+
+@stage(
+    "narrow_phase",
+    reads=("tolerances", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
+    writes=("manifolds", "anchors", "work", "workspace"),
+)
+def detect_piles(state):
+    """Manifolds where the step begins, up to the speculative distance, with the forces of the step before."""
+    tolerances, previous, bodies = state.tolerances, state.manifolds, state.bodies
+    if not len(state.awake.bodies):
+        state.manifolds, state.anchors = NOTHING, UNANCHORED
+        return
+    tables, narrow = state.library.tables, state.workspace.narrow
+    manifolds = narrow.collide(
+        tables,
+        bodies,
+        state.shapes,
+        state.pairs.rows,
+        tolerances.speculative,
+        state.work,
+        which=SOLIDS,
+        bias=BIAS * tolerances.slop,
+        memory=(previous, state.anchors),
+        recycle=tolerances.recycle,
+    )
+    anchors = state.workspace.anchors_for(len(manifolds))
+    carry_over(bodies, state.shapes, previous, state.anchors, manifolds, anchors)
+    mix_materials(tables, state.shapes, manifolds, anchors)
+    measure_approach(bodies, manifolds)
+    state.manifolds, state.anchors = manifolds, anchors
+
+
+@stage(
+    "sensors",
+    reads=("awake", "bodies", "shapes", "library", "pairs", "swept_sensors", "workspace"),
+    writes=(
+        "sensed",
+        "swept_sensors",
+        "work",
+        "workspace",
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def sense(state):
+    """Sensors see the final poses, and what a sweep met on the way."""
+    tables, bodies, shapes = state.library.tables, state.bodies, state.shapes
+    refresh_aabbs(state.awake.shapes, tables, bodies, shapes)
+    narrow = state.workspace.sensing
+    sensed = narrow.collide(tables, bodies, shapes, state.pairs.rows, 0.0, state.work, which=SENSORS)
+    swept = state.swept_sensors
+    if len(swept):
+        known = sensed["shape_a"] << 32 | sensed["shape_b"]
+        swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
+        sensed = in_order(np.concatenate([sensed, swept]))
+        state.swept_sensors = swept[:0]
+    measure_approach(bodies, sensed)
+    state.sensed = sensed

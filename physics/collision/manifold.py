@@ -1,0 +1,258 @@
+"""Rows of the manifold table: written by the passes over pairs, then put in the order of the candidates."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.math2d import turned
+from physics.shapes.placement import corners_at
+from physics.tables.contact import CONTACT
+from physics.tables.geometry import Geometry
+from physics.tables.manifold import MANIFOLD
+
+# Kinds of pairs, by which the candidates are dealt to the passes.
+CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, CHAIN_ANY, NOTHING = range(9)
+POINTS = 11  # floats of a manifold in flight: see clipping.py
+
+
+class Batch(NamedTuple):
+    """What a pass over candidate pairs reads."""
+
+    geometry: Geometry
+    bodies: np.ndarray  # BODY
+    shapes: np.ndarray  # SHAPE
+    candidates: np.ndarray  # (capacity, 2) int64 shape rows
+    kinds: np.ndarray  # (count) kind of each pair
+    count: int  # candidates in use
+    margin: float  # [px] pairs apart by at most that are found too
+    bias: float  # [px] see hulls.collide_hulls
+
+
+class Workspace(NamedTuple):
+    """Room for one pair in flight."""
+
+    a: np.ndarray  # (16, 2) corners [px]
+    b: np.ndarray
+    points: np.ndarray  # (POINTS,), see clipping.py
+    depths: np.ndarray  # (16,)
+    previous: np.ndarray  # MANIFOLD rows of the step before, and where those of each candidate with a grid stand
+    memory: np.ndarray  # (candidates, 2) first row, number
+
+
+def new_workspace() -> Workspace:
+    """An empty workspace."""
+    return Workspace(
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros(POINTS),
+        np.zeros(16),
+        np.zeros(0, MANIFOLD),
+        np.zeros((0, 2), np.int64),
+    )
+
+
+@subkernel
+def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
+    """Begin a manifold of a candidate pair, without points."""
+    row_a = candidates[pair, 0]
+    row_b = candidates[pair, 1]
+    a = shapes[row_a]
+    b = shapes[row_b]
+    m = manifold_out
+    m.body_a = a.body
+    m.body_b = b.body
+    m.shape_a = a.id
+    m.shape_b = b.id
+    m.body_row_a = a.body_row
+    m.body_row_b = b.body_row
+    m.row_a = row_a
+    m.row_b = row_b
+    m.candidate = pair
+    m.previous = -1
+    m.count = 0
+    m.normal_x = nx
+    m.normal_y = ny
+    m.sensor = a.sensor or b.sensor
+    m.swept = False
+    m.persisted_1 = False
+    m.persisted_2 = False
+    m.normal_impulse_1 = 0.0
+    m.tangent_impulse_1 = 0.0
+    m.normal_impulse_2 = 0.0
+    m.tangent_impulse_2 = 0.0
+
+
+@subkernel
+def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
+    """Add a point to the last manifold, where that is of the same pair, has the same normal and one point; else begin one.
+
+    Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
+    area [px2]. What depends on the bodies' motion is left to approach.py.
+    """
+    nx += 0.0  # -0.0 would show in what is printed and compared
+    ny += 0.0
+    if 0 < found <= len(manifolds_out):
+        m = manifolds_out[found - 1]
+        if m.candidate == pair and m.count == 1 and m.normal_x == nx and m.normal_y == ny:
+            m.count = 2
+            m.x_2 = x
+            m.y_2 = y
+            m.separation_2 = separation
+            m.area_2 = area
+            m.feature_2 = feature
+            return found
+    if found < len(manifolds_out):
+        m = manifolds_out[found]
+        open_manifold(shapes, candidates, pair, nx, ny, m)
+        m.count = 1
+        m.x_1 = x
+        m.y_1 = y
+        m.separation_1 = separation
+        m.area_1 = area
+        m.feature_1 = feature
+    return found + 1
+
+
+@subkernel
+def add_points(shapes, candidates, pair, found, sign, points, count, part, manifolds_out):
+    """Add the points of a manifold in flight (see clipping.py). sign: -1.0 where it was asked the other way round; part:
+    what is added to its features. Returns the number of manifolds."""
+    for k in range(count):
+        at = 3 + 4 * k
+        found = add_point(
+            shapes,
+            candidates,
+            pair,
+            found,
+            sign * points[1],
+            sign * points[2],
+            points[at],
+            points[at + 1],
+            points[at + 2],
+            0.0,
+            part + int(points[at + 3]),
+            manifolds_out,
+        )
+    return found
+
+
+@subkernel
+def circle_at(bodies, shapes, row):
+    """Centre of a CIRCLE in the world [px], and its radius."""
+    s = shapes[row]
+    b = bodies[s.body_row]
+    u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+    return b.x + u, b.y + v, s.radius
+
+
+@subkernel
+def corners_of(geometry, bodies, shapes, row, corners_out):
+    """World corners of a hull of two or more at its body's pose. Returns their number."""
+    b = bodies[shapes[row].body_row]
+    return corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_out)
+
+
+@subkernel
+def copy_manifold(manifolds, source, target, manifolds_out):
+    """Copy one row field by field: a whole-row assignment is not the same thing compiled and plain."""
+    s = manifolds[source]
+    d = manifolds_out[target]
+    d.body_a = s.body_a
+    d.body_b = s.body_b
+    d.shape_a = s.shape_a
+    d.shape_b = s.shape_b
+    d.body_row_a = s.body_row_a
+    d.body_row_b = s.body_row_b
+    d.row_a = s.row_a
+    d.row_b = s.row_b
+    d.candidate = s.candidate
+    d.previous = s.previous
+    d.count = s.count
+    d.normal_x = s.normal_x
+    d.normal_y = s.normal_y
+    d.sensor = s.sensor
+    d.swept = s.swept
+    d.persisted_1 = s.persisted_1
+    d.persisted_2 = s.persisted_2
+    d.x_1 = s.x_1
+    d.y_1 = s.y_1
+    d.separation_1 = s.separation_1
+    d.area_1 = s.area_1
+    d.feature_1 = s.feature_1
+    d.speed_1 = s.speed_1
+    d.normal_impulse_1 = s.normal_impulse_1
+    d.tangent_impulse_1 = s.tangent_impulse_1
+    d.x_2 = s.x_2
+    d.y_2 = s.y_2
+    d.separation_2 = s.separation_2
+    d.area_2 = s.area_2
+    d.feature_2 = s.feature_2
+    d.speed_2 = s.speed_2
+    d.normal_impulse_2 = s.normal_impulse_2
+    d.tangent_impulse_2 = s.tangent_impulse_2
+
+
+@kernel
+def place_in_order(
+    # read
+    manifolds,
+    count,
+    candidate_count,
+    # write
+    starts_out,
+    manifolds_out,
+):
+    """Copy manifolds to the order of their candidates; those of one candidate keep theirs.
+
+    manifolds, manifolds_out MANIFOLD rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
+    """
+    for i in range(candidate_count + 1):
+        starts_out[i] = 0
+    for i in range(count):
+        starts_out[manifolds[i].candidate + 1] += 1
+    for i in range(candidate_count):
+        starts_out[i + 1] += starts_out[i]
+    for i in range(count):
+        pair = manifolds[i].candidate
+        at = starts_out[pair]
+        starts_out[pair] = at + 1
+        copy_manifold(manifolds, i, at, manifolds_out)
+
+
+@kernel
+def write_contacts(
+    # read
+    manifolds,
+    # write
+    contacts_out,
+):
+    """Write a CONTACT row for every point of the manifolds. Returns their number. O(manifolds)."""
+    found = 0
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        for k in range(m.count):
+            c = contacts_out[found]
+            c.body_a = m.body_a
+            c.body_b = m.body_b
+            c.shape_a = m.shape_a
+            c.shape_b = m.shape_b
+            c.normal_x = m.normal_x
+            c.normal_y = m.normal_y
+            c.point_x = m.x_1 if k == 0 else m.x_2
+            c.point_y = m.y_1 if k == 0 else m.y_2
+            c.separation = m.separation_1 if k == 0 else m.separation_2
+            c.normal_impulse = m.normal_impulse_1 if k == 0 else m.normal_impulse_2
+            c.tangent_impulse = m.tangent_impulse_1 if k == 0 else m.tangent_impulse_2
+            c.area = m.area_1 if k == 0 else m.area_2
+            c.feature = m.feature_1 if k == 0 else m.feature_2
+            found += 1
+    return found
+
+
+def contacts_of(manifolds) -> np.ndarray:
+    """The points of MANIFOLD rows as CONTACT rows, in their order."""
+    contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
+    write_contacts(manifolds, contacts)
+    return contacts

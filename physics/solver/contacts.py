@@ -1,0 +1,293 @@
+"""Contacts as a constraint set: which manifolds are solved, in which order, as which rows, and what is stored of them.
+
+A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such as
+joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row holds
+arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides have
+moved since.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.dynamics.graph import color_edges, order_edges
+from physics.jit import kernel, subkernel
+from physics.settings import COLORS, CROWD
+from physics.solver.bounce import restore_bounces
+from physics.tables.constraint import CONSTRAINT
+from physics.tables.counters import SOLVER_ROWS, TANGENT_ROWS
+
+BOTH = (False, True)
+
+
+class Plan(NamedTuple):
+    """Which manifolds are solved, and in which order."""
+
+    count: int
+    selected: np.ndarray  # (count) manifold of each edge
+    edges: np.ndarray  # (count, 2) int32 rows of MOTION
+    colors: np.ndarray  # (count) int32 of each edge
+    degrees: np.ndarray  # (motions) edges of each
+    ordered: np.ndarray  # (count) int32 edges by colour
+
+
+@kernel
+def select_manifolds(
+    # read
+    manifolds,
+    motion_of,
+    motions,
+    # write
+    selected_out,
+    edges_out,
+):
+    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns their
+    number. O(manifolds).
+
+    Sensors, pairs of which neither side can be pushed, and what lies under the feet of a character are left out.
+    """
+    found = 0
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        row_a = motion_of[m.body_row_a]
+        row_b = motion_of[m.body_row_b]
+        a = motions[row_a]
+        b = motions[row_b]
+        if (
+            m.sensor
+            or a.inverse_mass + b.inverse_mass == 0.0
+            or (a.walks and m.normal_y > abs(m.normal_x))
+            or (b.walks and -m.normal_y > abs(m.normal_x))
+        ):
+            continue
+        selected_out[found] = i
+        edges_out[found, 0] = row_a
+        edges_out[found, 1] = row_b
+        found += 1
+    return found
+
+
+@subkernel
+def effective_mass(a, b, ax, ay, bx, by, x, y):
+    """Mass that an impulse along a unit direction (x, y) at these arms feels; 0 where nothing can be pushed."""
+    a_arm = ax * y - ay * x
+    b_arm = bx * y - by * x
+    k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
+    return 1.0 / k if k > 0.0 else 0.0
+
+
+def make_prepare(friction: bool, conveyor: bool):
+    """The pass from contacts to constraint rows for a world with these effects."""
+
+    @kernel
+    def prepare_constraints(
+        # read
+        bodies,
+        motions,
+        manifolds,
+        plan,
+        h,
+        # write
+        anchors_inout,
+        constraints_out,
+        work_inout,
+    ):
+        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a substep
+        of h [s].
+
+        plan: see Plan. Arms go from the centres of mass to the contact point. O(constraints).
+        """
+        for i in range(plan.count):
+            edge = plan.ordered[i]
+            first = plan.selected[edge]
+            m = manifolds[first]
+            c = anchors_inout[first]
+            c.color = plan.colors[edge]
+            r = constraints_out[i]
+            r.motion_a = plan.edges[edge, 0]
+            r.motion_b = plan.edges[edge, 1]
+            a = motions[r.motion_a]
+            b = motions[r.motion_b]
+            p = bodies[m.body_row_a]
+            q = bodies[m.body_row_b]
+            r.manifold = first
+            r.count = m.count
+            nx = m.normal_x
+            ny = m.normal_y
+            r.normal_x = nx
+            r.normal_y = ny
+            r.friction = c.friction if friction else 0.0
+            r.surface_speed = c.surface_speed if conveyor else 0.0
+            crowd = max(
+                plan.degrees[r.motion_a] if a.inverse_mass > 0.0 else 0,
+                plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
+            )
+            r.push_share = CROWD / crowd if crowd > CROWD else 1.0
+            r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
+            r.rolling_limit = c.rolling_resistance if friction else 0.0
+            turning = a.inverse_inertia + b.inverse_inertia
+            r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
+            r.rolling_impulse = h * c.rolling_force
+            r.normal_impulse_2 = 0.0  # the rows are used again: a manifold of one point has no second
+            r.tangent_impulse_2 = 0.0
+            r.normal_total_2 = 0.0
+            r.tangent_total_2 = 0.0
+            r.radius_a = c.radius_a
+            r.radius_b = c.radius_b
+            core = c.radius_a + c.radius_b
+            for k in range(m.count):
+                work_inout[SOLVER_ROWS] += 1
+                if r.friction > 0.0:
+                    work_inout[TANGENT_ROWS] += 1
+                x = m.x_1 if k == 0 else m.x_2
+                y = m.y_1 if k == 0 else m.y_2
+                ax = x - p.center_x
+                ay = y - p.center_y
+                bx = x - q.center_x
+                by = y - q.center_y
+                base = (m.separation_1 if k == 0 else m.separation_2) - ((bx - ax) * nx + (by - ay) * ny) - core
+                normal_mass = effective_mass(a, b, ax, ay, bx, by, nx, ny)
+                tangent_mass = effective_mass(a, b, ax, ay, bx, by, -ny, nx)
+                if k == 0:
+                    r.ax_1, r.ay_1, r.bx_1, r.by_1, r.base_1 = ax, ay, bx, by, base
+                    r.normal_mass_1, r.tangent_mass_1 = normal_mass, tangent_mass
+                    r.normal_impulse_1, r.tangent_impulse_1 = h * c.normal_force_1, h * c.tangent_force_1
+                    r.normal_total_1, r.tangent_total_1 = 0.0, 0.0
+                else:
+                    r.ax_2, r.ay_2, r.bx_2, r.by_2, r.base_2 = ax, ay, bx, by, base
+                    r.normal_mass_2, r.tangent_mass_2 = normal_mass, tangent_mass
+                    r.normal_impulse_2, r.tangent_impulse_2 = h * c.normal_force_2, h * c.tangent_force_2
+
+    return prepare_constraints
+
+
+def make_warm_start(rotation: bool):
+    """The pass that applies the impulses a substep starts from."""
+
+    @kernel
+    def warm_start(
+        # read
+        constraints,
+        count,
+        # write
+        motions_inout,
+    ):
+        """Apply the impulses that the rows hold already. O(count)."""
+        for i in range(count):
+            r = constraints[i]
+            a = motions_inout[r.motion_a]
+            b = motions_inout[r.motion_b]
+            nx = r.normal_x
+            ny = r.normal_y
+            x = r.normal_impulse_1 * nx - r.tangent_impulse_1 * ny
+            y = r.normal_impulse_1 * ny + r.tangent_impulse_1 * nx
+            a_turn = 0.0
+            b_turn = 0.0
+            if rotation:
+                a_turn = r.ax_1 * y - r.ay_1 * x + r.rolling_impulse
+                b_turn = r.bx_1 * y - r.by_1 * x + r.rolling_impulse
+            if r.count == 2:
+                u = r.normal_impulse_2 * nx - r.tangent_impulse_2 * ny
+                v = r.normal_impulse_2 * ny + r.tangent_impulse_2 * nx
+                if rotation:
+                    a_turn += r.ax_2 * v - r.ay_2 * u
+                    b_turn += r.bx_2 * v - r.by_2 * u
+                x += u
+                y += v
+            a.vx -= a.inverse_mass * x
+            a.vy -= a.inverse_mass * y
+            b.vx += b.inverse_mass * x
+            b.vy += b.inverse_mass * y
+            if rotation:
+                a.angular_velocity -= a.inverse_inertia * a_turn
+                b.angular_velocity += b.inverse_inertia * b_turn
+
+    return warm_start
+
+
+@kernel
+def store_impulses(
+    # read
+    constraints,
+    count,
+    inverse_h,
+    # write
+    manifolds_inout,
+    anchors_inout,
+):
+    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds. O(count)."""
+    for i in range(count):
+        r = constraints[i]
+        m = manifolds_inout[r.manifold]
+        c = anchors_inout[r.manifold]
+        m.normal_impulse_1 = r.normal_total_1
+        m.tangent_impulse_1 = r.tangent_total_1
+        c.normal_force_1 = inverse_h * r.normal_impulse_1
+        c.tangent_force_1 = inverse_h * r.tangent_impulse_1
+        c.rolling_force = inverse_h * r.rolling_impulse
+        if r.count == 2:
+            m.normal_impulse_2 = r.normal_total_2
+            m.tangent_impulse_2 = r.tangent_total_2
+            c.normal_force_2 = inverse_h * r.normal_impulse_2
+            c.tangent_force_2 = inverse_h * r.tangent_impulse_2
+
+
+PREPARE = {(f, c): make_prepare(friction=f, conveyor=c) for f in BOTH for c in BOTH}
+WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
+
+
+class ContactSet:
+    """The contacts of one world as constraints; arrays are grown and used again."""
+
+    name = "contacts"  # under which a solver finds its passes over them
+
+    def __init__(self):
+        self.count = 0
+        self.constraints = np.zeros(16, CONSTRAINT)
+        self.selected, self.ordered, self.colors = (np.zeros(16, np.int32) for _ in range(3))
+        self.edges = np.zeros((16, 2), np.int32)
+        self.taken, self.degrees = np.zeros(16, np.int64), np.zeros(16, np.int64)
+        self.starts, self.cursors = np.zeros(COLORS + 2, np.int64), np.zeros(COLORS + 2, np.int64)
+
+    def _grow(self, motions: int, manifolds: int):
+        if len(self.taken) < motions:
+            self.taken, self.degrees = np.zeros(2 * motions, np.int64), np.zeros(2 * motions, np.int64)
+        if len(self.constraints) < manifolds:
+            n = 2 * manifolds
+            self.constraints, self.edges = np.zeros(n, CONSTRAINT), np.zeros((n, 2), np.int32)
+            self.selected, self.ordered, self.colors = (np.zeros(n, np.int32) for _ in range(3))
+
+    def prepare(self, state, motions, h: float):
+        """Choose, colour and fill the rows, for substeps of h [s]."""
+        rows, manifolds = motions.used, state.manifolds
+        self._grow(len(rows), len(manifolds))
+        self.count = select_manifolds(manifolds, motions.motion_of, rows, self.selected, self.edges)
+        taken, degrees = self.taken[: len(rows)], self.degrees[: len(rows)]
+        color_edges(self.edges, self.count, motions.pushable, taken, degrees, self.colors, self.starts)
+        order_edges(self.count, self.colors, self.starts, self.cursors, self.ordered)
+        plan = Plan(self.count, self.selected, self.edges, self.colors, degrees, self.ordered)
+        prepare = PREPARE[state.effects.friction, state.effects.conveyor]
+        prepare(state.bodies, rows, manifolds, plan, h, state.anchors, self.constraints, state.work)
+
+    def warm_start(self, motions, rotation: bool):
+        """Apply the impulses that the rows hold already."""
+        WARM_START[rotation](self.constraints, self.count, motions.used)
+
+    def solve(self, motions, run: Callable, *settings):
+        """One pass of a solver over the rows."""
+        run(self.count, *settings, motions.used, self.constraints)
+
+    def store(self, state, motions, h: float):
+        """Bounce what has met, and write the impulses back."""
+        if state.effects.restitution:
+            restore_bounces(
+                state.manifolds,
+                state.anchors,
+                state.tolerances.restitution_speed,
+                self.count,
+                motions.used,
+                self.constraints,
+                state.work,
+            )
+        store_impulses(self.constraints, self.count, 1.0 / h, state.manifolds, state.anchors)

@@ -1,0 +1,274 @@
+"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back in the end.
+
+Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
+"""
+
+import math
+
+import numpy as np
+
+from physics.collision.persist import follow_bodies
+from physics.dynamics.integrate import refresh_centers
+from physics.jit import kernel
+from physics.math2d import turned
+from physics.shapes.rasters import add_missing_rasters
+from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.constraint import MOTION
+from physics.tables.counters import BODIES_INTEGRATED
+
+BOTH = (False, True)
+
+
+@kernel
+def stand_still(motions_out, pushable_out):
+    """Write row 0: what cannot be moved."""
+    m = motions_out[0]
+    m.vx = 0.0
+    m.vy = 0.0
+    m.angular_velocity = 0.0
+    m.dx = 0.0
+    m.dy = 0.0
+    m.cosine = 1.0
+    m.sine = 0.0
+    m.turn = 0.0
+    m.inverse_mass = 0.0
+    m.inverse_inertia = 0.0
+    m.acceleration_x = 0.0
+    m.acceleration_y = 0.0
+    m.angular_acceleration = 0.0
+    m.moves = False
+    m.pushed = False
+    m.walks = False
+    pushable_out[0] = False
+
+
+def make_gather(gravity: bool, wind: bool, rotation: bool):
+    """The pass from bodies to motions for a world with these effects."""
+
+    @kernel
+    def gather_motions(
+        # read
+        rows,
+        bodies,
+        air,
+        # write
+        motion_of_inout,
+        motions_out,
+        pushable_out,
+        work_inout,
+    ):
+        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed. O(rows).
+
+        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of each;
+        pushable_out (motions) bool: whether an impulse changes its velocity.
+        """
+        for k in range(len(rows)):
+            b = bodies[rows[k]]
+            motion_of_inout[rows[k]] = k + 1
+            m = motions_out[k + 1]
+            m.vx = b.vx
+            m.vy = b.vy
+            m.angular_velocity = b.angular_velocity if rotation else 0.0
+            m.dx = 0.0
+            m.dy = 0.0
+            m.cosine = 1.0
+            m.sine = 0.0
+            m.turn = 0.0
+            m.moves = b.kind != STATIC and b.awake and not b.quarantined
+            m.pushed = m.moves and b.kind == DYNAMIC
+            m.walks = False
+            pushable_out[k + 1] = m.pushed and b.inverse_mass > 0.0
+            if m.moves:
+                work_inout[BODIES_INTEGRATED] += 1
+            if not m.pushed:
+                m.inverse_mass = 0.0
+                m.inverse_inertia = 0.0
+                m.acceleration_x = 0.0
+                m.acceleration_y = 0.0
+                m.angular_acceleration = 0.0
+                continue
+            m.inverse_mass = b.inverse_mass
+            m.inverse_inertia = b.inverse_inertia if rotation else 0.0
+            m.acceleration_x = b.inverse_mass * b.force_x
+            m.acceleration_y = b.inverse_mass * b.force_y
+            m.angular_acceleration = m.inverse_inertia * b.torque
+            if gravity:
+                m.acceleration_x += b.gravity_scale * air[0]
+                m.acceleration_y += b.gravity_scale * air[1]
+            if wind:
+                m.acceleration_x += air[2] * air[3]
+                m.acceleration_y += air[2] * air[4]
+
+    return gather_motions
+
+
+def make_substep_velocities(drag: bool, rotation: bool):
+    """The pass that speeds bodies up at the start of each substep."""
+
+    @kernel
+    def integrate_substep_velocities(
+        # read, scalars
+        h,
+        drag_rate,
+        # write
+        motions_inout,
+    ):
+        """Add the accelerations of one substep h [s]; drag [1/s] implicitly, stable for any rate. O(bodies)."""
+        keep = 1.0 / (1.0 + drag_rate * h)
+        for i in range(len(motions_inout)):
+            m = motions_inout[i]
+            if not m.pushed:
+                continue
+            m.vx += h * m.acceleration_x
+            m.vy += h * m.acceleration_y
+            if rotation:
+                m.angular_velocity += h * m.angular_acceleration
+            if drag:
+                m.vx = keep * m.vx
+                m.vy = keep * m.vy
+                if rotation:
+                    m.angular_velocity = keep * m.angular_velocity
+
+    return integrate_substep_velocities
+
+
+def make_substep_positions(rotation: bool):
+    """The pass that moves bodies at the end of each substep."""
+
+    @kernel
+    def integrate_substep_positions(
+        # read, scalars
+        h,
+        # write
+        motions_inout,
+    ):
+        """Move every body by one substep h [s]. O(bodies)."""
+        for i in range(len(motions_inout)):
+            m = motions_inout[i]
+            if not m.moves:
+                continue
+            m.dx += h * m.vx
+            m.dy += h * m.vy
+            if rotation and m.angular_velocity != 0.0:
+                m.turn += h * m.angular_velocity
+                m.cosine = math.cos(m.turn)
+                m.sine = math.sin(m.turn)
+
+    return integrate_substep_positions
+
+
+@kernel
+def scatter_motions(
+    # read
+    rows,
+    motions,
+    # write
+    motion_of_inout,
+    bodies_inout,
+):
+    """Write velocities and poses back to the bodies, keeping the pose of before the step. O(rows)."""
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        m = motions[k + 1]
+        motion_of_inout[rows[k]] = 0
+        b.previous_x = b.x
+        b.previous_y = b.y
+        b.previous_angle = b.angle
+        b.force_x = 0.0
+        b.force_y = 0.0
+        b.torque = 0.0
+        b.fraction = 1.0
+        if not m.moves:
+            continue
+        b.vx = m.vx
+        b.vy = m.vy
+        b.angular_velocity = m.angular_velocity
+        b.center_x += m.dx
+        b.center_y += m.dy
+        if m.turn == 0.0:
+            b.x += m.dx
+            b.y += m.dy
+        else:
+            b.angle += m.turn
+            u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+            b.x = b.center_x - u
+            b.y = b.center_y - v
+
+
+GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}
+SUBSTEP_VELOCITIES = {(d, r): make_substep_velocities(drag=d, rotation=r) for d in BOTH for r in BOTH}
+SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
+
+
+class Motions:
+    """The MOTION rows of one world, grown and used again."""
+
+    def __init__(self):
+        self.rows, self.pushable = np.zeros(16, MOTION), np.zeros(16, np.bool_)
+        self.motion_of = np.zeros(16, np.int32)
+        self.used = self.rows[:1]
+
+    def gather(self, state):
+        """Take the awake bodies in."""
+        rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
+        if len(self.rows) < len(rows) + 1:
+            self.rows, self.pushable = np.zeros(2 * len(rows) + 1, MOTION), np.zeros(2 * len(rows) + 1, np.bool_)
+        if len(self.motion_of) < len(bodies):
+            self.motion_of = np.zeros(2 * len(bodies), np.int32)
+        self.used = self.rows[: len(rows) + 1]
+        stand_still(self.used, self.pushable)
+        air = np.array((*state.gravity, state.drag, *state.wind))
+        gather = GATHER[effects.gravity, effects.wind, effects.rotation]
+        gather(rows, bodies, air, self.motion_of, self.used, self.pushable, state.work)
+        if len(state.characters):
+            self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
+
+    def scatter(self, state):
+        """Write the bodies back, and carry their manifolds along."""
+        rows, bodies = state.awake.bodies, state.bodies
+        scatter_motions(rows, self.used, self.motion_of, bodies)
+        refresh_centers(rows, bodies)
+        follow_bodies(bodies, state.anchors, state.manifolds)
+        # Who was pushed round stands at an angle that was not foreseen.
+        add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
+
+
+READS = (
+    "effects",
+    "tolerances",
+    "gravity",
+    "drag",
+    "wind",
+    "dt",
+    "substeps",
+    "awake",
+    "bodies",
+    "shapes",
+    "characters",
+    "library",
+    "manifolds",
+    "anchors",
+    "workspace",
+)
+WRITES = (
+    "manifolds",
+    "anchors",
+    "library",
+    "work",
+    "workspace",
+    *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),
+    *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
+    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
+    *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction")),
+)
+
+
+def push_piles(state, solve):
+    """What the stages of the stacking solvers do: gather, solve by their door `solve(state, sets)`, write back."""
+    if not len(state.awake.bodies):
+        return
+    motions = state.workspace.motions
+    motions.gather(state)
+    if state.dt > 0.0:
+        solve(state, state.workspace.sets)
+    motions.scatter(state)

@@ -1,0 +1,139 @@
+"""The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
+
+Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards. With
+it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met something.
+A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from physics import events
+from physics.broadphase.pair_list import broad_phase
+from physics.broadphase.rectangles import motion_rectangles
+from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
+from physics.character.carry import bear_characters, carry_characters
+from physics.collision.detect import detect_ended, detect_piles, sense
+from physics.collision.dispatch import NarrowPhase
+from physics.collision.manifold import new_workspace
+from physics.dynamics.awake import list_awake
+from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
+from physics.dynamics.sleep import IslandRoom, rest, wake_disturbed
+from physics.solver.blocking import blocking
+from physics.solver.contacts import ContactSet
+from physics.solver.motions import Motions
+from physics.solver.projection import projection
+from physics.solver.pushes import PushSet
+from physics.solver.sequential_impulse import sequential_impulse
+from physics.solver.soft_step import soft_step
+from physics.tables.manifold import ANCHOR
+from physics.tables.step_state import StepState, stage
+
+SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
+STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
+PUSHING = {"blocking": blocking, "projection": projection}
+
+
+@stage(
+    "motion_rectangles",
+    reads=(*quarantine.reads, *motion_rectangles.reads),
+    writes=(*quarantine.writes, *motion_rectangles.writes),
+)
+def sound_rectangles(state):
+    """Where the bodies that are still finite can be."""
+    quarantine(state)
+    motion_rectangles(state)
+
+
+def plan(effects, solver) -> tuple[Callable, ...]:
+    """The stages that these effects call for, in order."""
+    e = effects
+    forces = e.gravity or e.drag or e.wind or e.response
+    if solver in STACKING:
+        stages = (
+            (list_awake, e.sleeping),
+            (quarantine, True),
+            (bear_characters, True),
+            (motion_rectangles, True),
+            (broad_phase, True),
+            (detect_piles, True),
+            (wake_disturbed, e.sleeping),
+            (STACKING[solver], True),
+            (sweep_piles, e.continuous),
+            (carry_characters, True),
+            (sense, e.sensors),
+            (rest, e.sleeping),
+            (events.tell, True),
+        )
+    else:
+        stages = (
+            (bear_characters, e.stacking),  # under another solver for the moment
+            (integrate_velocities, forces),
+            (sound_rectangles, True),
+            (broad_phase, True),
+            (foresee_impacts, e.continuous),
+            (integrate_positions, True),
+            (carry_characters, e.response),
+            (detect_moved if e.continuous else detect_ended, True),
+            (PUSHING[solver], e.response),
+            (events.tell, True),
+        )
+    return tuple(each for each, wanted in stages if wanted)
+
+
+class Workspace:
+    """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
+
+    def __init__(self, effects, solver):
+        stacks = solver in STACKING
+        boxes_only, one_way = not effects.narrowphase, effects.one_way
+        self.narrow = NarrowPhase(effects.response, one_way, boxes_only)
+        self.sensing = NarrowPhase(False, one_way, boxes_only) if stacks and effects.sensors else None
+        self.sweep = Sweeper() if effects.continuous else None
+        self.walk, self.walked = new_workspace(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
+        self.motions = Motions() if stacks else None
+        self.sets = [ContactSet()] if stacks else [PushSet()]
+        self.islands = IslandRoom() if effects.sleeping else None
+        self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else None
+        self._rows = np.zeros(16, np.int64)
+
+    def anchors_for(self, count) -> np.ndarray:
+        """ANCHOR rows for the manifolds of this step; those of the step before stay as they are."""
+        self._anchors.reverse()
+        if len(self._anchors[0]) < count:
+            self._anchors[0] = np.zeros(2 * count, ANCHOR)
+        return self._anchors[0][:count]
+
+    def rows_for(self, count) -> np.ndarray:
+        """Room for that many row numbers."""
+        if len(self._rows) < count:
+            self._rows = np.zeros(2 * count, np.int64)
+        return self._rows
+
+
+def begin(world, dt) -> StepState:
+    """What the first stage is given: the world's settings and tables, and what it remembers of the last step."""
+    world.refresh_character_rows()
+    state = StepState()
+    state.effects, state.tolerances, state.workspace = world.effects, world.tolerances, world.workspace
+    state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
+    state.dt, state.substeps, state.broadphase = dt, world.substeps, world.broadphase
+    state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
+    state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers
+    state.manifolds, state.anchors = world.manifolds, world.anchors
+    state.touching, state.sensing = world.touching, world.sensing
+    state.sensed, state.swept_sensors = world.sensed, world.manifolds[:0]
+    state.impacts, state.changed_count = NO_IMPACTS, 0
+    state.ghosts = state.parked = None
+    state.events, state.told, state.work = events.Events(), (world.manifolds[:0], None), world.profile.work
+    if not world.awake.sleeping:
+        world.awake.all_rows(state.bodies, state.shapes)
+    return state
+
+
+def finish(world, state):
+    """What the world keeps of a step."""
+    world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
+    world.ghosts, world.events = state.ghosts, state.events
+    world.tell_contacts(*state.told)

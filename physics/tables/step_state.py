@@ -1,0 +1,64 @@
+"""StepState: what the stages of a step hand on to each other, and what each of them says it touches.
+
+A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those that
+it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it. What lasts
+longer than a step lies in the world, which gives it to the state and takes it back at the end.
+"""
+
+from collections.abc import Callable
+
+STAGE_FIELDS = (
+    # what the world was asked for
+    "effects",
+    "tolerances",
+    "gravity",  # [px/s2]
+    "drag",  # [1/s]
+    "wind",  # [px/s]
+    "dt",  # [s]
+    "substeps",
+    "broadphase",
+    # tables
+    "bodies",  # BODY rows
+    "shapes",  # SHAPE rows
+    "characters",  # CHARACTER rows
+    "library",  # corners, tiles and pixels of the shapes
+    # what is awake: the rows that a pass goes over
+    "awake",
+    "sleepers",
+    # from boxes to manifolds
+    "pairs",  # the pair list: proxies and candidates
+    "changed_count",  # slots whose rectangle changed
+    "impacts",  # (n, 5) candidate, fraction, normal, stops: found before the bodies move
+    "manifolds",  # MANIFOLD rows in the order of shape ids: of the step before, until the narrow phase
+    "anchors",  # ANCHOR rows beside them, in worlds that stack
+    "sensed",  # MANIFOLD rows with sensors; None where they stand among the others
+    "swept_sensors",  # MANIFOLD rows of sensors that were met on the way
+    "ghosts",  # (n, 8) bodies that a sweep stopped: id, path, fraction; None without any
+    "parked",  # MANIFOLD rows of what fell asleep in this step
+    # what is told
+    "touching",  # the pairs that touch
+    "sensing",  # the pairs of which one is a sensor
+    "events",
+    "told",  # (MANIFOLD rows, which of them count), of what touches
+    "work",  # counters, int64
+    "workspace",  # arrays that are grown and used again; nothing in them outlives a stage
+)
+
+
+class StepState:
+    """The fields of STAGE_FIELDS for one step."""
+
+    __slots__ = STAGE_FIELDS
+
+
+def stage(name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()) -> Callable:
+    """Mark a function of a StepState as a stage: its name in `world.stages`, the fields it reads and those it writes."""
+    for each in (*reads, *writes):
+        if each.split(".")[0] not in STAGE_FIELDS:
+            raise ValueError(f"a stage may read and write {', '.join(STAGE_FIELDS)} (got {each!r} for {name!r})")
+
+    def mark(function):
+        function.stage, function.reads, function.writes = name, tuple(reads), tuple(writes)
+        return function
+
+    return mark
