@@ -9,25 +9,27 @@ import argparse
 import importlib
 import sys
 
-from assets import FOLDER, music, png, sounds
+from assets import FOLDER
+from assets.audio import music, sounds
+from assets.craft import png
 
 # name of the product -> (module, function, arguments); imported when built, so a part can be built by itself.
 PRODUCTS = {
-    "font/font5x7": ("assets.font", "font_files", ("font5x7",)),
-    "font/font3x5": ("assets.font", "font_files", ("font3x5",)),
+    "font/font5x7": ("assets.ui.font", "font_files", ("font5x7",)),
+    "font/font3x5": ("assets.ui.font", "font_files", ("font3x5",)),
     **sounds.PRODUCTS,
     **music.PRODUCTS,
-    "images/planes": ("assets.aircraft", "planes_files", ()),
-    "images/effects": ("assets.effects", "effects_files", ()),
-    "images/hero": ("assets.hero", "hero_files", ()),
-    "images/things": ("assets.things", "things_files", ()),
-    "images/lab": ("assets.lab_pieces", "lab_files", ()),
-    "images/tiles": ("assets.tiles", "tiles_files", ()),
-    "images/ui": ("assets.ui", "ui_files", ()),
-    "images/backdrops_shooter": ("assets.backdrops", "backdrop_files", ("shooter",)),
-    "images/backdrops_platformer": ("assets.backdrops", "backdrop_files", ("platformer",)),
-    "images/pictures": ("assets.filming", "picture_files", ()),
-    "levels/platformer": ("assets.levels", "level_files", ()),
+    "images/planes": ("assets.shooter.aircraft", "planes_files", ()),
+    "images/effects": ("assets.shooter.effects", "effects_files", ()),
+    "images/hero": ("assets.platformer.hero", "hero_files", ()),
+    "images/things": ("assets.platformer.things", "things_files", ()),
+    "images/lab": ("assets.lab.pieces", "lab_files", ()),
+    "images/tiles": ("assets.platformer.tiles", "tiles_files", ()),
+    "images/ui": ("assets.ui.sheet", "ui_files", ()),
+    "images/backdrops_shooter": ("assets.shooter.backdrops", "backdrop_files", ()),
+    "images/backdrops_platformer": ("assets.platformer.backdrops", "backdrop_files", ()),
+    "images/pictures": ("assets.publish.films", "picture_files", ()),
+    "levels/platformer": ("assets.platformer.tiled", "level_files", ()),
 }
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from assets import FOLDER, build
-from assets.music import JINGLES, LOUDNESS, PRODUCTS, TUNES, render, tune_of
-from assets.music_harmony import complaints
-from assets.music_notation import parse_tune
-from assets.music_voices import OVERSAMPLING, RATE, decimated, drum, low_pass, tone
-from assets.synth import PEAK
+from assets.audio.harmony import complaints
+from assets.audio.music import JINGLES, LOUDNESS, PRODUCTS, TUNES, render, tune_of
+from assets.audio.notation import parse_tune
+from assets.audio.voices import OVERSAMPLING, RATE, decimated, drum, low_pass, tone
+from assets.craft.synth import PEAK
 
 ALL = (*TUNES, *JINGLES)
 
