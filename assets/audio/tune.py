@@ -24,6 +24,8 @@ class Instrument:
     bright: float = 5000.0  # [Hz] corner of the low-pass
     echo: float = 0.0  # share of the first repeat; each further one is that share of the one before
     delay: float = 3.0  # steps between repeats
+    pan: float = 0.0  # where it sits, -1 left .. 1 right
+    spread: float = 0.0  # how far it leans to the left an octave below its middle, to the right an octave above
 
 
 RANGES = {
@@ -37,6 +39,8 @@ RANGES = {
     "bright": (200, 20000),
     "echo": (0, 0.7),
     "delay": (0.25, 16),
+    "pan": (-0.8, 0.8),
+    "spread": (0, 0.8),
 }
 
 
@@ -56,6 +60,12 @@ class Note:
     def volume(self):
         """The instrument's, with the note's marks."""
         return self.instrument.volume * (LOUDER if "!" in self.marks else 1) * (SOFTER if "?" in self.marks else 1)
+
+    @property
+    def place(self):
+        """Where it is heard, -1 left .. 1 right. The middle of an instrument is an octave above its `floor`."""
+        octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
+        return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
 
 
 @dataclass

@@ -76,16 +76,16 @@ def _oscillate(wave, phase, time):
 def low_pass(samples, corner, rate=FINE, around=False):
     """One-pole low-pass, exact to a millionth, in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ...
 
-    around: the samples are a loop, their end is heard before their start.
+    around: the samples are a loop, their end is heard before their start. Filters along the last axis.
     """
     share = round(math.exp(-2 * math.pi * corner / rate), 9)
     out, shift = samples * (1 - share), 1
-    while share**shift > 1e-6 and shift < len(out):
+    while share**shift > 1e-6 and shift < out.shape[-1]:
         if around:
-            out = out + share**shift * np.roll(out, shift)
+            out = out + share**shift * np.roll(out, shift, axis=-1)
         else:
             later = out.copy()
-            later[shift:] += share**shift * out[:-shift]
+            later[..., shift:] += share**shift * out[..., :-shift]
             out = later
         shift *= 2
     return out

@@ -71,7 +71,7 @@ class Sprite:
         return self
 
     def stamp(self, rows, x, y, tones):
-        """Set the pixels of a small drawing, its top left at (x, y). rows: texts; tones: {letter: colour}, else clear."""
+        """Set the pixels of a drawing, its top left at (x, y). rows: texts; tones: {letter: colour}, others clear."""
         for down, row in enumerate(rows):
             for across, letter in enumerate(row):
                 if letter in tones:

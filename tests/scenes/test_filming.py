@@ -1,4 +1,4 @@
-"""Filming: every scene has its picture for the menu; parts of a frame are averaged in whole numbers; moments are found."""
+"""Filming: every scene has its picture for the menu, a frame is averaged in whole numbers, moments are found."""
 
 import json
 
