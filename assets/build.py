@@ -91,7 +91,7 @@ def write(name):
 
 def main(arguments=None):
     """Run the command line. Returns the exit code: 0 fine, 1 a file differs, 2 nothing of that name."""
-    parser = argparse.ArgumentParser(prog="python -m assets.build", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python -m assets.build", description="Write or check the files of assets/.")
     parser.add_argument("part", nargs="?", default="", help="only products whose name contains this")
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a file differs")
     options = parser.parse_args(arguments)

@@ -4,7 +4,6 @@ Pitches are MIDI numbers: C4 = 60, a semitone is 1. A pitch class is a pitch mod
 """
 
 import re
-from itertools import zip_longest
 from typing import NamedTuple
 
 LETTERS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
@@ -132,16 +131,16 @@ def complaints(tune):
     found = []
     for voice, notes in tune.notes.items():
         sung = [note for note in notes if note.pitches]
-        for before, note, after in zip_longest([None, *sung][: len(sung)], sung, sung[1:]):
+        for number, note in enumerate(sung):
+            before, after = sung[number - 1] if number else None, sung[number + 1] if number + 1 < len(sung) else None
             found += [f"line {note.line}: {voice}: {text}" for text in _of_one_voice(tune, before, note, after)]
     return found + list(_clashes(tune))
 
 
 def _of_one_voice(tune, before, note, after):
     at = tune.chords[note.start]
-    follows = after is not None and after.start == note.start + note.steps
-    by_step = follows and _is_step(note, after)
-    resolves = by_step and after.pitches[0] % 12 in tune.chords[after.start].classes
+    by_step = after is not None and after.start == note.start + note.steps and _is_step(note, after)
+    resolves = by_step and after is not None and after.pitches[0] % 12 in tune.chords[after.start].classes
     for each in note.pitches:
         if each % 12 not in scale_over(tune.keys[note.start], at):
             yield f"{each} is not in the scale over {at.name}"

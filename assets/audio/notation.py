@@ -72,7 +72,7 @@ class _Reader:
         self.tune = Tune()
         self.phrases = {}
         self.sections = {}
-        self.section = None
+        self.section = Section(0)  # the one that is read; no page has line 0
         self.order = []
 
     def fail(self, reason, line=None):
@@ -109,14 +109,14 @@ class _Reader:
             "section": self._section,
             "order": self._order,
         }
-        if self.section is not None:
+        if self.sections:
             readers |= {"chords": self._chords, "set": self._set}
         if word in readers:
             readers[word](rest)
-        elif self.section is not None and word in self.tune.voices:
+        elif self.sections and word in self.tune.voices:
             self.section.bars.setdefault(word, []).extend(self._bars(rest))
         else:
-            voices = self.tune.voices if self.section is not None else ()
+            voices = self.tune.voices if self.sections else ()
             self.fail(f"no line starts with {word!r} here; valid: {', '.join([*readers, *voices])}")
 
     def _name(self, rest):
@@ -216,8 +216,9 @@ class _Reader:
         """[(text of one bar, line)], phrases put in and repeats written out."""
         bars = []
         for bar in _split(text):
-            match = re.fullmatch(r"(.*?)(?:\s\*(\d+))?", bar)
-            inner, times = match.group(1).strip(), int(match.group(2) or 1)
+            repeated = re.search(r"\s\*(\d+)$", bar)
+            inner = bar[: repeated.start()].strip() if repeated else bar
+            times = int(repeated[1]) if repeated else 1
             if inner.startswith("@"):
                 if inner[1:] not in self.phrases:
                     self.fail(

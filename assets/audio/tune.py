@@ -28,7 +28,7 @@ class Instrument:
     spread: float = 0.0  # how far it leans to the left an octave below its middle, to the right an octave above
 
 
-RANGES = {
+RANGES: dict[str, tuple[float, float]] = {
     "volume": (0, 1),
     "attack": (0.001, 2),
     "decay": (0.01, 9),

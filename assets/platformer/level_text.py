@@ -65,12 +65,12 @@ def _sections(text, source):
 def _numbers(line, count, source, rule):
     """So many whole numbers of a line, as a tuple."""
     try:
-        values = tuple(int(word) for word in line.split())
+        values = [int(word) for word in line.split()]
     except ValueError:
-        values = ()
+        values = []
     if len(values) != count:
         raise ValueError(f"{source}: {rule} (got {line!r})")
-    return values
+    return tuple(values)
 
 
 def _platform(line, source):

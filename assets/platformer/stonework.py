@@ -33,8 +33,8 @@ def crumble(look):
         sprite.paint(box(x, y, seam + 0.5, 2, seam + 1.5, 14), stone[4], 0.5)
     sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)  # worn yellow edge: not to be trusted
     sprite.paint(box(x, y, 2, 13, 30, 15), stone[1], 0.5)
-    for gap in GAPS[look]:
-        sprite.cut(box(x, y, *gap, 1.2))
+    for left, top, right, bottom in GAPS[look]:
+        sprite.cut(box(x, y, left, top, right, bottom, 1.2))
     for lines in CRACKS[: look + 1]:
         for points in lines:
             for start, end in pairwise(points):

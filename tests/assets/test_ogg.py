@@ -15,7 +15,7 @@ def chord(frames, seed=1):
     """Two sides of a few held tones, (frames, 2) int16."""
     time = np.arange(frames)[:, None] / RATE
     tones = np.random.default_rng(seed).uniform(100, 2000, (5, 2))
-    return (sum(np.sin(2 * np.pi * tone * time) for tone in tones) * 3000).astype(np.int16)
+    return (np.sum([np.sin(2 * np.pi * tone * time) for tone in tones], axis=0) * 3000).astype(np.int16)
 
 
 @needs_encoder
