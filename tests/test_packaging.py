@@ -1,4 +1,4 @@
-"""What is installed: every kind of file that the game reads, one version, a licence; and the hooks' tools are extras."""
+"""What is installed: every kind of file that the game reads, one version, a licence; hooks run tools of the extras."""
 
 import re
 import tomllib
