@@ -17,7 +17,6 @@ import numpy as np
 import pygame
 
 from assets.craft import png
-from game.drawing.draw import CANVAS_SIZE
 from game.drawing.picture import Picture
 from game.drawing.presenter import SCREENSHOT_SCALE
 from game.headless import start_dummy_display
@@ -28,6 +27,7 @@ from game.session import Session
 from scenes import SCENES
 from scenes.moments import MOMENTS, SEED, Moment, done, leader
 
+FRAME = (480, 270)  # [px] of the canvas
 SIZE = (160, 90)  # [px] of a menu picture
 MOST = 20000  # frames within which every moment of a game comes
 
@@ -117,7 +117,7 @@ def film_moments(name, seed, moments):
     return taken
 
 
-def reduced(pixels, part=(0, 0, *CANVAS_SIZE), zoom=1):
+def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
     """The part (left, top, width, height in canvas px) of a presented picture, `zoom` canvas pixels to one.
 
     Averages are of whole numbers, so that they are the same on every machine.
