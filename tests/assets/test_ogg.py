@@ -1,5 +1,7 @@
 """Ogg files: they play as long as their samples, and a check tells right from wrong, with or without soundfile."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -44,7 +46,7 @@ def test_a_recording_knows_its_file_from_others():
 @pytest.mark.parametrize("name", ["title", "victory"])
 def test_the_length_is_read_without_a_decoder(name):
     packed = (FOLDER / "music" / f"{name}.ogg").read_bytes()
-    assert frame_count(packed) == len(build.make(f"music/{name}")[f"music/{name}.ogg"].samples)
+    assert frame_count(packed) == json.loads((FOLDER / "music" / f"{name}.json").read_text())["frames"]
     for wrong in (packed[:-1], packed[1:], packed + b"x", b"", b"RIFF"):
         with pytest.raises(ValueError, match="not a whole Ogg file"):
             frame_count(wrong)
