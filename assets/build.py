@@ -9,30 +9,33 @@ import argparse
 import importlib
 import sys
 
-from assets import FOLDER, music, png, sounds
+from assets import FOLDER
+from assets.audio import music, sounds
+from assets.craft import ogg, png
+from assets.craft.ogg import Recording
 
 # name of the product -> (module, function, arguments); imported when built, so a part can be built by itself.
 PRODUCTS = {
-    "font/font5x7": ("assets.font", "font_files", ("font5x7",)),
-    "font/font3x5": ("assets.font", "font_files", ("font3x5",)),
+    "font/font5x7": ("assets.ui.font", "font_files", ("font5x7",)),
+    "font/font3x5": ("assets.ui.font", "font_files", ("font3x5",)),
     **sounds.PRODUCTS,
     **music.PRODUCTS,
-    "images/planes": ("assets.aircraft", "planes_files", ()),
-    "images/effects": ("assets.effects", "effects_files", ()),
-    "images/hero": ("assets.hero", "hero_files", ()),
-    "images/things": ("assets.things", "things_files", ()),
-    "images/lab": ("assets.lab_pieces", "lab_files", ()),
-    "images/tiles": ("assets.tiles", "tiles_files", ()),
-    "images/ui": ("assets.ui", "ui_files", ()),
-    "images/backdrops_shooter": ("assets.backdrops", "backdrop_files", ("shooter",)),
-    "images/backdrops_platformer": ("assets.backdrops", "backdrop_files", ("platformer",)),
-    "images/pictures": ("assets.filming", "picture_files", ()),
-    "levels/platformer": ("assets.levels", "level_files", ()),
+    "images/planes": ("assets.shooter.aircraft", "planes_files", ()),
+    "images/effects": ("assets.shooter.effects", "effects_files", ()),
+    "images/hero": ("assets.platformer.hero", "hero_files", ()),
+    "images/things": ("assets.platformer.things", "things_files", ()),
+    "images/lab": ("assets.lab.pieces", "lab_files", ()),
+    "images/tiles": ("assets.platformer.tiles", "tiles_files", ()),
+    "images/ui": ("assets.ui.sheet", "ui_files", ()),
+    "images/backdrops_shooter": ("assets.shooter.backdrops", "backdrop_files", ()),
+    "images/backdrops_platformer": ("assets.platformer.backdrops", "backdrop_files", ()),
+    "images/pictures": ("assets.publish.films", "picture_files", ()),
+    "levels/platformer": ("assets.platformer.tiled", "level_files", ()),
 }
 
 
 def make(name):
-    """Return {path relative to assets/: bytes} of one product, without writing it.
+    """Return {path relative to assets/: bytes, or the Recording to be encoded} of one product, without writing it.
 
     Raises KeyError naming the valid products for an unknown one.
     """
@@ -45,7 +48,8 @@ def make(name):
 def differences(name):
     """Return the paths of one product that are missing from the folder or differ from what the script makes.
 
-    A PNG is compared by header and inflated rows: another build of zlib packs the same picture differently.
+    A PNG is compared by header and inflated rows: another build of zlib packs the same picture differently. A tune is
+    compared by the hash of its samples, kept beside it, and by decoding the file (craft/ogg.py).
     """
     wrong = []
     for path, made in make(name).items():
@@ -56,6 +60,8 @@ def differences(name):
 
 
 def _same(path, kept, made):
+    if isinstance(made, Recording):
+        return made.is_kept_in(kept)
     if kept == made:
         return True
     if not path.endswith(".png"):
@@ -67,18 +73,25 @@ def _same(path, kept, made):
 
 
 def write(name):
-    """Write one product's files. Returns their relative paths."""
+    """Write one product's files. Returns their relative paths.
+
+    A recording that is kept already stays as it is: each encoding of the same samples has other bytes.
+    """
     files = make(name)
     for path, content in files.items():
         target = FOLDER / path
         target.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(content, Recording):
+            if target.is_file() and content.is_kept_in(target.read_bytes()):
+                continue
+            content = content.encoded()
         target.write_bytes(content)
     return list(files)
 
 
 def main(arguments=None):
     """Run the command line. Returns the exit code: 0 fine, 1 a file differs, 2 nothing of that name."""
-    parser = argparse.ArgumentParser(prog="python -m assets.build", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python -m assets.build", description="Write or check the files of assets/.")
     parser.add_argument("part", nargs="?", default="", help="only products whose name contains this")
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a file differs")
     options = parser.parse_args(arguments)
@@ -88,6 +101,11 @@ def main(arguments=None):
         return 2
     if options.check:
         wrong = [path for name in names for path in differences(name)]
+        if not ogg.is_available() and any(name in music.PRODUCTS for name in names):
+            sys.stderr.write(
+                "soundfile is not installed: tunes were checked by their samples' hashes and their lengths, "
+                "not by decoding them\n"
+            )
         for path in wrong:
             sys.stderr.write(f"assets/{path} differs from what its script makes\n")
         return 1 if wrong else 0

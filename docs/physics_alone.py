@@ -1,4 +1,4 @@
-"""A pygame program whose groupcollide(..., collide_mask) is replaced by the physics package. Run it: it checks itself."""
+"""A pygame program whose groupcollide(..., collide_mask) is replaced by the physics package. Run it: it checks."""
 
 import pygame
 

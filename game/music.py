@@ -89,7 +89,7 @@ class Music:
         self.playing, self.level = name, float(self.in_jingle)
         if name is None or name in self.unusable:
             return
-        path = self.folder / f"{name}.wav"
+        path = self.folder / f"{name}.ogg"
         try:
             if not path.is_file():
                 raise FileNotFoundError("there is no such file")

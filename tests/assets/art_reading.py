@@ -4,7 +4,8 @@ import json
 
 import numpy as np
 
-from assets import FOLDER, png
+from assets import FOLDER
+from assets.craft import png
 
 
 def load(sheet):

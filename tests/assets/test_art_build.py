@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from assets import FOLDER, build, png
+from assets import FOLDER, build
+from assets.craft import png
 
 FAST = (
     "font/font5x7",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from assets.enemy_bullets import ROUND, SAFE
+from assets.shooter.enemy_bullets import ROUND, SAFE
 from tests.assets.art_reading import backdrop, load, oklab
 
 GROUNDS = {

@@ -4,8 +4,9 @@ import json
 
 import pytest
 
-from assets import FOLDER, png
-from assets.font import FONTS, load_glyphs, read_drawing
+from assets import FOLDER
+from assets.craft import png
+from assets.ui.font import FONTS, load_glyphs, read_drawing
 
 CHARACTERS = [chr(code) for code in range(32, 127)] + list("←→↑↓")
 

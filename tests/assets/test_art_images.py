@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from assets.hero import LETTERS as HERO_LETTERS
-from assets.palette import OUTLINE
-from assets.things import LETTERS as THING_LETTERS
+from assets.craft.palette import OUTLINE
+from assets.platformer.hero import LETTERS as HERO_LETTERS
+from assets.platformer.things import LETTERS as THING_LETTERS
 from tests.assets.art_reading import backdrop, load, oklab, pieces
 
 SHEETS = {

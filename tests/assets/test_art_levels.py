@@ -4,10 +4,12 @@ import json
 
 import pytest
 
-from assets import FOLDER, png
-from assets.level_things import walking_range
-from assets.levels import Map, cover_names
-from assets.tiles import TILE
+from assets import FOLDER
+from assets.craft import png
+from assets.platformer.decoration import TILE
+from assets.platformer.level_text import Map
+from assets.platformer.level_things import walking_range
+from assets.platformer.level_tiles import cover_names
 
 KINDS = {"solid", "one_way", "slope", "spikes", "decor"}
 TYPES = {

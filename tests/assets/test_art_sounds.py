@@ -1,4 +1,4 @@
-"""Every sound: its length, its peak at -3 dB, no click at its ends, no DC, loud enough, not too bright, none like another."""
+"""Every sound: its length, peak at -3 dB, no click at its ends, no DC, loud enough, not too bright, unlike another."""
 
 import wave
 
@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from assets import FOLDER, build
-from assets.sounds import SOUNDS
-from assets.synth import PEAK, RATE, voice
+from assets.audio.sounds import SOUNDS
+from assets.craft.synth import PEAK, RATE, voice
 
 ISSUE = ("laser", "enemy_shot", "hit", "explosion", "coin", "powerup", "jump", "hurt")
 LATER = (

@@ -2,7 +2,7 @@
 
 import pytest
 
-from assets.drawn import read_parts
+from assets.craft.drawn import read_parts
 
 LETTERS = {"a": (10, 20, 30), "b": (200, 100, 0)}
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from assets.music_harmony import chord, complaints, degree_pitch, pitch, scale, scale_over, tone_pitch
-from assets.music_notation import TuneError, parse_tune, read_tune
+from assets.audio.harmony import chord, complaints, degree_pitch, pitch, scale, scale_over, tone_pitch
+from assets.audio.notation import TuneError, parse_tune, read_tune
 
 GOOD = """name Test ; a comment
 tempo 120

@@ -1,24 +1,22 @@
-"""The tunes: in harmony, alive for ten minutes, alike in loudness, and looping without a seam."""
+"""The tunes: in harmony, alive for ten minutes, alike in loudness, in stereo, and looping without a seam."""
 
-import wave
+import hashlib
+import json
 
 import numpy as np
 import pytest
 
 from assets import FOLDER, build
-from assets.music import JINGLES, LOUDNESS, PRODUCTS, TUNES, render, tune_of
-from assets.music_harmony import complaints
-from assets.music_notation import parse_tune
-from assets.music_voices import OVERSAMPLING, RATE, decimated, drum, low_pass, tone
-from assets.synth import PEAK
+from assets.audio import music
+from assets.audio.harmony import complaints
+from assets.audio.music import JINGLES, LOUDNESS, PRODUCTS, TUNES, render, tune_of
+from assets.audio.notation import parse_tune
+from assets.audio.voices import OVERSAMPLING, RATE, decimated, drum, low_pass, tone
+from assets.craft.ogg import LOSS, loss
+from assets.craft.synth import PEAK
+from tests.assets.music_reading import decoded, sides_of
 
 ALL = (*TUNES, *JINGLES)
-
-
-def samples_of(name):
-    with wave.open(str(FOLDER / "music" / f"{name}.wav")) as file:
-        assert (file.getnchannels(), file.getsampwidth(), file.getframerate()) == (1, 2, RATE)
-        return np.frombuffer(file.readframes(file.getnframes()), "<i2") / 32767
 
 
 def decibels(samples):
@@ -34,10 +32,23 @@ def shares(samples, *edges):
     ]
 
 
+def loudness(sides):
+    """What the level is set by: without the lows that add little to how loud a tune seems."""
+    return decibels(sides - low_pass(sides, 100.0, RATE))
+
+
+def width(sides):
+    """Power of the difference between left and right over that of their sum."""
+    left, right = sides
+    return float(np.square(right - left).sum() / np.square(right + left).sum())
+
+
 def test_every_tune_is_a_product_and_every_page_a_tune():
     assert {path.stem for path in (FOLDER / "tunes").glob("*")} == set(ALL)
     assert set(PRODUCTS) == {f"music/{name}" for name in ALL} <= set(build.PRODUCTS)
-    assert {path.stem for path in (FOLDER / "music").glob("*")} == set(ALL)
+    kept = [f"{name}.{kind}" for name in ALL for kind in ("json", "ogg")]
+    assert sorted(path.name for path in (FOLDER / "music").glob("*")) == sorted(kept)
+    assert sum(path.stat().st_size for path in (FOLDER / "music").glob("*.ogg")) < 4e6
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -87,11 +98,18 @@ def test_the_boss_has_the_shooters_motif_in_minor_and_faster():
     assert set(moved) == {0, -1}, "only the thirds are lowered"
 
 
+@pytest.mark.parametrize("name", ALL)
+def test_the_file_is_as_long_as_its_samples_were(name):
+    """To the frame, else a loop stumbles."""
+    made_from = json.loads((FOLDER / "music" / f"{name}.json").read_text())
+    assert decoded(name).shape == (made_from["frames"], made_from["channels"]) and made_from["channels"] == 2
+    assert made_from["rate"] == RATE
+
+
 @pytest.mark.parametrize("name", TUNES)
-def test_the_file_is_as_long_as_the_tune_and_never_silent(name):
-    samples, tune = samples_of(name), tune_of(name)
+def test_a_loop_is_as_long_as_its_tune_and_never_silent(name):
+    samples, tune = sides_of(name).mean(axis=0), tune_of(name)
     assert len(samples) == round(tune.seconds(tune.steps) * RATE) and 80 <= len(samples) / RATE <= 100
-    assert len(samples) * 2 < 4.5e6
     tenth = RATE // 10
     quiet = [decibels(samples[i : i + tenth]) < -45 for i in range(0, len(samples) - tenth, tenth)]
     assert not any(all(quiet[i : i + 5]) for i in range(len(quiet))), "half a second of nothing"
@@ -99,9 +117,9 @@ def test_the_file_is_as_long_as_the_tune_and_never_silent(name):
 
 @pytest.mark.parametrize("name", TUNES)
 def test_sections_differ_in_loudness_but_none_jumps_out(name):
-    samples, tune = samples_of(name), tune_of(name)
+    sides, tune = sides_of(name), tune_of(name)
     levels = [
-        decibels(samples[int(tune.seconds(first) * RATE) : int(tune.seconds(first + steps) * RATE)])
+        decibels(sides[:, int(tune.seconds(first) * RATE) : int(tune.seconds(first + steps) * RATE)])
         for _, first, steps in tune.parts
     ]
     assert 0.7 < max(levels) - min(levels) < 6.0
@@ -110,24 +128,57 @@ def test_sections_differ_in_loudness_but_none_jumps_out(name):
 def test_tunes_are_alike_in_loudness_and_below_the_effects():
     levels = {}
     for name in ALL:
-        samples = samples_of(name)
-        levels[name] = decibels(samples - low_pass(samples, 100.0, RATE))
-        assert abs(samples).max() < PEAK, name
-        assert abs(samples.mean()) < 1e-4
+        sides = sides_of(name)
+        levels[name] = loudness(sides)
+        assert abs(sides).max() < PEAK, name
+        assert abs(sides.mean(axis=1)).max() < 1e-4
     assert max(levels[name] for name in TUNES) - min(levels[name] for name in TUNES) < 1.5
     assert all(abs(level - LOUDNESS) < 1.5 for level in levels.values()), levels
 
 
 @pytest.mark.parametrize("name", ALL)
+def test_the_panorama_is_wide_but_stands_on_its_middle(name):
+    sides = sides_of(name)
+    assert 0.01 < width(sides) < 0.2
+    assert width(low_pass(low_pass(sides, 80.0, RATE), 80.0, RATE)) < 0.01, "bass and kick are in the middle"
+    left, right = sides
+    assert abs(decibels(left) - decibels(right)) < 1.2, "neither side is heavier"
+
+
+def test_a_second_voice_is_to_the_right_and_its_echo_to_the_left():
+    text = RING.replace("attack=0.01", "pan=0.5").replace("release=0.4", "release=0.02") + "one"
+    for line in ("lead C5 - E5 G5", "bass 1 1 5 8", "drums kh s k ."):
+        text = text.replace(line, "lead C5 . . ." if line.startswith("lead") else "", 1)
+    left, right = render(parse_tune(text)).T.astype(float)
+    beat = round(0.4 * RATE)
+    assert decibels(right[: beat // 2]) - decibels(left[: beat // 2]) == pytest.approx(20 * np.log10(3), abs=0.5)
+    first = slice(round(1.05 * beat), round(1.45 * beat))  # the note is over, its repeat is not
+    assert decibels(left[first]) > decibels(right[first]) + 6
+
+
+@pytest.mark.parametrize("name", [*JINGLES, *(pytest.param(name, marks=pytest.mark.deep) for name in TUNES)])
+def test_both_sides_added_are_the_mono_mix(name, monkeypatch):
+    """A listener with one loudspeaker loses nothing: within 1 dB as a whole, and nowhere much of it."""
+    added = render(tune_of(name)).mean(axis=1)
+    monkeypatch.setattr(music, "_sides", lambda place: np.ones((2, 1)))
+    mono = render(tune_of(name)).astype(float)
+    assert (mono[:, 0] == mono[:, 1]).all()
+    assert abs(decibels(added) - decibels(mono)) < 1.0
+    scaled = mono[:, 0] * (np.dot(added, mono[:, 0]) / np.dot(mono[:, 0], mono[:, 0]))
+    assert decibels(added - scaled) < decibels(added) - 20, "the same sound, but for rounded peaks"
+
+
+@pytest.mark.parametrize("name", ALL)
 def test_the_spectrum_is_warm(name):
-    rumble, low, middle, high, harsh = shares(samples_of(name), 0, 45, 300, 2000, 6000, RATE / 2)
+    rumble, low, middle, high, harsh = shares(sides_of(name).mean(axis=0), 0, 45, 300, 2000, 6000, RATE / 2)
     assert harsh < 0.01 and rumble < 0.05
     assert 0.2 < low < 0.7 and 0.2 < middle < 0.75 and high < 0.2
 
 
 @pytest.mark.parametrize("name", TUNES)
-def test_the_seam_of_the_loop_has_no_click(name):
-    samples = samples_of(name)
+@pytest.mark.parametrize("side", [0, 1])
+def test_the_seam_of_the_loop_has_no_click(name, side):
+    samples = sides_of(name)[side]
     steps = np.abs(np.diff(samples))
     assert abs(samples[0] - samples[-1]) <= np.percentile(steps, 99.5)
     edge = np.abs(np.diff(np.roll(samples, RATE // 10)[: RATE // 5], 2))  # a click is a corner
@@ -137,14 +188,16 @@ def test_the_seam_of_the_loop_has_no_click(name):
 
 @pytest.mark.parametrize("name", JINGLES)
 def test_a_jingle_is_short_and_ends_in_silence(name):
-    samples = samples_of(name)
-    assert 3.5 <= len(samples) / RATE <= 5.0
-    assert abs(samples[:3]).max() < 0.01 and abs(samples[-40:]).max() < 0.002
+    sides = sides_of(name)
+    assert 3.5 <= sides.shape[1] / RATE <= 5.0
+    assert abs(sides[:, :3]).max() < 0.02 and abs(sides[:, -40:]).max() < 0.01
+    samples = render(tune_of(name))
+    assert abs(samples[:3]).max() < 0.01 * 32767 and abs(samples[-40:]).max() < 0.002 * 32767
 
 
 RING = """tempo 150
 key C major
-voice lead wave=pulse25 volume=0.5 release=0.4 vibrato=20 echo=0.5 delay=3
+voice lead wave=pulse25 volume=0.5 release=0.4 attack=0.01 vibrato=20 echo=0.5 delay=3
 voice bass wave=triangle from=C2 gate=1
 voice drums wave=noise
 section one
@@ -165,7 +218,7 @@ def test_the_loop_has_no_beginning():
     text = RING.replace("kh s k .", ". . . .").replace("kh s k s", "k s k s")
     forth, back = render(parse_tune(text + "one two")), render(parse_tune(text + "two one"))
     half = len(forth) // 2
-    assert len(forth) == 2 * half and np.abs(np.roll(forth, half).astype(int) - back).max() <= 2
+    assert len(forth) == 2 * half and np.abs(np.roll(forth, half, axis=0).astype(int) - back).max() <= 2
     assert np.abs(forth[:8]).max() > 5, "what rings at the end is heard at the start"
 
 
@@ -173,6 +226,14 @@ def test_rendering_is_the_same_twice_and_a_jingle_regenerates():
     tune = parse_tune(RING + "one two")
     assert (render(tune) == render(tune)).all()
     assert build.differences("music/victory") == []
+
+
+def test_the_hash_is_of_the_samples():
+    made = build.make("music/victory")
+    kept = json.loads((FOLDER / "music" / "victory.json").read_text())
+    samples = made["music/victory.ogg"].samples
+    assert kept["sha256"] == hashlib.sha256(samples.tobytes()).hexdigest() and kept["frames"] == len(samples)
+    assert loss(decoded("victory"), samples) <= LOSS
 
 
 def test_no_aliases_among_the_harmonics():

@@ -5,14 +5,16 @@ the design (which strategy suits which layout) stand or fall by the last table.
 """
 
 import math
+from functools import partial
 
 import numpy as np
 
 from physics import BROADPHASES, Bounds, Circle, Effects, Polygon, SweepAndPrune, World
-from tests.bench.timing import table
+from tests.bench.timing import best_in_turns, table
 
 SIZES = (100, 1000, 10_000, 50_000)
 BRUTE_LIMIT = 10_000
+LEAST_TOLD = 1000  # fewer bodies take some 10 µs, which is not much beside the step around them
 SPACING = 22.0  # px between even bodies
 SPEED = 60.0  # px/s
 
@@ -40,6 +42,7 @@ def giant(rng, n):
 
 
 LAYOUTS = {"even": even, "along the ground": line, "crowds": clusters, "one giant": giant}
+MOVING = {"all moving": 1.0, "2 % moving among still ones": 0.02, "nothing moving": 0.0}  # shares of the bodies
 
 
 def make_world(strategy, layout, n, moving):
@@ -57,54 +60,78 @@ def make_world(strategy, layout, n, moving):
     return world
 
 
-def step_time(world, runs):
-    """Least seconds of the broad phase of a step."""
-    least = math.inf
-    for _ in range(runs):
+def step_time(world):
+    """Least [s] of the broad phase of three steps: the first finds another world's rows in the processor's caches."""
+    times = []
+    for _ in range(3):
         world.step()
-        least = min(least, world.profile.stages["broad_phase"])
-    return least
+        times.append(world.profile.stages["broad_phase"])
+    return min(times)
+
+
+class Findings:
+    """[s] of each run by how many moved, the layout, the size and the strategy, and what is read from them."""
+
+    def __init__(self):
+        self.times = {}
+
+    def keep(self, moving, layout, size, strategy, seconds):
+        """Take down one measurement."""
+        self.times.setdefault((moving, layout, size), {})[strategy] = seconds
+
+    def fastest(self, moving, layout, size):
+        """The strategy that is fastest there, and how much slower the next one is."""
+        (best, name), (second, _) = sorted((t, name) for name, t in self.times[moving, layout, size].items())[:2]
+        return f"{name} ({second / best:.1f}x)"
+
+    def ratios(self):
+        """{name: a strategy's time over brute force's}, where that was run and there is something to do."""
+        return {
+            f"{size} bodies {layout}, {moving}: {name} / brute": seconds / found["brute"]
+            for (moving, layout, size), found in self.times.items()
+            for name, seconds in found.items()
+            if "brute" in found and name != "brute" and MOVING[moving] and size >= LEAST_TOLD
+        }
+
+
+def growth(times):
+    """The power of the number of bodies by which the time grows, from the second size to the last."""
+    sizes = sorted(times)
+    return math.log(times[sizes[-1]] / times[sizes[1]]) / math.log(sizes[-1] / sizes[1])
+
+
+def timed(strategies, layout, n, moving):
+    """{name: what steps a world of that strategy and tells its time}, slow ones left out of large worlds."""
+    return {
+        name: partial(step_time, make_world(make(), layout, n, moving))
+        for name, make in strategies.items()
+        if n <= BRUTE_LIMIT or name not in ("brute", "sweep both axes")
+    }
 
 
 def run(quick=False):
+    """Print the tables; return {name: time over brute force's}."""
     sizes = SIZES[:3] if quick else SIZES
-    strategies = {name: make for name, make in BROADPHASES.items()}
-    strategies["sweep both axes"] = lambda: SweepAndPrune(axes="both")
-    best = {}
-    for moving, label in ((1.0, "all moving"), (0.02, "2 % moving among still ones"), (0.0, "nothing moving")):
+    strategies = {**BROADPHASES, "sweep both axes": lambda: SweepAndPrune(axes="both")}
+    findings = Findings()
+    for label, moving in MOVING.items():
         rows = []
         for layout in LAYOUTS:
-            for name, make in strategies.items():
-                times = {}
-                for n in sizes:
-                    if name == "brute" and n > BRUTE_LIMIT or name == "sweep both axes" and n > BRUTE_LIMIT:
-                        continue
-                    world = make_world(make(), layout, n, moving)
-                    times[n] = 1e6 * step_time(world, 3 if n > 5000 else 20)
-                ends = sorted(times)
-                growth = (
-                    math.log(times[ends[-1]] / times[ends[1]]) / math.log(ends[-1] / ends[1])
-                    if moving
-                    else float("nan")
-                )
-                rows.append(
-                    [f"{layout}, {name}"]
-                    + [f"{times[n]:.0f}" if n in times else "-" for n in sizes]
-                    + ["" if math.isnan(growth) else f"n^{growth:.2f}"]
-                )
-                for n in times:
-                    key = (label, layout, n)
-                    best.setdefault(key, []).append((times[n], name))
+            times = {name: {} for name in strategies}
+            for n in sizes:
+                least = best_in_turns(8, timed(strategies, layout, n, moving))
+                for name, seconds in least.items():
+                    times[name][n] = seconds
+                    findings.keep(label, layout, n, name, seconds)
+            for name, found in times.items():
+                cells = [f"{1e6 * found[n]:.0f}" if n in found else "-" for n in sizes]
+                rows.append([f"{layout}, {name}", *cells, f"n^{growth(found):.2f}" if moving else ""])
         table(f"Broad phase, {label}: µs per step", ("layout, strategy", *map(str, sizes), "growth from 1,000"), rows)
     rows = [
-        [f"{label}, {layout}"]
-        + [
-            sorted(best[label, layout, n])[0][1]
-            + " "
-            + f"({sorted(best[label, layout, n])[1][0] / sorted(best[label, layout, n])[0][0]:.1f}x)"
-            for n in sizes
-        ]
-        for label, layout in sorted({key[:2] for key in best})
-        if label != "nothing moving"
+        [f"{label}, {layout}", *(findings.fastest(label, layout, n) for n in sizes)]
+        for label, moving in MOVING.items()
+        if moving
+        for layout in LAYOUTS
     ]
     table("Fastest (and how much slower the next one is)", ("", *map(str, sizes)), rows)
+    return findings.ratios()

@@ -1,10 +1,10 @@
 """Pyramids of 55 to 3,240 boxes for 10 s: every solver at 1, 2, 4, 8 substeps and pymunk at its defaults, side by side.
 
-Boxes of 32 px stand on the ground and on one another, friction 0.6, gravity 10 m/s2, 60 steps/s, nothing sleeps. All runs
-of a size advance in turns of a second each, so that whatever else the machine does meets all of them alike. pymunk has 10
-iterations, no substeps and a collision slop of 0.1 px; ours has a slop of 0.16 px, of which it makes no use at rest.
-sequential_impulse takes no substeps: it makes 2.5 passes for each that soft_step would take. The projection pushes out and
-does not stack: it is shown at the small sizes alone. At the end: what a world costs that is all asleep.
+Boxes of 32 px stand on the ground and on one another, friction 0.6, gravity 10 m/s2, 60 steps/s, nothing sleeps. All
+runs of a size advance in turns of a second each, so that whatever else the machine does meets all of them alike. pymunk
+has 10 iterations, no substeps and a collision slop of 0.1 px; ours has a slop of 0.16 px, of which it makes no use at
+rest. sequential_impulse takes no substeps: it makes 2.5 passes for each that soft_step would take. The projection
+pushes out and does not stack: it is shown at the small sizes alone. At the end: what a world costs that is all asleep.
 """
 
 import math
@@ -12,6 +12,7 @@ from statistics import median
 from time import perf_counter
 
 import numpy as np
+import pymunk
 
 from physics import Effects, Material, Polygon, World
 from tests.bench.timing import table
@@ -61,8 +62,6 @@ class Pymunk:
     """The same pyramid in pymunk."""
 
     def __init__(self, rows):
-        import pymunk
-
         self.name = "pymunk"
         self.space = pymunk.Space()
         self.space.gravity = (0.0, GRAVITY)
@@ -162,31 +161,32 @@ HEADER = (
 
 
 def measure(rows, seconds):
-    """All solvers on one pyramid, a second each in turns."""
-    piles = [Pymunk(rows)]
-    for solver in ("soft_step", "sequential_impulse"):
-        piles += [Ours(rows, solver, substeps) for substeps in (1, 2, 4, 8)]
+    """All solvers on one pyramid, a second each in turns. Prints the table; returns {name: time over pymunk's}."""
+    piles = [
+        Ours(rows, solver, substeps) for solver in ("soft_step", "sequential_impulse") for substeps in (1, 2, 4, 8)
+    ]
     if rows <= PROJECTION_LIMIT:
         piles.append(Ours(rows, "projection", 1))
-    for pile in piles[1:]:  # compiled before the clock runs, on a world of its own
+    for pile in piles:  # compiled before the clock runs, on a world of its own
         Ours(3, pile.world.solver, 1).step()
-    runs = [Run(pile) for pile in piles]
+    runs = [Run(pile) for pile in (Pymunk(rows), *piles)]
     for _ in range(seconds):
         for run in runs:
             run.advance(RATE)
     for run in runs:
         run.settle()
-    reference = 1e3 * median(runs[0].times)
+    reference, boxes = median(runs[0].times), rows * (rows + 1) // 2
     table(
-        f"Pyramid of {rows * (rows + 1) // 2:,} boxes of {BOX:.0f} px, {seconds} s: medians; overlap and speed at the end",
+        f"Pyramid of {boxes:,} boxes of {BOX:.0f} px, {seconds} s: medians; overlap and speed at the end",
         HEADER,
-        [run.row(reference) for run in runs],
+        [run.row(1e3 * reference) for run in runs],
     )
+    return {f"{boxes} boxes, {run.pile.name} / pymunk": median(run.times) / reference for run in runs[1:]}
 
 
 def measure_sleep(rows):
-    """What a step costs awake and all asleep."""
-    lines = []
+    """What a step costs awake and all asleep. Prints the table; returns {name: asleep over awake}."""
+    lines, ratios, boxes = [], {}, rows * (rows + 1) // 2
     for solver in ("soft_step", "sequential_impulse"):
         awake, asleep = Ours(rows, solver, 4), Ours(rows, solver, 4, EFFECTS.with_(sleeping=True))
         for _ in range(20 * RATE):
@@ -200,6 +200,7 @@ def measure_sleep(rows):
             for run in runs:
                 run.advance(RATE // 2)
         slow, fast = (1e3 * median(run.times) for run in runs)
+        ratios[f"{boxes} boxes, {solver}, asleep / awake"] = fast / slow
         lines.append(
             [
                 solver,
@@ -210,13 +211,16 @@ def measure_sleep(rows):
             ]
         )
     table(
-        f"{rows * (rows + 1) // 2:,} boxes awake, and asleep (at most 5 % of that)",
+        f"{boxes:,} boxes awake, and asleep (at most 5 % of that)",
         ("solver", "awake ms", "asleep ms", "share", "still awake"),
         lines,
     )
+    return ratios
 
 
 def run(quick=False):
+    """Print the tables; return {name: time over pymunk's, and asleep over awake}."""
+    ratios = {}
     for rows in ROWS[:2] if quick else ROWS:
-        measure(rows, 3 if quick else SECONDS)
-    measure_sleep(20 if quick else 45)
+        ratios |= measure(rows, 3 if quick else SECONDS)
+    return ratios | measure_sleep(20 if quick else 45)

@@ -13,14 +13,23 @@ def best_of(runs, function):
     return least
 
 
+def best_in_turns(rounds, timed):
+    """Least seconds of each of several: {name: [s]}, all in every round, so that other load meets them alike.
+
+    timed: {name: function that does the work once and returns its seconds}.
+    """
+    least = dict.fromkeys(timed, float("inf"))
+    for _ in range(rounds):
+        for name, measure in timed.items():
+            least[name] = min(least[name], measure())
+    return least
+
+
 def table(title, header, rows):
-    """Print aligned columns."""
-    rows = [[str(each) for each in row] for row in rows]
-    widths = [max(len(row[i]) for row in [list(header)] + rows) for i in range(len(header))]
+    """Print aligned columns; rows are as long as the header."""
+    lines = [[str(each) for each in row] for row in [header, *rows]]
+    widths = [max(len(cell) for cell in column) for column in zip(*lines, strict=True)]
     print(f"\n{title}")
-    for row in [list(header)] + rows:
-        print(
-            "  ".join(
-                cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(row, widths))
-            )
-        )
+    for first, *others in lines:
+        cells = [first.ljust(widths[0])] + [cell.rjust(w) for cell, w in zip(others, widths[1:], strict=True)]
+        print("  ".join(cells).rstrip(), flush=True)

@@ -35,7 +35,7 @@ def run(sounds, seconds):
 
 def test_every_tune_and_jingle_is_there_and_plays(sounds):
     for name in ("title", "shooter", "boss", "platformer", "lab", "victory", "game_over"):
-        assert (MUSIC / f"{name}.wav").is_file()
+        assert (MUSIC / f"{name}.ogg").is_file()
         sounds.tune(name)
         run(sounds, 1.0)
         assert sounds.player.playing == name and pygame.mixer.music.get_busy()
@@ -47,7 +47,7 @@ def test_every_tune_that_a_scene_or_screen_names_is_there():
     for path in [*(MUSIC.parent.parent / "scenes").rglob("*.py"), *(MUSIC.parent.parent / "game").rglob("*.py")]:
         found |= set(re.findall(r"\b(?:music|tune) = \"(\w+)\"", path.read_text()))
     assert "lab" in found
-    assert [name for name in sorted(found) if not (MUSIC / f"{name}.wav").is_file()] == []
+    assert [name for name in sorted(found) if not (MUSIC / f"{name}.ogg").is_file()] == []
 
 
 def test_a_tune_fades_in_and_into_the_next_and_out(sounds):
@@ -171,11 +171,11 @@ def test_a_file_that_cannot_be_used_is_one_message_and_silence(tmp_path):
     sounds = Sounds(music_folder=tmp_path, report=said.append)
     if sounds.silent_because:
         pytest.skip(sounds.silent_because)
-    (tmp_path / "broken.wav").write_bytes(b"RIFF no music")
+    (tmp_path / "broken.ogg").write_bytes(b"OggS no music")
     for name in ("broken", "absent", "broken", "absent"):
         sounds.tune(name)
         run(sounds, 1.0)
     sounds.jingle("absent")
     run(sounds, 1.0)
     assert [line.count("\n") for line in said] == [0, 0]
-    assert "broken.wav: music: " in said[0] and "absent.wav: music: there is no such file" in said[1]
+    assert "broken.ogg: music: " in said[0] and "absent.ogg: music: there is no such file" in said[1]

@@ -1,0 +1,1 @@
+"""The sound effects, and the music: harmony, notation, instruments, mixing."""

@@ -1,0 +1,96 @@
+"""Ogg Vorbis files of int16 samples, (frames, channels): written, read, and compared with what they were made from.
+
+The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis does not keep
+samples to the bit, and no two encodings are the same bytes: a file is right when it decodes to as many frames that
+differ from the samples by no more than LOSS.
+"""
+
+import io
+import struct
+from dataclasses import dataclass
+
+import numpy as np
+
+try:
+    import soundfile
+except ImportError:  # `encode` and `decode` say so; `frame_count` needs nothing
+    soundfile = None
+
+QUALITY = 0.4  # of Vorbis, 0..1: some 60 kbit/s for a tune; 0.6 would be 83 and loses three fifths as much
+LOSS = 0.12  # most that may be lost: root mean square of the difference, as a share of that of the samples
+BLOCK = 8192  # frames written at a time: the encoder's stack does not hold a whole tune
+
+
+def is_available():
+    """Can files be written and decoded here?"""
+    return soundfile is not None
+
+
+def _needed():
+    if soundfile is None:
+        raise RuntimeError('Ogg files are made and decoded by soundfile; install it with: pip install -e ".[assets]"')
+    return soundfile
+
+
+def encode(samples, rate):
+    """Return the bytes of a file. samples: (frames, channels) int16; rate: Hz. RuntimeError without the encoder."""
+    buffer = io.BytesIO()
+    with _needed().SoundFile(
+        buffer, "w", rate, samples.shape[1], format="OGG", subtype="VORBIS", compression_level=1 - QUALITY
+    ) as file:
+        for start in range(0, len(samples), BLOCK):
+            file.write(samples[start : start + BLOCK])
+    return buffer.getvalue()
+
+
+def decode(ogg):
+    """Return (samples as in `encode`, rate) of a file. ValueError for a damaged one, RuntimeError as `encode`."""
+    try:
+        return _needed().read(io.BytesIO(ogg), dtype="int16", always_2d=True)
+    except _needed().LibsndfileError as error:
+        raise ValueError(f"not a whole Ogg file: {error}") from error
+
+
+def frame_count(ogg):
+    """How many frames a file plays, read from its last page. Raises ValueError for anything but whole pages."""
+    at, frames = 0, 0
+    while at < len(ogg):
+        if ogg[at : at + 4] != b"OggS" or at + 27 > len(ogg):
+            raise ValueError(f"not a whole Ogg file: no page at byte {at}")
+        (frames,) = struct.unpack_from("<q", ogg, at + 6)
+        segments = ogg[at + 26]
+        at += 27 + segments + sum(ogg[at + 27 : at + 27 + segments])
+    if at > len(ogg) or not ogg:
+        raise ValueError("not a whole Ogg file: the last page is cut off")
+    return frames
+
+
+def loss(kept, samples):
+    """Root mean square of what is lost, as a share of that of the samples; both int16 of one shape."""
+    power = float(np.mean(np.square(samples.astype(np.float64))))
+    lost = float(np.mean(np.square(kept.astype(np.float64) - samples)))
+    return (lost / power) ** 0.5
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Samples, (frames, channels) int16 at `rate` [Hz], that are to be kept as an Ogg file."""
+
+    samples: np.ndarray
+    rate: int
+
+    def encoded(self):
+        """The bytes of a file. Raises RuntimeError without the encoder."""
+        return encode(self.samples, self.rate)
+
+    def is_kept_in(self, ogg):
+        """Is this a file of these samples? Decoded where that is possible, else only its length is looked at."""
+        try:
+            if frame_count(ogg) != len(self.samples):
+                return False
+            if not is_available():
+                return True
+            kept, rate = decode(ogg)
+        except ValueError:
+            return False
+        return rate == self.rate and kept.shape == self.samples.shape and loss(kept, self.samples) <= LOSS

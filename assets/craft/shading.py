@@ -1,0 +1,136 @@
+"""Sprites built from parts: each part is a distance field, lit as a soft bulge and coloured by a ramp.
+
+Parts go back to front. Each darkens a thin band around itself on what is below (contact shadow), then takes its ramp
+colour from the slope of its bulge towards the light; the rim light and the dark outline come last.
+"""
+
+import numpy as np
+
+from assets.craft.fields import dither, grid, length
+from assets.craft.palette import OUTLINE, RAMPS, WHITE, graded, mix
+
+LIGHT = (-0.55, -0.80)  # direction towards the light: up and a little left
+RIM = np.array((255, 250, 236), np.uint8)
+SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
+
+
+def shifted(solid, dx, dy):
+    """The mask moved by (dx, dy) px, with clear pixels coming in from outside."""
+    height, width = solid.shape
+    out = np.zeros_like(solid)
+    out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
+        max(0, -dy) : height + min(0, -dy), max(0, -dx) : width + min(0, -dx)
+    ]
+    return out
+
+
+class Sprite:
+    """A picture being drawn: rgb (h, w, 3) uint8 and solid (h, w) bool, with pixel centres x and y for fields."""
+
+    def __init__(self, width, height):
+        self.rgb = np.zeros((height, width, 3), np.uint8)
+        self.solid = np.zeros((height, width), bool)
+        self.x, self.y = grid(width, height)
+
+    def part(self, field, ramp, bulge=4.0, base=0.5, gain=0.42, grain=0.5, shadow=0.55):
+        """Add a lit part.
+
+        field: distance in px; ramp: colours from dark to light; bulge: px from the edge to the top of the bulge; base:
+        brightness 0..1 of a flat top; gain: how much the slope changes it; grain: strength of the dither; shadow:
+        brightness left in the contact shadow, 1 for none.
+        """
+        inside = field < 0
+        height_map = np.sqrt(np.clip(-field / bulge, 0, 1)) * bulge
+        slope_y, slope_x = np.gradient(height_map)
+        facing = np.clip(-(slope_x * LIGHT[0] + slope_y * LIGHT[1]), -1, 1)
+        level = (base + gain * facing) * (len(ramp) - 1) + 0.5 + dither(*field.shape) * 0.6 * grain
+        if shadow < 1:
+            below = (field >= 0) & (field < 1.3) & self.solid
+            self.rgb[below] = (self.rgb[below] * shadow).astype(np.uint8)
+        self.rgb[inside] = graded(ramp, level[inside])
+        self.solid |= inside
+        return self
+
+    def flat(self, field, colour):
+        """Fill a field with one colour."""
+        inside = field < 0
+        self.rgb[inside] = colour
+        self.solid |= inside
+        return self
+
+    def paint(self, field, colour, share=1.0):
+        """Tint what is already solid inside a field: markings, stripes, panel lines."""
+        inside = (field < 0) & self.solid
+        self.rgb[inside] = mix(self.rgb[inside], colour, share)
+        return self
+
+    def dot(self, x, y, colour):
+        """Set one pixel."""
+        self.rgb[y, x] = colour
+        self.solid[y, x] = True
+        return self
+
+    def stamp(self, rows, x, y, tones):
+        """Set the pixels of a drawing, its top left at (x, y). rows: texts; tones: {letter: colour}, others clear."""
+        for down, row in enumerate(rows):
+            for across, letter in enumerate(row):
+                if letter in tones:
+                    self.dot(x + across, y + down, tones[letter])
+        return self
+
+    def cut(self, field):
+        """Clear everything inside a field."""
+        self.solid &= ~(field < 0)
+        return self
+
+    def rim(self, colour=RIM, share=0.6):
+        """Lighten the pixels whose neighbour towards the light, above or on the left, is clear."""
+        edge = self.solid & ~(shifted(self.solid, 1, 0) & shifted(self.solid, 0, 1))
+        self.rgb[edge] = mix(self.rgb[edge], colour, share)
+        return self
+
+    def outline(self):
+        """Put one dark pixel around the shape (4-neighbours)."""
+        around = np.zeros_like(self.solid)
+        for dx, dy in SIDES:
+            around |= shifted(self.solid, dx, dy)
+        around &= ~self.solid
+        self.rgb[around] = OUTLINE
+        self.solid |= around
+        return self
+
+    def pixels(self):
+        """Return (h, w, 4) uint8, alpha 0 or 255."""
+        return cut_out(self.rgb, self.solid)
+
+
+def opaque(rgb):
+    """The picture (h, w, 3) as (h, w, 4) uint8 without a clear pixel."""
+    return np.concatenate([rgb, np.full(rgb.shape[:2] + (1,), 255, np.uint8)], axis=2)
+
+
+def cut_out(rgb, solid):
+    """The picture (h, w, 3) where it is solid (h, w) bool, zeros elsewhere: (h, w, 4) uint8."""
+    out = opaque(rgb)
+    out[~solid] = 0
+    return out
+
+
+def flashed(pixels):
+    """The same frame as a flat white silhouette: what a hit shows for a few frames."""
+    out = pixels.copy()
+    out[..., :3][out[..., 3] > 0] = WHITE
+    return out
+
+
+def glow(size, ramp, brightest=0.70):
+    """A disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its middle."""
+    x, y = grid(size, size)
+    fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)
+    level = np.clip(np.floor(fall * fall * 6 + 0.5 + dither(size, size) * 0.7), 0, 5).astype(int)
+    tones = np.array(
+        [mix((0, 0, 0), RAMPS[ramp][3], share * brightest / 0.70) for share in (0, 0.10, 0.22, 0.36, 0.52, 0.70)]
+    )
+    out = np.full((size, size, 4), 255, np.uint8)
+    out[..., :3] = tones[level]
+    return out

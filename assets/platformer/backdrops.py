@@ -1,0 +1,16 @@
+"""Writes what is behind the platformer's level, 480 px wide; what scrolls is seamless in x.
+
+Drawn along the bottom of the screen: mountains_far, _mid, _near and keep_far. sky_dusk is the fixed screen behind them,
+clouds a bank for the upper half. Underground cave_far (opaque) and cave_near fill the screen.
+"""
+
+from assets.craft import png
+from assets.platformer.dripstone import cave_layers
+from assets.platformer.keep import keep
+from assets.platformer.skyline import backdrop_layers
+
+
+def backdrop_files():
+    """Return {relative path: bytes} of every layer."""
+    layers = backdrop_layers() | cave_layers() | {"keep_far": keep()}
+    return {f"images/{name}.png": png.encode(pixels) for name, pixels in layers.items()}

@@ -1,0 +1,44 @@
+"""docs/moments.png: twelve moments of each game, three in a row with a caption each, filmed while its bot plays."""
+
+import json
+
+import numpy as np
+
+from assets.craft import png
+from assets.craft.palette import OUTLINE, RAMPS, oklch
+from assets.publish.films import filmed
+from assets.ui.font import write
+
+GAMES = ("shooter", "platformer")
+COLUMNS, ROWS = 3, 4
+FRAME = (480, 270)  # [px] of a picture
+GAP, CAPTION, HEADING = 6, 13, 20  # [px] around a picture, below it for its words, above a game
+PAPER = oklch(0.22, 0.045, 285)
+
+
+def sheet():
+    """Return the whole picture, (h, w, 3) uint8."""
+    return np.concatenate([game_moments(name) for name in GAMES])
+
+
+def game_moments(name):
+    """One game's moments under its name."""
+    files = filmed("moments", name)
+    captions = json.loads(files.pop("captions.json"))
+    return laid_out(name, captions, [png.decode(content) for content in files.values()])
+
+
+def laid_out(name, captions, pictures):
+    """Pictures of FRAME's size in rows under a heading, each over its caption. Raises ValueError unless they fit."""
+    if not len(captions) == len(pictures) == COLUMNS * ROWS:
+        raise ValueError(f"{name}: {COLUMNS * ROWS} moments must be there (got {len(captions)}, {len(pictures)})")
+    cell_width, cell_height = FRAME[0] + GAP, FRAME[1] + CAPTION + GAP
+    out = np.full((HEADING + ROWS * cell_height, COLUMNS * cell_width + GAP, 3), PAPER)
+    write(out, name.upper(), GAP, 7, RAMPS["gold"][4])
+    for i, (caption, picture) in enumerate(zip(captions, pictures, strict=True)):
+        row, column = divmod(i, COLUMNS)
+        left, top = GAP + column * cell_width, HEADING + row * cell_height
+        out[top - 1 : top + FRAME[1] + 1, left - 1 : left + FRAME[0] + 1] = OUTLINE
+        out[top : top + FRAME[1], left : left + FRAME[0]] = picture
+        write(out, f"{i + 1}  {caption}", left + 1, top + FRAME[1] + 4, RAMPS["steel"][4])
+    return out

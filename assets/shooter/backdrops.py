@@ -1,0 +1,28 @@
+"""Writes what the shooter flies over, 480 x 540, seamless in both directions, to be scrolled downwards.
+
+The grounds sea, coast and storm; clouds_low with cloud_shadows, clouds_high and clouds_storm.
+"""
+
+from assets.craft import png
+from assets.shooter.clouds import STORM, from_above, shadow_of
+from assets.shooter.countryside import countryside
+from assets.shooter.stronghold import stronghold
+from assets.shooter.terrain import ground
+
+# Alpha 0..255, clear enough that nothing behind a cloud can surprise.
+LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70
+
+
+def backdrop_files():
+    """Return {relative path: bytes} of every layer."""
+    low = from_above(901, 0.62, LOW_ALPHA, 5, 5)
+    layers = {
+        "sea": ground(),
+        "coast": countryside(),
+        "storm": stronghold(),
+        "clouds_low": low,
+        "cloud_shadows": shadow_of(low, SHADOW_ALPHA),
+        "clouds_high": from_above(903, 0.60, HIGH_ALPHA, 3, 4),
+        "clouds_storm": from_above(905, 0.54, STORM_ALPHA, 4, 4, STORM),
+    }
+    return {f"images/{name}.png": png.encode(pixels) for name, pixels in layers.items()}

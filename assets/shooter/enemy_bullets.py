@@ -1,0 +1,96 @@
+"""What is fired at the player: dark ring, saturated ring, white core, so that a bullet reads on any ground.
+
+Each kind comes twice with the same silhouette: as NAME_0..1 and as safe_NAME_0..1 in colours of the Okabe-Ito set,
+which colour-blind eyes keep apart; there the shape of the core tells the kinds apart too. The second frame of a pair
+breathes.
+"""
+
+import numpy as np
+
+from assets.craft.fields import capsule, length
+from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
+from assets.craft.shading import Sprite
+
+FPS = 12  # frames per second of the breathing
+# name: (outer radius of the dark ring in px, frame size in px, ramp)
+ROUND = {
+    "bullet_red": (4.9, 12, "red"),
+    "bullet_purple": (3.9, 10, "purple"),
+    "bullet_orange": (5.9, 14, "orange"),
+    "bullet_small": (3.2, 6, "pink"),
+    "bullet_big": (7.0, 14, "orange"),
+    "bullet_ring": (5.1, 10, "teal"),
+}
+# name: (Okabe-Ito colour, shape of the core)
+SAFE = {
+    "bullet_red": ((213, 94, 0), "disc"),
+    "bullet_purple": ((204, 121, 167), "bar"),
+    "bullet_orange": ((230, 159, 0), "cross"),
+    "bullet_small": ((204, 121, 167), "dot"),
+    "bullet_big": ((230, 159, 0), "diamond"),
+    "bullet_ring": ((0, 158, 115), "hollow"),
+    "bullet_needle": ((240, 228, 66), "streak"),
+}
+RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
+
+
+def tones_of(name, safe):
+    """(edge, body, light) of a bullet's saturated ring, dark to light."""
+    if safe:
+        colour = np.array(SAFE[name][0], np.uint8)
+        return mix(colour, OUTLINE, 0.20), colour, mix(colour, WHITE, 0.35)
+    ramp = RAMPS["orange" if name == "bullet_needle" else ROUND[name][2]]
+    return ramp[2], ramp[3], ramp[4]
+
+
+def round_bullet(name, safe, frame):
+    """One round bullet, frame 0..1."""
+    radius, size, _ = ROUND[name]
+    sprite = Sprite(size, size)
+    dx, dy = sprite.x - size / 2, sprite.y - size / 2
+    distance = length(dx, dy)
+    edge, body, light = tones_of(name, safe)
+    sprite.flat(distance - radius, RING_DARK)
+    sprite.flat(distance - (radius - 0.95), edge)
+    sprite.flat(distance - (radius - 1.35), body)
+    core = max(1.0, (radius - 2.0) * (0.60 + 0.14 * frame))
+    shape = SAFE[name][1] if safe else "hollow" if name == "bullet_ring" else "disc"
+    if shape == "hollow":
+        sprite.flat(abs(distance - (radius - 2.3)) - (0.75 + 0.15 * frame), WHITE)
+        sprite.flat(distance - (radius - 3.3), body)
+        return sprite.pixels()
+    sprite.flat(distance - (core + 0.75), light)
+    if shape == "bar":
+        field = np.maximum(abs(dx) - 1.05, abs(dy) - core - 0.4)
+    elif shape == "cross":
+        field = np.minimum(
+            np.maximum(abs(dx) - 1.05, abs(dy) - core - 0.5), np.maximum(abs(dy) - 1.05, abs(dx) - core - 0.5)
+        )
+    elif shape == "diamond":
+        field = abs(dx) + abs(dy) - core - 0.9
+    else:
+        field = distance - core
+    sprite.flat(field, WHITE)
+    return sprite.pixels()
+
+
+def needle(safe):
+    """The aimed shot, drawn pointing down: 7 x 14 px."""
+    sprite = Sprite(7, 14)
+    x, y = sprite.x, sprite.y
+    edge, body, light = tones_of("bullet_needle", safe)
+    sprite.flat(capsule(x, y, (3.5, 3.4), (3.5, 10), 1.6, 3.2), RING_DARK)
+    sprite.flat(capsule(x, y, (3.5, 4.2), (3.5, 10), 0.7, 2.15), body)
+    sprite.flat(capsule(x, y, (3.5, 6), (3.5, 10), 0.6, 1.3), WHITE)
+    if safe:  # its core is split
+        sprite.dot(3, 8, body).dot(3, 9, body)
+    return sprite.pixels()
+
+
+def add_enemy_bullets(sheet):
+    """Put every bullet and its safe twin on a sheet."""
+    for safe in (False, True):
+        prefix = "safe_" if safe else ""
+        for name in ROUND:
+            sheet.add_sequence(prefix + name, [round_bullet(name, safe, frame) for frame in range(2)], FPS)
+        sheet.add(f"{prefix}bullet_needle", needle(safe))

@@ -1,0 +1,1 @@
+"""The logo, window frames, icons and fonts."""

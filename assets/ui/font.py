@@ -1,0 +1,83 @@
+"""Two bitmap fonts of our own, drawn as text in assets/drawings/*.txt.
+
+A drawing is bands: a line "= A B C" names the glyphs, the lines under it show them side by side, # for ink. A glyph is
+as wide as it is drawn, so text is proportional; digits share one width, so numbers in a column stay aligned.
+The JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column included.
+"""
+
+import numpy as np
+
+from assets import FOLDER
+from assets.craft import png
+from assets.craft.atlas import to_json
+
+FONTS = {
+    "font5x7": {"height": 9, "baseline": 7, "space": 4},  # capitals 5x7, two rows for descenders
+    "font3x5": {"height": 6, "baseline": 5, "space": 3},  # capitals 3x5, one row for descenders
+}
+SHEET_WIDTH = 128  # [px]
+
+
+def read_drawing(text, height):
+    """Return {character: (height, w) bool}. Raises ValueError naming the line of a badly drawn band."""
+    glyphs, names, rows, start = {}, [], [], 0
+    for number, line in enumerate(text.splitlines() + ["="], 1):
+        if line.startswith("="):
+            if names:
+                glyphs.update(_band(names, rows, height, start))
+            names, rows, start = line[1:].split(), [], number
+        elif line.strip():
+            rows.append(line.split())
+    return glyphs
+
+
+def _band(names, rows, height, line):
+    if len(rows) > height:
+        raise ValueError(f"band at line {line}: {len(rows)} rows, at most {height}")
+    glyphs = {}
+    for i, name in enumerate(names):
+        column = [row[i] for row in rows if len(row) == len(names)]
+        if len(column) != len(rows) or len({len(cells) for cells in column}) != 1:
+            raise ValueError(f"band at line {line}: glyph {name!r} is not a rectangle")
+        ink = np.zeros((height, len(column[0])), bool)
+        for y, cells in enumerate(column):
+            ink[y] = [cell == "#" for cell in cells]
+        glyphs[name] = ink
+    return glyphs
+
+
+def load_glyphs(name):
+    """Return {character: (height, w) bool} of one font, the space included."""
+    shape = FONTS[name]
+    text = (FOLDER / "drawings" / f"{name}.txt").read_text(encoding="utf-8")
+    glyphs = read_drawing(text, shape["height"])
+    glyphs[" "] = np.zeros((shape["height"], shape["space"] - 1), bool)
+    return dict(sorted(glyphs.items()))
+
+
+def write(target, text, x, y, colour):
+    """Write one line of the larger font on target (h, w, 3) uint8, its top left at (x, y)."""
+    glyphs = load_glyphs("font5x7")
+    for character in text:
+        ink = glyphs[character]
+        target[y : y + ink.shape[0], x : x + ink.shape[1]][ink] = colour
+        x += ink.shape[1] + 1
+
+
+def font_files(name):
+    """Return {relative path: bytes} of one font's sheet (white on clear) and its JSON."""
+    glyphs, height = load_glyphs(name), FONTS[name]["height"]
+    places, x, y = {}, 0, 0
+    for character, ink in glyphs.items():
+        advance = ink.shape[1] + 1
+        if x + advance > SHEET_WIDTH:
+            x, y = 0, y + height + 1
+        places[character] = {"x": x, "y": y, "w": advance}
+        x += advance
+    sheet = np.zeros((y + height, SHEET_WIDTH, 4), np.uint8)
+    for character, place in places.items():
+        ink = glyphs[character]
+        cell = sheet[place["y"] : place["y"] + height, place["x"] : place["x"] + ink.shape[1]]
+        cell[ink] = 255
+    table = {"height": height, "baseline": FONTS[name]["baseline"], "glyphs": places}
+    return {f"font/{name}.png": png.encode(sheet), f"font/{name}.json": to_json(table)}

@@ -1,0 +1,209 @@
+"""Pictures of the games: scenes are run by their bots without a window, and frames are kept as PNG files.
+
+python -m scenes.filming pictures FOLDER                 the menu's small picture of every scene
+python -m scenes.filming moments GAME FOLDER             its moments at the canvas' size, and captions.json
+python -m scenes.filming reel SCENE 1 0 3600 60 FILE     seed 1, frames 0, 60, ... of a run, small, to choose from
+
+A scene is deterministic, so a frame's number names it. The scripts of assets/, which know no game, run this program.
+"""
+
+import argparse
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pygame
+
+from assets.craft import png
+from game.drawing.picture import Picture
+from game.drawing.presenter import SCREENSHOT_SCALE
+from game.headless import start_dummy_display
+from game.inputs import BotSource
+from game.overlays.stack import Overlays
+from game.registry import Registry
+from game.session import Session
+from scenes import SCENES
+from scenes.moments import MOMENTS, SEED, Moment, done, leader
+
+FRAME = (480, 270)  # [px] of the canvas
+SIZE = (160, 90)  # [px] of a menu picture
+MOST = 20000  # frames within which every moment of a game comes
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture to be taken: the frame or moment of a run, and the part of the canvas seen, 160 x 90 px times zoom."""
+
+    frame: int | Moment
+    left: int = 0
+    top: int = 0
+    zoom: int = 2
+    layers: tuple = ()  # overlays that are on
+
+    @property
+    def part(self):
+        """left, top, width, height of what is seen, in canvas px."""
+        return self.left, self.top, SIZE[0] * self.zoom, SIZE[1] * self.zoom
+
+
+# Parts are chosen so that no measured time (of some microseconds, on the machine that films) is ever in the picture.
+SHOTS = {
+    "shooter": Shot(Moment("the boss", leader("boss_a_0", 85)), 130, 20),
+    "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
+    "lab/broadphases": Shot(60, 3, 158, 1, layers=("structure",)),
+    "lab/masks": Shot(480, 0, 72),
+    "lab/shapes": Shot(120, 24, 50, 1),
+    "lab/filters": Shot(240, 66, 24),
+    "lab/sensors": Shot(240, 96, 56, 1),
+    "lab/stacks": Shot(240, zoom=3),
+    "lab/pyramid": Shot(480, 160, 78),
+    "lab/card_house": Shot(240, 60, 32, 1),
+    "lab/dominoes": Shot(120, 130, 51, 1),
+    "lab/tumbler": Shot(240, 142, 70),
+    "lab/cradle": Shot(80, 227, 14, 1),
+    "lab/billiards": Shot(150, 62, 20),
+    "lab/tunnelling": Shot(240, 196, 142, 1),
+    "lab/conveyor": Shot(240, 180, 16, 1),
+    "lab/one_way": Shot(240, 60, 76),
+    "lab/ghost_bumps": Shot(240, 0, 20),
+}
+
+
+class Film:
+    """A scene that its bot plays, and pictures of it: the presented frame, (810, 1440, 3) uint8."""
+
+    def __init__(self, name, seed, layers=()):
+        start_dummy_display()
+        self.scene = Registry(SCENES).scene_class(name)(seed)
+        self.session, self.overlays, self.picture = Session(self.scene, BotSource()), Overlays(layers), Picture()
+
+    def step(self):
+        """One step of the game."""
+        self.session.step()
+        self.overlays.times.note(self.scene)
+
+    def take(self):
+        """The picture now."""
+        self.picture.draw_scene(self.scene, self.overlays)
+        return pygame.surfarray.array3d(self.picture.presenter.frame.surface).transpose(1, 0, 2)
+
+
+def film(name, seed, frames, layers=()):
+    """Run a scene; return {frame number: picture} for those asked for."""
+    running, wanted, taken = Film(name, seed, layers), set(frames), {}
+    for number in range(1, max(wanted) + 1):
+        running.step()
+        if number in wanted:
+            taken[number] = running.take()
+    return taken
+
+
+def film_moments(name, seed, moments):
+    """Run a scene; return a picture of each moment, looked for in their order.
+
+    Raises ValueError naming the first one that does not come.
+    """
+    running, taken = Film(name, seed), []
+    for moment in moments:
+        while not moment.when(running.scene):
+            if running.scene.frame >= MOST:
+                raise ValueError(f"{name}, seed {seed}: moment {moment.caption!r} did not come within {MOST} frames")
+            running.step()
+        for _ in range(moment.after):
+            running.step()
+        taken.append(running.take())
+    return taken
+
+
+def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
+    """The part (left, top, width, height in canvas px) of a presented picture, `zoom` canvas pixels to one.
+
+    Averages are of whole numbers, so that they are the same on every machine.
+    """
+    left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
+    share = SCREENSHOT_SCALE * zoom
+    seen = pixels[top : top + height, left : left + width].astype(np.int64)
+    blocks = seen.reshape(height // share, share, width // share, share, 3)
+    return ((blocks.sum(axis=(1, 3)) + share * share // 2) // (share * share)).astype(np.uint8)
+
+
+def picture_name(scene):
+    """The file name of a scene's menu picture."""
+    return f"{scene.replace('/', '_')}.png"
+
+
+def menu_picture(scene):
+    """The menu's picture of a scene, (90, 160, 3) uint8."""
+    shot = SHOTS[scene]
+    if isinstance(shot.frame, Moment):
+        taken = film_moments(scene, SEED, [shot.frame])[0]
+    else:
+        taken = film(scene, SEED, [shot.frame], shot.layers)[shot.frame]
+    return reduced(taken, shot.part, shot.zoom)
+
+
+def write_pictures(folder):
+    """Write the menu's pictures."""
+    for scene in SCENES:
+        (folder / picture_name(scene)).write_bytes(png.encode(menu_picture(scene)))
+
+
+def write_moments(game, folder):
+    """Write a game's moments as 00.png, 01.png, ... and captions.json, a list of what they show."""
+    for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
+        (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))
+    captions = [moment.caption for moment in MOMENTS[game]]
+    (folder / "captions.json").write_text(json.dumps(captions, indent=1) + "\n", encoding="utf-8")
+
+
+def reel(name, seed, first, last, every, columns=8):
+    """Small pictures of a run side by side, row by row, to choose from."""
+    taken = film(name, seed, range(max(1, first), last + 1, every))
+    pictures = [reduced(taken[number], zoom=3) for number in sorted(taken)]
+    while len(pictures) % columns:
+        pictures.append(np.zeros_like(pictures[0]))
+    rows = [np.concatenate(pictures[i : i + columns], axis=1) for i in range(0, len(pictures), columns)]
+    return np.concatenate(rows)
+
+
+def read_arguments(arguments):
+    """The parsed command line; leaves with exit code 2 and the reason where it is wrong."""
+    parser = argparse.ArgumentParser(prog="python -m scenes.filming", description="Film the games.")
+    films = parser.add_subparsers(dest="what", required=True)
+    films.add_parser("pictures", help="the menu's pictures").add_argument("folder", type=Path)
+    moments = films.add_parser("moments", help="a game's moments")
+    moments.add_argument("game", choices=MOMENTS)
+    moments.add_argument("folder", type=Path)
+    strip = films.add_parser("reel", help="small pictures of a run")
+    strip.add_argument("scene", choices=SCENES)
+    for number in ("seed", "first", "last", "every"):
+        strip.add_argument(number, type=int)
+    strip.add_argument("file", type=Path)
+    options = parser.parse_args(arguments)
+    if options.what == "reel" and not (0 <= options.first <= options.last and options.every >= 1):
+        strip.error(
+            f"the first frame must not be after the last, nor below 0, and every at least 1 "
+            f"(got {options.first} {options.last} {options.every})"
+        )
+    if options.what != "reel" and not options.folder.is_dir():
+        parser.error(f"{options.folder} is no folder")
+    return options
+
+
+def main(arguments=None):
+    """Film what the command line asks for. Returns the exit code."""
+    options = read_arguments(arguments)
+    if options.what == "pictures":
+        write_pictures(options.folder)
+    elif options.what == "moments":
+        write_moments(options.game, options.folder)
+    else:
+        strip = reel(options.scene, options.seed, options.first, options.last, options.every)
+        options.file.write_bytes(png.encode(strip))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+"""Twelve moments of each game, to be found while its bot plays (filming.py) and shown in docs/moments.png.
+
+A moment is named by what happens in the game and not by a frame's number, so that it is found again when a game has
+changed. Moments are looked for one after the other, in the order given here.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+SEED = 1
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What is looked for: `when` tells it from the scene; it is filmed so many steps `after`."""
+
+    caption: str
+    when: Callable
+    after: int = 0
+
+
+def flying(kind, least):
+    """At least so many planes of a kind in the picture."""
+    return lambda scene: (
+        sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
+        >= least
+    )
+
+
+def leader(frame, bullets=0):
+    """A leader of that look fights, with at least so many bullets in the air."""
+    return lambda scene: (
+        len(scene.incoming) >= bullets
+        and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
+    )
+
+
+def falling(kind):
+    """A leader burns."""
+    return lambda scene: any(
+        plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
+    )
+
+
+def over(ground, bullets, planes=0):
+    """Above a kind of ground, with so many bullets and planes."""
+    return lambda scene: (
+        scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
+    )
+
+
+def bombed(frame):
+    """A bomb goes off under a leader of that look."""
+    fights = leader(frame)
+    return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
+
+
+def done(feat, times=1):
+    """The hero has done something so often."""
+    return lambda scene: scene.feats.done[feat] >= times
+
+
+MOMENTS = {
+    "shooter": (
+        Moment("weavers, and the first gun", flying("saucer", 6)),
+        Moment("hornets from both sides", flying("hornet", 5)),
+        Moment("gun platforms on the islands", flying("turret", 2), 70),
+        Moment("a gunship, and more power", flying("gunship", 1), 100),
+        Moment("over the coast", over("coast", 36, 5)),
+        Moment("mid-boss: the heavy bomber", leader("midboss_0", 70)),
+        Moment("and its end", falling("midboss"), 120),
+        Moment("twin gunships in the storm", flying("gunship", 2), 90),
+        Moment("the last wave", over("storm", 110, 6)),
+        Moment("boss, first phase: broadside", leader("boss_a_0", 85)),
+        Moment("second phase: walls of iron, and a bomb", bombed("boss_b_0"), 14),
+        Moment("third phase: the eye of the storm", leader("boss_c_0", 1400)),
+    ),
+    "platformer": (
+        Moment("push a crate", done("pushed a crate", 8)),
+        Moment("a secret under the planks", lambda scene: scene.secrets == 1, 6),
+        Moment("stomp the walker", done("stomps"), 4),
+        Moment("ride the lift", done("lift", 60)),
+        Moment("climb down into the cave", done("ladder", 60)),
+        Moment(
+            "bats wake",
+            lambda scene: any(enemy.kind == "bat" and enemy.seen for enemy in scene.things.enemies.values()),
+            40,
+        ),
+        Moment("stones that crumble", done("crumbled"), 2),
+        Moment("belts carry heroes and crates", done("belt", 24)),
+        Moment("lifts take crates along", done("lift with a crate", 60)),
+        Moment("jump from wall to wall", done("wall jumps", 2), 6),
+        Moment("the keep: a lift takes all that stands on it", done("lift with an enemy", 40)),
+        Moment("the flag", lambda scene: scene.phase == "won", 30),
+    ),
+}

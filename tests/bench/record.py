@@ -1,0 +1,90 @@
+"""What a run of the benchmarks found, as one JSON object: ratios by name, and the machine they were measured on.
+
+A ratio is our time over the peer's in the same run, so less is better, and it means nearly the same on another machine.
+"""
+
+import json
+import os
+import platform
+from importlib import metadata
+from pathlib import Path
+
+from game import VERSION
+
+KEPT = Path(__file__).resolve().parents[2] / "docs" / "bench"  # a file per release
+NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is pointed at
+PACKAGES = ("numpy", "numba", "pygame-ce", "pygame", "pymunk")
+
+
+def machine():
+    """Facts about where it runs; nothing that names it."""
+    return {
+        "cpu": cpu_model(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+        **{name: version for name in PACKAGES if (version := installed(name))},
+    }
+
+
+def cpu_model():
+    """The processor's own name, or its kind where the system does not tell."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def installed(package):
+    """The version of a package, "" when it is not there."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def to_record(ratios, quick):
+    """The object to be written. ratios: {bench: {name: our time over the peer's}}."""
+    rounded = {bench: {name: float(f"{value:.4g}") for name, value in found.items()} for bench, found in ratios.items()}
+    return {"version": VERSION, "quick": quick, "machine": machine(), "ratios": rounded}
+
+
+def to_text(record):
+    """The file's text."""
+    return json.dumps(record, indent=1) + "\n"
+
+
+def read_record(path):
+    """A kept record. Raises ValueError naming the file for anything else, OSError for a file that cannot be read."""
+    with open(path, encoding="utf-8") as file:
+        try:
+            record = json.load(file)
+            ratios = record["ratios"]
+            sound = all(value > 0 for found in ratios.values() for value in found.values())
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"{path} is no record of ratios: {error!r}") from error
+    if not sound:
+        raise ValueError(f"{path} is no record of ratios: one is not above 0")
+    return record
+
+
+def compared(kept, measured):
+    """Rows (bench and name, kept, measured, what became of it), of every ratio that either record has."""
+    rows = []
+    for bench in dict.fromkeys([*kept["ratios"], *measured["ratios"]]):
+        before, now = kept["ratios"].get(bench, {}), measured["ratios"].get(bench, {})
+        for name in dict.fromkeys([*before, *now]):
+            rows.append((f"{bench}: {name}", *_cells(before.get(name), now.get(name))))
+    return rows
+
+
+def _cells(before, now):
+    if before is None:
+        return "-", f"{now:.4g}", "new"
+    if now is None:
+        return f"{before:.4g}", "-", "not measured"
+    change = now / before - 1.0
+    word = "" if abs(change) <= NOTABLE else "slower" if change > 0 else "faster"
+    return f"{before:.4g}", f"{now:.4g}", f"{100 * change:+.1f} % {word}".strip()
