@@ -4,27 +4,29 @@ from time import perf_counter
 
 import pygame
 
-from game.devices import DeviceSource, Pads
+from game.audio.sound import Sounds
+from game.drawing.canvas import SMALL
 from game.drawing.colors import GOLD
-from game.drawing.draw import SMALL
-from game.drawing.picture import Picture, save_png
+from game.drawing.window import mode_of, open_window, set_mode
 from game.errors import UsageError
 from game.files.data_folder import data_folder, free_name
 from game.files.records import load_records
 from game.files.settings import load_settings, save_settings
-from game.headless import finish, save_or_fail
-from game.inputs import InputState
-from game.loop import STEP_SECONDS, FixedStep
+from game.input.devices import DeviceSource
+from game.input.inputs import InputState
+from game.input.pads import Pads
+from game.run.headless import finish, save_or_fail
+from game.run.loop import FixedStep
+from game.run.picture import Picture, save_png
+from game.run.warmup import warm_up_scene
+from game.scene import STEP_SECONDS
 from game.screens.loading import Loading, LoadingStopped
+from game.screens.parts.wipe import Wipe
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.stack import Screens
 from game.screens.watch import Watch
-from game.screens.wipe import Wipe
-from game.sound import Sounds
 from game.startup import say
-from game.warmup import warm_up_scene
-from game.window import mode_of, open_window, set_mode
 
 IDLE_SECONDS = 0.002  # rest between frames when the display does not wait for its refresh
 QUIET = 0.3  # of the music's volume while nobody plays
@@ -101,10 +103,7 @@ class App:
             if self.options.screenshot:
                 frame = self.picture.presenter.frame
                 save_or_fail(lambda path: save_png(frame.surface, path), self.options.screenshot)
-            recording = self.options.recording
-            code = finish(
-                play.scene, play.session.report, self.options, self.options.bot or bool(recording and recording.bot)
-            )
+            code = finish(play.scene, play.session.report, self.options)
         elif isinstance(self.screen, Watch) and self.screen.tape.diverged:
             say(self.screen.tape.diverged)
             code = 1

@@ -10,11 +10,10 @@ from pathlib import Path
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.files.own_levels import level_digest
-from game.files.replay import LARGEST_SEED
-from game.files.replay_check import load_replay_for
 from game.overlays import LAYER_NAMES
-
-DEFAULT_FRAMES = 600  # of a headless run that names no number: ten seconds
+from game.run.options import DEFAULT_FRAMES, Options
+from game.run.replay import LARGEST_SEED
+from game.run.replay_check import load_replay_for
 
 
 class Parser(argparse.ArgumentParser):
@@ -87,13 +86,14 @@ def make_parser():
 
 def read_options(arguments, registry):
     """Parse and check. Raises UsageError with one line that names what is valid."""
-    options = make_parser().parse_args(arguments)
+    given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
 
-    _known(options.broadphase, "broad phase", tuple(BROADPHASES))
-    _known(options.solver, "solver", tuple(SOLVERS))
-    _known(options.scene, "scene", registry.names)
-    options.overlay = read_layers(options.overlay)
+    _known(given["broadphase"], "broad phase", tuple(BROADPHASES))
+    _known(given["solver"], "solver", tuple(SOLVERS))
+    _known(given["scene"], "scene", registry.names)
+    layers, level = read_layers(given.pop("overlay")), given.pop("level")
+    options = Options(**given, overlay=layers, level=None if level is None else Path(level))
     if options.frames is not None and options.frames < 1:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
@@ -185,14 +185,7 @@ def _check_level(options, registry):
         raise UsageError(f"--level needs --scene; scenes that take one: {takers}")
     if not registry.scene_class(options.scene).takes_level:
         raise UsageError(f"--level: {options.scene} takes none; scenes that take one: {takers}")
-    options.level = Path(options.level)
     level_digest(options.level)  # a file that is not there is said before anything is compiled
-
-
-def make_scene(options, registry):
-    """The scene that the options ask for. Raises FileError for a level with a mistake."""
-    scene_class = registry.scene_class(options.scene)
-    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier, options.level)
 
 
 def _dispatch(options, registry):
@@ -207,11 +200,11 @@ def _dispatch(options, registry):
     if options.list:
         return _print_list(options, registry)
     if options.warmup:
-        from game.warmup import warm_up_all
+        from game.run.warmup import warm_up_all
 
         return warm_up_all(registry)
     if options.headless:
-        from game.headless import run_headless
+        from game.run.headless import run_headless
 
         return run_headless(options, registry)
     from game.app import run_app
@@ -224,12 +217,11 @@ def _print_version():
     import pygame
 
     import physics
-    from game.compat import pygame_name
 
     sdl = ".".join(str(part) for part in pygame.get_sdl_version())
     compiled = "compiled kernels" if physics.JIT else "plain kernels"
     print(
-        f"Hitbox {VERSION} ({pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
+        f"Hitbox {VERSION} ({startup.pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
         f"Python {sys.version.split()[0]})"
     )
     return 0

@@ -58,6 +58,14 @@ def numba_note(jit):
     return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
 
 
+def pygame_name():
+    """Which pygame this is, for --version."""
+    import pygame
+
+    edition = "pygame-ce" if getattr(pygame, "IS_CE", 0) else "pygame"
+    return edition + " " + pygame.version.ver
+
+
 def prepare_environment():
     """Keep pygame's greeting off standard output, where --json prints its one object."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

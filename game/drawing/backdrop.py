@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 
 # (picture, share of the camera's motion it takes part in, how far its bottom hangs below the canvas)

@@ -4,7 +4,7 @@ from math import exp, sin
 
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, whole
 
 SHAKE_PIXELS = 5.0  # [canvas px] at full trauma; more hides bullets
 SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake is over in 1.3 s

@@ -44,7 +44,7 @@ BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color, palette):
-    """An overlay's colour as a palette of game.comfort.PALETTES has it; alpha, where there is one, is kept."""
+    """An overlay's colour as a palette of game.files.accessibility.PALETTES has it; alpha, where there is one, is kept."""
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:

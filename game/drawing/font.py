@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 
 import pygame
 
-from game.compat import blit_many
+from game.drawing.blit import blit_many
 from game.drawing.colors import INK
 from game.errors import FileError
 from game.places import FONTS

@@ -2,8 +2,8 @@
 
 import pygame
 
+from game.drawing.canvas import TEXT
 from game.drawing.colors import GOLD, INK, PAPER, SLATE
-from game.drawing.draw import TEXT
 
 MARGIN = 6  # [canvas px] between the HUD and the edge of the picture
 BANNER_GROUND = (20, 16, 32, 150)

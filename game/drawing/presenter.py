@@ -6,8 +6,8 @@ integer-scaled.
 
 import pygame
 
+from game.drawing.canvas import CANVAS_SIZE, Canvas
 from game.drawing.colors import INK
-from game.drawing.draw import CANVAS_SIZE, Canvas
 
 PANEL_SHARE = 1 / 3  # of the window's width, for the docked panel
 SCREENSHOT_SCALE = 3  # 1440 x 810

@@ -97,7 +97,7 @@ def load_atlas(name):
     return Atlas(path, images, animations)
 
 
-class TurnedSprites:
+class RotatedSprites:
     """A sprite at any angle, drawn from exactly the pixels its mask tests: no fringe that does not hit."""
 
     def __init__(self, image, mask):

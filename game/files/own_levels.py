@@ -6,19 +6,14 @@ from pathlib import Path
 from game.errors import FileError
 from game.files.data_folder import data_folder
 
-SUFFIXES = (".tmj", ".json")
-
 
 def levels_folder():
     """Where this user's levels are looked for."""
     return data_folder() / "levels"
 
 
-def own_levels(scene_class):
-    """Paths of the files that a scene could play, by name; () where it takes none or there is no such folder."""
-    if not scene_class.takes_level:
-        return ()
-    suffixes = (scene_class.level_suffix,) if scene_class.level_suffix else SUFFIXES
+def own_levels(suffixes):
+    """Paths of the files with one of these suffixes, by name (see Scene.level_suffixes); () without such a folder."""
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
     except OSError:  # there is no such folder, or nobody may look into it

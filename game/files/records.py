@@ -86,13 +86,6 @@ def order(entry, ranked_by):
     return -entry.points, entry.seconds
 
 
-def ranks(result, ranked_by):
-    """True if a run that ended so belongs into a table at all."""
-    if ranked_by == "seconds":
-        return result.won
-    return ranked_by == "points" and result.points > 0
-
-
 def table_of(scene_name, level=None):
     """The key of a scene's table. A level of the player's own has one of its own, by its content."""
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"

@@ -7,12 +7,12 @@ another name, and one line says where and why. The file of a newer program is no
 import json
 from dataclasses import asdict, dataclass, field, fields
 
-from game.bindings import REBOUND, button_actions, key_codes
-from game.comfort import PALETTES, Comfort
 from game.errors import FileError
+from game.files.accessibility import PALETTES, Accessibility
 from game.files.data_folder import data_folder, is_there, refusal, write_atomically
 from game.files.json_file import read_json
-from game.rebinding import FIXED, clash, completed, default_table
+from game.input.bindings import REBOUND, button_actions, key_codes
+from game.input.rebinding import FIXED, clash, completed, default_table
 
 VERSION = 2
 FILE = "settings.json"
@@ -47,9 +47,9 @@ class Settings:
     keys: dict = field(default_factory=lambda: default_table("keys"))
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
 
-    def comfort(self):
+    def accessibility(self):
         """What a scene's drawing is told."""
-        return Comfort(self.shake, not self.reduced_flashing, self.palette)
+        return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
     def assists(self):
         """What a scene's rules are told, by the names of game.scene.ASSISTS."""

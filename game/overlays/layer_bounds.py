@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 import pygame
 
-from game.compat import blit_many
+from game.drawing.blit import blit_many
 from game.drawing.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
 from physics import debug
 

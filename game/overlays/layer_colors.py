@@ -3,8 +3,8 @@
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, PINK, SERIES, WHITE
-from game.drawing.draw import SMALL
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import can_move
 from physics import debug

@@ -3,8 +3,8 @@
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PINK, SKY, SLATE
-from game.drawing.draw import SMALL
 from physics import debug
 
 NORMAL_LENGTH = 9.0  # [canvas px] drawn length of a normal, before the depth is added

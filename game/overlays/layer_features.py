@@ -2,8 +2,8 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import PAPER, SERIES
-from game.drawing.draw import SMALL
 from game.overlays.layer_contacts import seen_points
 from physics import debug
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, SKY, WHITE, faded
-from game.drawing.draw import SMALL
 from game.overlays.outlines import draw_outline, moved
 from physics import debug
 

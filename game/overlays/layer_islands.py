@@ -5,8 +5,8 @@ from math import ceil, floor
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, PAPER, SERIES, SLATE, faded
-from game.drawing.draw import SMALL
 from game.overlays.outlines import draw_outline
 from physics import debug
 

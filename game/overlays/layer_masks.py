@@ -9,7 +9,7 @@ from collections import OrderedDict
 import numpy as np
 import pygame
 
-from game.compat import blit_many
+from game.drawing.blit import blit_many
 from game.drawing.colors import BLUE, YELLOW, toned
 from physics import debug
 

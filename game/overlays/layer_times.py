@@ -2,8 +2,8 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded, toned
-from game.drawing.draw import SMALL
 
 HISTORY = 240  # steps kept: four seconds
 SMOOTHING = 0.06  # share of the newest step in the figures written out; raw ones cannot be read

@@ -2,8 +2,8 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, NIGHT, PAPER, faded
-from game.drawing.draw import SMALL
 from game.overlays.layer_bounds import Bounds, Motion
 from game.overlays.layer_centers import Centers
 from game.overlays.layer_colors import Colors

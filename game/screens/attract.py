@@ -4,8 +4,8 @@ import pygame
 
 from game.drawing.colors import GOLD
 from game.errors import UsageError
-from game.screens.demo import Demo
-from game.screens.status_line import draw_line
+from game.screens.parts.demo import Demo
+from game.screens.parts.status_line import draw_line
 
 SCENES = ("shooter", "platformer", "lab/pyramid", "lab/masks")
 SECONDS = 25  # of each
@@ -24,8 +24,8 @@ class Attract:
     shows_pointer = False
     quiet = True
 
-    def __init__(self, make, names, comfort):
-        self.make, self.comfort = make, comfort
+    def __init__(self, make, names, accessibility):
+        self.make, self.accessibility = make, accessibility
         self.names = [name for name in SCENES if name in names] or list(names[:1])
         self.at = 0
         self.steps = 0
@@ -71,7 +71,7 @@ class Attract:
         if scene is None:
             self.outcome = ("back",)
         else:
-            self.demo = Demo(scene, self.comfort)
+            self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture):
         """Draw the scene, and that it is a demonstration."""

@@ -2,11 +2,11 @@
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
-from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
-from game.screens.ground import DuskGround
+from game.screens.parts.background import DuskGround
 
 BAR_WIDTH, BAR_HEIGHT = 260, 8
 ANYBODY = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)

@@ -2,16 +2,16 @@
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, shorten, wrap
 from game.drawing.colors import FOG, GOLD, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten, wrap
-from game.drawing.figures import clock, points_text
-from game.drawing.pictures import SIZE, draw_picture
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text
+from game.drawing.thumbnails import SIZE, draw_picture
 from game.errors import FileError
 from game.files.own_levels import own_levels
 from game.files.records import table_of
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import Row, RowList
+from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.rows import Row, RowList
 
 LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
 ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
@@ -49,7 +49,7 @@ class Menu:
                 self._put(entries, Row(GROUPS[own], head=True), None, None)
             group = own
             self._put(entries, Row(scene_class.title, press=self._play), scene_class, None)
-            for path in own_levels(scene_class):
+            for path in own_levels(scene_class.level_suffixes()):
                 self._put(entries, Row(f"  {path.stem}", press=self._play, color=SKY), scene_class, path)
         self._put(entries, Row("Back", press=self._back), None, None)
         return entries

@@ -1,10 +1,10 @@
 """One thing to be told: a file that cannot be used, with its place and the reason. Any yes or no goes back."""
 
+from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import GOLD, PAPER, RED
-from game.drawing.draw import SMALL, TEXT, wrap
 from game.errors import FileError
-from game.screens.ground import DuskGround, draw_page
-from game.screens.rows import confirmed
+from game.screens.parts.background import DuskGround, draw_page
+from game.screens.parts.rows import confirmed
 
 WIDTH = 400
 MOST_LINES = 6  # of one part; a longer one is cut where it ends

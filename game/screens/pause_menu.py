@@ -1,10 +1,10 @@
 """The pause menu over the darkened game."""
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
-from game.drawing.draw import SMALL, TEXT, wrap
-from game.screens.ground import SceneGround
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.screens.parts.background import SceneGround
+from game.screens.parts.rows import LINE, Row, RowList
 
 WIDTH = 192
 

@@ -3,17 +3,17 @@
 import pygame
 
 from game.files.records import table_of
-from game.files.replay import KEPT_EVERY, Recorder
-from game.inputs import BotSource
-from game.loop import FixedStep
 from game.overlays.stack import Overlays
-from game.run_report import solver_name
+from game.run.loop import FixedStep
+from game.run.outcome import solver_name
+from game.run.replay import KEPT_EVERY, Recorder
+from game.run.session import Session
+from game.run.sources import BotSource
 from game.scene import ASSISTS
-from game.screens.first_hint import HintCard
-from game.screens.panel import Panel
-from game.screens.panel_rows import following, play_rows
-from game.screens.status_line import RESULT_WAIT, draw_status
-from game.session import Session
+from game.screens.parts.first_hint import HintCard
+from game.screens.parts.panel import Panel
+from game.screens.parts.panel_rows import following, play_rows
+from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from physics import BROADPHASES
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
@@ -79,7 +79,7 @@ class Play:
         """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
         if self.settings is None:
             return
-        self.scene.set_comfort(self.settings.comfort())
+        self.scene.set_accessibility(self.settings.accessibility())
         if not self.person:
             return
         self.clock.pace = self.settings.speed

@@ -2,13 +2,13 @@
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, shorten, wrap
 from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten, wrap
-from game.drawing.figures import clock, points_text, short_clock
-from game.files.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text, short_clock
+from game.run.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
+from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.rows import LINE, Row, RowList
 
 LIST = pygame.Rect(MARGIN, MARGIN, 232, 254)
 CARD = pygame.Rect(LIST.right + MARGIN, MARGIN, 224, 254)

@@ -1,12 +1,12 @@
 """After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
-from game.drawing.draw import SMALL, TEXT, shorten
-from game.drawing.figures import clock, points_text
-from game.screens.ground import SceneGround
-from game.screens.initials import Initials
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text
+from game.screens.parts.background import SceneGround
+from game.screens.parts.initials import Initials
+from game.screens.parts.rows import LINE, Row, RowList
 
 PAGE = (104, 8, 272, 254)
 COUNT_SECONDS = 0.8  # the numbers count up this long

@@ -4,14 +4,14 @@ from typing import NamedTuple
 
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import DUSK, FOG, GOLD, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten
-from game.drawing.figures import clock, points_text
+from game.drawing.number_text import clock, points_text
 from game.errors import FileError
 from game.files.own_levels import own_levels
 from game.files.records import table_of
-from game.screens.ground import DuskGround, draw_page
-from game.screens.rows import GRID, Repeat, Row, RowList, confirmed
+from game.screens.parts.background import DuskGround, draw_page
+from game.screens.parts.rows import GRID, Repeat, Row, RowList, confirmed
 
 PAGE = pygame.Rect(40, 8, 400, 254)
 LINE = 15
@@ -34,7 +34,7 @@ def pages_of(registry, records, played=None):
         if scene_class.ranked_by is None:
             continue
         found.append(Page(scene_class.title, scene_class.name, scene_class.ranked_by))
-        levels = own_levels(scene_class)
+        levels = own_levels(scene_class.level_suffixes())
         if played is not None and played[0] == scene_class.name and played[1] not in (None, *levels):
             levels += (played[1],)
         for level in levels:

@@ -2,14 +2,14 @@
 
 import pygame
 
-from game.bindings import key_name, shown
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
-from game.drawing.draw import SMALL, wrap
-from game.rebinding import rebind
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import Row, RowList, confirmed
-from game.screens.settings_rows import PAGES, rows_of
+from game.drawing.nine_slice import draw_box
+from game.input.bindings import key_name, shown
+from game.input.rebinding import rebind
+from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.rows import Row, RowList, confirmed
+from game.screens.parts.settings_rows import PAGES, rows_of
 
 LIST = pygame.Rect(MARGIN, MARGIN, 136, 254)
 PAGE = pygame.Rect(LIST.right + MARGIN, MARGIN, 320, 254)

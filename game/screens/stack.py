@@ -7,21 +7,22 @@ on); `cues`, the sounds of its menus; feed(event) and resume() where it has them
 
 from time import strftime
 
-from game.bindings import help_pairs
-from game.command_line import make_scene
+from game.drawing.window import copy_text
 from game.errors import UsageError
 from game.files.best_run import keep_ghost, load_ghost
 from game.files.data_folder import free_name
-from game.files.records import Entry, ranks
-from game.files.replay_check import load_replay_for
-from game.files.replay_shelf import put_recent, replays_folder
-from game.files.tape import Tape
-from game.garbage import set_loaded_aside
+from game.files.records import Entry
+from game.input.bindings import help_pairs
+from game.run.options import make_scene
+from game.run.replay_check import load_replay_for
+from game.run.replay_shelf import put_recent, replays_folder
+from game.run.tape import Tape
+from game.scene import set_loaded_aside
 from game.screens.attract import Attract
-from game.screens.ground import SceneGround
 from game.screens.loading import LoadingStopped
 from game.screens.menu import Menu
 from game.screens.message_screen import file_message
+from game.screens.parts.background import SceneGround
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.replays_screen import ReplaysScreen
@@ -32,7 +33,6 @@ from game.screens.title import Title
 from game.screens.tour import Tour
 from game.screens.watch import Watch
 from game.startup import say
-from game.window import copy_text
 
 
 class Screens:
@@ -154,16 +154,16 @@ class Screens:
         def make():
             return scene_class(recording.seed, recording.broadphase, recording.solver, recording.tier, level)
 
-        return Watch(Tape(make, recording), app.devices, app.sounds, app.settings.comfort(), str(recording.path))
+        return Watch(Tape(make, recording), app.devices, app.sounds, app.settings.accessibility(), str(recording.path))
 
     def tour(self):
         """The tour of the overlays."""
         app = self.app
-        self.stack.append(Tour(self._make_demo, app.registry.names, app.devices, app.settings.comfort()))
+        self.stack.append(Tour(self._make_demo, app.registry.names, app.devices, app.settings.accessibility()))
 
     def attract(self):
         """The bots play, until somebody comes."""
-        self.stack.append(Attract(self._make_shown, self.app.registry.names, self.app.settings.comfort()))
+        self.stack.append(Attract(self._make_shown, self.app.registry.names, self.app.settings.accessibility()))
 
     def _make_demo(self, name):
         scene_class = self.app.registry.scene_class(name)
@@ -244,7 +244,7 @@ class Screens:
         if play.scene.result is not None:
             self.result()
             return
-        pairs = help_pairs(play.scene, self.app.settings.keys)
+        pairs = help_pairs(play.scene.actions, self.app.settings.keys)
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
     def restart(self):
@@ -268,7 +268,7 @@ class Screens:
             play.assisted,
         )
         table, notes = play.table, []
-        place = app.records.place(table, scene.ranked_by, entry) if ranks(result, scene.ranked_by) else None
+        place = app.records.place(table, scene.ranked_by, entry) if result.ranks(scene.ranked_by) else None
         if result.won and scene.trail and scene.ranked_by == "seconds" and not play.assisted:
             try:
                 if keep_ghost(table, scene.trail, entry.seconds):

@@ -5,11 +5,11 @@ from math import pi, sin
 import pygame
 
 from game.drawing.backdrop import Backdrop
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED
-from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
-from game.screens.rows import LINE, Row, RowList
+from game.screens.parts.rows import LINE, Row, RowList
 
 LOOP = 9.0  # [s] one pass of the planes
 IDLE = 10.0  # [s] without any input before the games play themselves

@@ -4,12 +4,12 @@ from time import perf_counter
 
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SLATE
-from game.drawing.draw import SMALL, TEXT
 from game.errors import UsageError
-from game.screens.demo import Demo
-from game.screens.panel import HEAD, NOTE, Panel, Row
-from game.screens.panel_rows import layer_rows
+from game.screens.parts.demo import Demo
+from game.screens.parts.panel import HEAD, NOTE, Panel, Row
+from game.screens.parts.panel_rows import layer_rows
 
 SECONDS = 5  # of each stop: twelve stops are a minute
 CARD = (312, 66)  # [text px]
@@ -117,8 +117,8 @@ class Tour:
     shows_pointer = True
     tune = "title"
 
-    def __init__(self, make, names, devices, comfort):
-        self.make, self.devices, self.comfort = make, devices, comfort
+    def __init__(self, make, names, devices, accessibility):
+        self.make, self.devices, self.accessibility = make, devices, accessibility
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
         self.demos = {}  # scene name -> Demo, each played on from stop to stop
         self.at = 0
@@ -133,7 +133,7 @@ class Tour:
         """The scene of this stop, played by its bot."""
         name = self.stops[self.at][0][0]
         if name not in self.demos:
-            self.demos[name] = Demo(self.make(name), self.comfort)
+            self.demos[name] = Demo(self.make(name), self.accessibility)
         return self.demos[name]
 
     @property

@@ -2,14 +2,14 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL, TEXT
-from game.drawing.figures import short_clock
-from game.loop import FixedStep
+from game.drawing.number_text import short_clock
 from game.overlays.stack import Overlays
-from game.run_report import solver_name
-from game.screens.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
-from game.screens.panel_rows import layer_rows
+from game.run.loop import FixedStep
+from game.run.outcome import solver_name
+from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
+from game.screens.parts.panel_rows import layer_rows
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
@@ -40,8 +40,8 @@ BUTTON_KEYS = {
 class Watch:
     """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
 
-    def __init__(self, tape, devices, sounds, comfort, name=""):
-        self.tape, self.devices, self.sounds, self.comfort, self.name = tape, devices, sounds, comfort, name
+    def __init__(self, tape, devices, sounds, accessibility, name=""):
+        self.tape, self.devices, self.sounds, self.accessibility, self.name = tape, devices, sounds, accessibility, name
         self.overlays = Overlays(tape.scene.overlays)
         self.clock = FixedStep()
         self.speed = SPEEDS.index(1.0)
@@ -79,7 +79,7 @@ class Watch:
         else:
             for _ in range(due):
                 self.step()
-        self.tape.scene.set_comfort(self.comfort)
+        self.tape.scene.set_accessibility(self.accessibility)
         if self.tape.ended and self.tape.goal is None:
             self.clock.paused = True
 

@@ -11,11 +11,11 @@ from random import Random
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.piles import kinetic_energy

@@ -11,10 +11,10 @@ from math import log10
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.drawing.turned import Cast
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.pieces import piece

@@ -10,11 +10,11 @@ from math import cos, hypot, pi, sin
 import pygame
 
 from game.drawing.backdrop import Backdrop
+from game.drawing.canvas import SMALL, whole
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED
-from game.drawing.draw import SMALL, whole
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Character, Circle, Effects, Material, Polygon, TileGrid
 from scenes.lab.pieces import piece

@@ -10,7 +10,7 @@ import numpy as np
 import pygame
 
 from game.drawing.colors import INK
-from game.drawing.turned import TurnedPicture
+from game.drawing.rotated import RotatedPicture
 from physics import Capsule, Circle
 
 OUTLINE, RIM = 1.0, 2.6  # [px] inwards from the edge
@@ -28,7 +28,7 @@ RAMPS = {
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
     """The picture of a shape, ready to be drawn at any angle with the shape's origin at a point."""
-    return TurnedPicture(piece(shape, ramp))
+    return RotatedPicture(piece(shape, ramp))
 
 
 def piece(shape, ramp, marked=True):

@@ -10,9 +10,9 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
-from game.drawing.draw import SMALL
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import ring
 from game.scene import Goal, Scene, Slider

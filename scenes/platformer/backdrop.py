@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 
 FADE = 0.9  # [s] from one act's backdrop to the next

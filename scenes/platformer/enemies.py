@@ -5,7 +5,7 @@ None is solid for the hero: contacts with them are read after the step. A crate 
 
 from math import cos, pi, sin
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 from physics import Character, Polygon
 from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
 from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER

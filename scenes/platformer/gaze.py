@@ -2,7 +2,7 @@
 
 from math import exp
 
-from game.drawing.draw import CANVAS_SIZE
+from game.drawing.canvas import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
 AHEAD = 64.0  # [px] it looks this far in the way of a run

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 from physics import Character, Polygon
 from scenes.platformer.feel import (
     AIR_CONTROL,

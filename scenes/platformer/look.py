@@ -2,7 +2,7 @@
 
 from math import exp, pi
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 

@@ -1,7 +1,6 @@
 """The platformer: a hero, one level, and the rules between them."""
 
-from game.loop import STEP_SECONDS
-from game.scene import Result, Scene
+from game.scene import STEP_SECONDS, Result, Scene
 from physics import Effects
 from scenes.platformer.contents import BELOW, Contents
 from scenes.platformer.feats import Feats

@@ -2,7 +2,7 @@
 
 from math import ceil, cos, floor, pi, sin
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 from physics import Filter, Material, Polygon
 from scenes.platformer.feel import SPRING_SPEED, steps
 from scenes.platformer.level import (

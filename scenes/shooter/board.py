@@ -1,7 +1,7 @@
 """What is written over the sky all the time: score, chain, lives, bombs, power, hits, and the leader's health."""
 
+from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
-from game.drawing.draw import SMALL, TEXT, whole
 from game.drawing.hud import MARGIN, icons
 from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import ALMOST

@@ -3,7 +3,7 @@
 `scene.result` is set once, at the very end; then the picture stands and keys do nothing.
 """
 
-from game.drawing.figures import count_text
+from game.drawing.number_text import count_text
 from game.scene import Result
 from scenes.shooter.cast import steps
 

@@ -9,8 +9,8 @@ from functools import cache, lru_cache
 import numpy as np
 import pygame
 
-from game.compat import blit_many
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.blit import blit_many
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 from scenes.shooter.cast import GROUND_SPEED, steps
 
@@ -40,7 +40,7 @@ def draw_ground(surface, scene, alpha, left, top):
         picture = clouds(name, round(share * SHADES))
         tile(surface, picture, shift - off * lean - left, time * speed + shift - top)
     _draw_air(surface, time, off, share)
-    if scene.comfort.palette == "contrast":
+    if scene.accessibility.palette == "contrast":
         surface.fill(CONTRAST, special_flags=pygame.BLEND_RGB_MULT)
 
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from game.loop import STEP_SECONDS
-from game.scene import Scene, Slider
+from game.scene import STEP_SECONDS, Scene, Slider
 from physics import Effects
 from scenes.shooter.blows import Blow, Blows, push
 from scenes.shooter.bomb import DAMAGE, LEADER_DAMAGE, SHELTER, Bomb

@@ -4,9 +4,9 @@ import pygame
 
 from game.app import App
 from game.command_line import read_options
+from game.drawing.window import open_window
 from game.files.settings import Settings
 from game.registry import Registry
-from game.window import open_window
 from tests.game.arena import GAMES
 
 BUTTONS = {

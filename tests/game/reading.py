@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pygame
 
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 
 LEAST_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
 SHARE = 0.9  # of the pixels around a text's letters that must be so far from it

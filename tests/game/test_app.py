@@ -6,9 +6,9 @@ import pygame
 import pytest
 
 from game.files.records import load_records
-from game.files.replay import load_replay
-from game.files.replay_shelf import recent_folder, replays_folder
 from game.files.settings import Settings, load_settings
+from game.run.replay import load_replay
+from game.run.replay_shelf import recent_folder, replays_folder
 
 K = pygame
 
@@ -323,7 +323,7 @@ def test_the_tour_from_a_game_comes_back_to_it(drive):
 
 @pytest.mark.parametrize("driver_refuses", [True, False])
 def test_the_window_opens_with_and_without_vsync(monkeypatch, driver_refuses):
-    from game import window
+    from game.drawing import window
 
     asked = []
 

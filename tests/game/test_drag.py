@@ -4,18 +4,19 @@ from math import hypot
 
 import pytest
 
-from game.devices import DeviceSource
-from game.digest import scene_digest
-from game.drag import MOST_PULL
+from game.audio.sound import Sounds
 from game.drawing.camera import Camera
-from game.drawing.picture import Picture
-from game.files.replay import Recorder, load_replay
-from game.inputs import BotSource, InputFrame, ScriptSource
+from game.input.devices import DeviceSource
+from game.input.drag import MOST_PULL
+from game.input.inputs import InputFrame
 from game.overlays.stack import Overlays
+from game.run.digest import scene_digest
+from game.run.picture import Picture
+from game.run.replay import Recorder, load_replay
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from game.scene import Scene
 from game.screens.play import Play
-from game.session import Session
-from game.sound import Sounds
 from physics import BROADPHASES, Circle, Effects, Material, Polygon
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)

@@ -6,15 +6,15 @@ import numpy as np
 import pygame
 import pytest
 
-from game.digest import scene_digest
-from game.drawing.picture import Picture
-from game.inputs import InputFrame, InputState
+from game.input.inputs import InputFrame, InputState
 from game.overlays import LAYER_NAMES
 from game.overlays.layer_features import text_of
 from game.overlays.layer_impulses import short, step_of
 from game.overlays.layer_islands import hull_of
 from game.overlays.outlines import corners_of, moved, ring
 from game.overlays.stack import Overlays
+from game.run.digest import scene_digest
+from game.run.picture import Picture
 from game.scene import Scene
 from physics import Capsule, Chain, Circle, Effects, Polygon, Segment, TileGrid, World, debug
 from scenes.lab.shape_pictures import difference

@@ -7,9 +7,9 @@ import numpy as np
 import pygame
 import pytest
 
-from game.drawing.draw import CANVAS_SIZE
+from game.audio.sound import CHANNELS, PITCHES, RATE, SPACING, STEADY, VOICES, Sounds, Voice, pan, resampled
+from game.drawing.canvas import CANVAS_SIZE
 from game.places import ASSETS, SOUNDS
-from game.sound import CHANNELS, PITCHES, RATE, SPACING, STEADY, VOICES, Sounds, Voice, pan, resampled
 
 
 class Clock:

@@ -5,9 +5,9 @@ import re
 import pygame
 import pytest
 
-from game.music import DUCK_UP, DUCKED, FADE
+from game.audio.music import DUCK_UP, DUCKED, FADE
+from game.audio.sound import DUCK_SECONDS, DUCKING, Sounds
 from game.places import MUSIC
-from game.sound import DUCK_SECONDS, DUCKING, Sounds
 
 FRAME = 1 / 60
 

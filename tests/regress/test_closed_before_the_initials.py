@@ -4,7 +4,8 @@ import pygame as K
 import pytest
 
 from game.files.records import load_records
-from game.inputs import InputFrame, ScriptSource
+from game.input.inputs import InputFrame
+from game.run.sources import ScriptSource
 from tests.game.test_runs import SEEN, Settings, finish_race
 
 

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.files.replay import load_replay
+from game.run.replay import load_replay
 
 
 def test_what_was_played_is_written(drive, tmp_path):

@@ -2,9 +2,10 @@
 
 import pygame as K
 
-from game.inputs import InputFrame, ScriptSource
-from game.screens.panel import act
-from game.screens.panel_rows import play_rows
+from game.input.inputs import InputFrame
+from game.run.sources import ScriptSource
+from game.screens.parts.panel import act
+from game.screens.parts.panel_rows import play_rows
 from tests.game.test_runs import SEEN, Settings
 
 

@@ -8,7 +8,7 @@ import json
 import pytest
 
 from game.errors import FileError
-from game.files.replay import LONGEST, load_replay
+from game.run.replay import LONGEST, load_replay
 from tests.game.test_replay import record
 
 

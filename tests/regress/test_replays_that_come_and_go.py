@@ -6,7 +6,7 @@ the run just played was the oldest, and went.
 
 import os
 
-from game.files.replay_shelf import RECENT, SHORTEST, files_of, put_recent, recent_folder, replays_folder, shelf
+from game.run.replay_shelf import RECENT, SHORTEST, files_of, put_recent, recent_folder, replays_folder, shelf
 from tests.game.test_replay import record
 
 

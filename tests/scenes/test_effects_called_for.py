@@ -8,10 +8,10 @@ from dataclasses import fields
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.inputs import BotSource, ScriptSource
 from game.registry import Registry
-from game.session import Session
+from game.run.digest import scene_digest
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from physics import Effects
 from scenes import SCENES
 

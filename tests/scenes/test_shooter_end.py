@@ -2,7 +2,7 @@
 
 import pytest
 
-from game.digest import scene_digest
+from game.run.digest import scene_digest
 from game.scene import Result
 from scenes.shooter.ending import COUNTDOWN, GRACE, MOST_CONTINUES
 from scenes.shooter.plane import LIVES

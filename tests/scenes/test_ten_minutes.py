@@ -17,11 +17,11 @@ MINUTE = 3600
 PLAY = """
 import gc, json, sys
 from pathlib import Path
-from game.headless import start_dummy_display
+from game.run.headless import start_dummy_display
 start_dummy_display()
-from game.inputs import BotSource
+from game.run.sources import BotSource
 from game.registry import Registry
-from game.session import Session
+from game.run.session import Session
 from scenes import SCENES
 
 def resident():

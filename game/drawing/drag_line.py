@@ -1,0 +1,23 @@
+"""The mouse's hold on a body as a person sees it: a line from where it is held to the pointer."""
+
+import pygame
+
+from game.drawing.colors import GOLD, INK, WHITE
+from game.drawing.presenter import Frame
+from game.input.drag import Drag, to_world
+
+
+def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
+    """Draw the line, a ring where the body is held and a dot at the pointer [canvas px]; nothing where nothing is held."""
+    if drag.camera is None:
+        return
+    lens, width = frame.lens(drag.camera), max(1, frame.scale - 1)
+    start = lens.points(*drag.held_point())
+    end = lens.points(*to_world(drag.camera, pointer))
+    surface = frame.surface
+    pygame.draw.line(surface, INK, start, end, width + 2)
+    pygame.draw.line(surface, GOLD, start, end, width)
+    for place, radius in ((start, 3 * frame.scale), (end, 2 * frame.scale)):
+        pygame.draw.circle(surface, INK, place, radius + 1)
+        pygame.draw.circle(surface, GOLD, place, radius)
+    pygame.draw.circle(surface, WHITE, start, frame.scale + 1)

@@ -1,0 +1,153 @@
+"""Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
+
+The pointer comes through the input of the step like every key, so a recording holds the drag. The pull is the
+force that the implicit spring would give over one step (Catto, "Soft Constraints", GDC 2011): it stays stable at
+any stiffness and for any mass, and it is capped in proportion to the mass.
+"""
+
+from math import cos, hypot, pi, sin
+from typing import Protocol
+
+import pygame
+
+from physics import Circle
+
+HERTZ = 5.0  # [1/s] of the spring: in 0.2 s the body is where the pointer is
+DAMPING_RATIO = 1.0  # critical: no swinging back and forth about the pointer
+MOST_PULL = 300.0  # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
+SPIN_DAMPING = 2.0  # [1/s] a hanging body comes to rest instead of swinging for ever
+FOLLOW = 20.0  # [1/s] where no force moves a body, its speed follows the pointer
+REACH = 4.0  # [canvas px] how far beside a body a press may be: a card is 2 px thin
+
+
+class View(Protocol):
+    """What a drag asks of a camera: the world point at its left top corner, its zoom, and its place on the canvas."""
+
+    x: float
+    y: float
+    zoom: float
+    viewport: pygame.Rect
+
+
+class Drag:
+    """One pointer's hold on at most one body of a scene."""
+
+    def __init__(self):
+        self.body = None
+        self.release()
+
+    @property
+    def holds(self):
+        """True while a body is held."""
+        return self.body is not None
+
+    def release(self):
+        """Let go. What flies without forces flies on as before."""
+        if self.holds and self.before is not None and (self.world.bodies["id"] == self.body.id).any():
+            self.body.velocity = self.before
+        self.before = None
+        self.body = self.world = self.camera = None
+        self.grip = (0.0, 0.0)  # [px] the grabbed point in body space
+
+    def step(self, inputs, views):
+        """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
+        if inputs.pointer_pressed:
+            self._grab(inputs.pointer, views)
+        elif not inputs.pointer_down:
+            self.release()
+        if self.holds and not self._still_there(views):
+            self.release()
+        if self.holds:
+            self._pull(to_world(self.camera, inputs.pointer))
+
+    def _grab(self, pointer, views):
+        self.release()
+        for world, camera in views:
+            if not camera.viewport.collidepoint(pointer):
+                continue
+            point = to_world(camera, pointer)
+            body = body_at(world, point, REACH / camera.zoom)
+            if body is not None:
+                self.body, self.world, self.camera = body, world, camera
+                self.before = None if has_forces(world.effects) else body.velocity
+                x, y = point[0] - body.position[0], point[1] - body.position[1]
+                c, s = cos(body.angle), sin(body.angle)
+                self.grip = (c * x + s * y, c * y - s * x)
+            return
+
+    def _still_there(self, views):
+        if not any(world is self.world for world, _ in views):
+            return False  # the scene was filled anew
+        return bool((self.world.bodies["id"] == self.body.id).any()) and can_be_held(self.body)
+
+    def held_point(self):
+        """The grabbed point in the world [px]."""
+        (x, y), angle = self.body.position, self.body.angle
+        c, s = cos(angle), sin(angle)
+        return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
+
+    def _pull(self, target):
+        world, body = self.world, self.body
+        body.wake()
+        turns = world.effects.rotation
+        point = self.held_point()
+        if not has_forces(world.effects):
+            body.velocity = tuple(FOLLOW * (goal - at) for goal, at in zip(target, point, strict=True))
+            return
+        row = world.bodies[world.rows([body.id])[0]]
+        force = spring_force(row, point, target, world.dt, turns)
+        most = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
+        size = hypot(*force)
+        share = most / size if size > most else 1.0
+        body.apply_force((force[0] * share, force[1] * share), point)
+        if turns:
+            body.apply_torque(-SPIN_DAMPING * float(row["inertia"]) * body.angular_velocity)
+
+
+def to_world(camera, pointer):
+    """The world point under a canvas point. Without the shake, which a player may have switched off."""
+    view = camera.viewport
+    return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
+
+
+def has_forces(effects):
+    """True for a world in which a force moves a body."""
+    return effects.response or effects.gravity or effects.drag or effects.wind
+
+
+def can_be_held(body):
+    """True for a dynamic body with a mass that takes part in the simulation."""
+    row = body.world.bodies[body.world.rows([body.id])[0]]
+    return body.kind == "dynamic" and row["inverse_mass"] > 0.0 and not row["quarantined"]
+
+
+def body_at(world, point, reach):
+    """The body to grab at a world point: the uppermost that holds it, else the nearest one within reach, or None."""
+    held = [body for body in world.query_point(point) if can_be_held(body)]
+    if held:
+        return held[-1]
+    near = [body for body in world.overlap(Circle(reach), (*point, 0.0)) if can_be_held(body)]
+    distance = {body: hypot(body.center[0] - point[0], body.center[1] - point[1]) for body in near}
+    return min(near, key=lambda body: (distance[body], body.id), default=None)
+
+
+def spring_force(row, point, target, dt, turns):
+    """The force at `point` of a spring to `target`, as the end of the step would have it [mass px/s2].
+
+    row: the body's row. With K the inverse mass that the point shows, J = -s K^-1 (v + b (point - target)); s and b
+    are the soft constraint's factors for one step of dt.
+    """
+    omega = 2.0 * pi * HERTZ
+    first = 2.0 * DAMPING_RATIO + dt * omega
+    second = dt * omega * first
+    softness, rate = second / (1.0 + second), omega / first
+    inverse_mass, inverse_inertia = float(row["inverse_mass"]), float(row["inverse_inertia"]) if turns else 0.0
+    spin = float(row["angular_velocity"]) if turns else 0.0
+    rx, ry = point[0] - float(row["center_x"]), point[1] - float(row["center_y"])
+    vx, vy = float(row["vx"]) - spin * ry, float(row["vy"]) + spin * rx
+    wanted_x, wanted_y = vx + rate * (point[0] - target[0]), vy + rate * (point[1] - target[1])
+    k11 = inverse_mass + inverse_inertia * ry * ry
+    k12 = -inverse_inertia * rx * ry
+    k22 = inverse_mass + inverse_inertia * rx * rx
+    share = -softness / (dt * (k11 * k22 - k12 * k12))
+    return share * (k22 * wanted_x - k12 * wanted_y), share * (k11 * wanted_y - k12 * wanted_x)
