@@ -15,13 +15,13 @@ import pygame
 
 from assets import png
 from assets.moments import FRAME, SEED, Moment, done, leader
-from game.drawing.picture import Picture
 from game.drawing.presenter import SCREENSHOT_SCALE
-from game.headless import start_dummy_display
-from game.inputs import BotSource
 from game.overlays.stack import Overlays
 from game.registry import Registry
-from game.session import Session
+from game.run.headless import start_dummy_display
+from game.run.picture import Picture
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes import SCENES
 
 SIZE = (160, 90)  # [px] of a menu picture
