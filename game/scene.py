@@ -124,6 +124,7 @@ class Scene:
         self.assist = {name: ASSISTS[name] for name in self.assists}
         self.accessibility = Accessibility()
         self.ghost = None  # the trail of an earlier run, to be seen beside this one; set from outside
+        self.best = 0  # points of the best run so far, to be shown; set from outside too
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to

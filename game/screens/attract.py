@@ -6,6 +6,7 @@ from game.drawing.colors import GOLD
 from game.errors import UsageError
 from game.screens.parts.demo import Demo
 from game.screens.parts.status_line import draw_line
+from game.screens.screen import SceneScreen
 
 SCENES = ("shooter", "platformer", "lab/pyramid", "lab/masks")
 SECONDS = 25  # of each
@@ -15,7 +16,7 @@ LINE = "DEMO - press any key"
 ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
 
 
-class Attract:
+class Attract(SceneScreen):
     """`make(name)` builds a scene, or returns None when a person came back while it was being prepared.
 
     `outcome` becomes ("back",). `quiet` tells the app to play the music low.
@@ -25,13 +26,13 @@ class Attract:
     quiet = True
 
     def __init__(self, make, names, accessibility):
+        super().__init__()
         self.make, self.accessibility = make, accessibility
         self.names = [name for name in SCENES if name in names] or list(names[:1])
         self.at = 0
         self.steps = 0
         self.ended = False  # the bot's game is over
         self.demo = None
-        self.outcome = None
 
     @property
     def tune(self):

@@ -6,7 +6,7 @@ from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
-from game.screens.parts.background import DuskGround
+from game.screens.parts.background import DuskBackground
 
 BAR_WIDTH, BAR_HEIGHT = 260, 8
 ANYBODY = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
@@ -25,7 +25,7 @@ class Loading:
     def __init__(self, title, stops_for_anybody=False):
         self.title = title
         self.stops_for = (pygame.QUIT, *ANYBODY) if stops_for_anybody else (pygame.QUIT,)
-        self.ground = DuskGround()
+        self.ground = DuskBackground()
         self.logo = load_atlas("ui")["logo"]
         self.share = 0.0
         self.what = ""

@@ -10,8 +10,9 @@ from game.drawing.thumbnails import SIZE, draw_picture
 from game.errors import FileError
 from game.files.own_levels import own_levels
 from game.files.records import table_of
-from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.background import MARGIN, DuskBackground, draw_page
 from game.screens.parts.rows import Row, RowList
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
 ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
@@ -19,16 +20,15 @@ GROUPS = {"": "GAMES", "lab": "LAB"}  # by the part of a scene's name before the
 FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
-class Menu:
+class Menu(CanvasScreen):
     """Chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
 
-    shows_pointer = True
     tune = "title"
 
     def __init__(self, registry, records=None, chosen=None):
+        super().__init__()
         self.registry, self.records = registry, records
-        self.ground = DuskGround()
-        self.cues = []
+        self.ground = DuskBackground()
         self.tables = {}  # (scene class, level file) -> its table, asked once: the file is read
         self.entries = self._entries()  # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
@@ -38,7 +38,6 @@ class Menu:
             self.list.mark = names.index(chosen)
         self.list.show_marked()
         self.time = 0.0
-        self.outcome = None
 
     def _entries(self):
         """One entry per row, built together with the rows."""

@@ -2,26 +2,23 @@
 
 from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import GOLD, PAPER, RED
-from game.errors import FileError
-from game.screens.parts.background import DuskGround, draw_page
+from game.errors import UsageError
+from game.screens.parts.background import DuskBackground, draw_page
 from game.screens.parts.rows import confirmed
+from game.screens.screen import CanvasScreen
 
 WIDTH = 400
 MOST_LINES = 6  # of one part; a longer one is cut where it ends
 
 
-class MessageScreen:
+class MessageScreen(CanvasScreen):
     """`parts`: (label, text) pairs. `outcome` becomes ("back",)."""
 
-    shows_pointer = True
-    tune = None
-
     def __init__(self, title, parts, ground=None):
+        super().__init__()
         self.title, self.parts = title, parts
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.time = 0.0
-        self.outcome = None
 
     def step(self, inputs, dt):
         """One fixed step."""
@@ -60,9 +57,6 @@ def _broken(canvas, line, width):
     yield line
 
 
-def file_message(error, ground=None):
+def error_message(error: UsageError, ground=None):
     """The screen for a UsageError: a FileError in its three parts."""
-    if isinstance(error, FileError):
-        parts = (("file", str(error.path)), ("place", str(error.place)), ("reason", str(error.reason)))
-        return MessageScreen("This file cannot be used", parts, ground)
-    return MessageScreen("That does not work", (("reason", str(error)),), ground)
+    return MessageScreen(error.headline, error.parts, ground)

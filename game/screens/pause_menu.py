@@ -3,29 +3,28 @@
 from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
 from game.drawing.nine_slice import draw_box
-from game.screens.parts.background import SceneGround
+from game.screens.parts.background import SceneBackground
 from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 WIDTH = 192
 
 
-class PauseMenu:
+class PauseMenu(CanvasScreen):
     """`outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
 
     can_save: a replay of this run can be saved. message: why the game stopped by itself, or "".
     pairs: (key, what it does) of the game.
     """
 
-    shows_pointer = True
-    tune = None
+    holds_music = True
 
     def __init__(self, scene, can_save=True, message="", pairs=()):
+        super().__init__()
         self.scene, self.can_save, self.message, self.pairs = scene, can_save, message, pairs
-        self.ground = SceneGround(scene)
-        self.cues = []
+        self.ground = SceneBackground(scene)
         self.list = RowList(self._rows, self._place(), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     def _rows(self):
         entries = [
@@ -49,6 +48,10 @@ class PauseMenu:
     def _place(self):
         high = len(self._rows()) * LINE
         return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
+
+    def tell(self, message):
+        """Say it under the menu."""
+        self.message = message
 
     def step(self, inputs, dt):
         """One fixed step."""

@@ -1,5 +1,7 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
+from time import perf_counter
+
 import pygame
 
 from game.files.records import table_of
@@ -14,6 +16,7 @@ from game.screens.parts.first_hint import HintCard
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import following, play_rows
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
+from game.screens.screen import SceneScreen
 from physics import BROADPHASES
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
@@ -29,14 +32,30 @@ EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assi
 KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
-class Play:
+class Play(SceneScreen):
     """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
 
-    settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
+    settings: the player's, or None in a test. last_frame: the step that the run ends with, None for no end. A person's run
+    is recorded in `recorder`, from its last restart on.
     """
 
-    def __init__(self, scene, devices, sounds, bot=False, recording=None, records=False, overlays=None, settings=None):
+    takes_game_input = True
+
+    def __init__(
+        self,
+        scene,
+        devices,
+        sounds,
+        bot=False,
+        recording=None,
+        records=False,
+        overlays=None,
+        settings=None,
+        last_frame=None,
+    ):
+        super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
+        self.last_frame = last_frame
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records  # each attempt is a recording of its own
@@ -47,8 +66,6 @@ class Play:
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
-        self.outcome = None
-        self.wants_screenshot = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -93,8 +110,18 @@ class Play:
         self.clock.rest()
         self.apply_settings()
 
-    def advance(self, now, limit=None):
-        """Make the steps that are due at `now` [s]; at most `limit` in all of this run."""
+    @property
+    def finished(self):
+        """True when the last step of a run of given length is made."""
+        return self.last_frame is not None and self.session.report.steps >= self.last_frame
+
+    def lose_focus(self):
+        """Whoever plays is busy elsewhere: the pause menu waits."""
+        if self.person:
+            self.outcome = self.outcome or ("pause", "")
+
+    def advance(self, now):
+        """Make the steps that are due at `now` [s], up to the last one of the run."""
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
@@ -104,7 +131,7 @@ class Play:
         elif self.clock.paused and self.devices.changes and not self.clock.requested:
             self.clock.request_step()  # a change while paused costs one step, so that its effect is seen
         for _ in range(self.clock.advance(now)):
-            if limit is not None and self.session.report.steps >= limit:
+            if self.finished:
                 return
             self.step()
             if self.outcome is not None:
@@ -272,10 +299,12 @@ class Play:
 
     def draw(self, picture):
         """Draw the scene and what lies over it; returns the frame."""
+        started = perf_counter()
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)
         if self.hint is not None and not self.panel_open:
             self.hint.draw(frame)
         draw_status(frame, self)
+        self.session.report.note_drawing(perf_counter() - started)
         return frame
 
 

@@ -7,8 +7,9 @@ from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
 from game.drawing.nine_slice import draw_box
 from game.drawing.number_text import clock, points_text, short_clock
 from game.run.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
-from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.background import MARGIN, DuskBackground, draw_page
 from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 232, 254)
 CARD = pygame.Rect(LIST.right + MARGIN, MARGIN, 224, 254)
@@ -16,16 +17,15 @@ FOOT = "Enter opens   Esc back"
 MISSING = object()  # not read yet
 
 
-class ReplaysScreen:
+class ReplaysScreen(CanvasScreen):
     """`outcome` becomes ("watch", path) or ("back",). `copy(text)` puts text on the clipboard, True if that worked."""
 
-    shows_pointer = True
     tune = "title"
 
     def __init__(self, registry, copy=lambda text: False, ground=None):
+        super().__init__()
         self.registry, self.copy = registry, copy
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.message = ""
         self.inside = False  # the keys work the card, not the list
         self.entries = shelf()  # (path, kept on purpose) each
@@ -35,7 +35,6 @@ class ReplaysScreen:
             self._card_rows, (CARD.x + 16, CARD.bottom - 20 - 4 * LINE, CARD.width - 32, 4 * LINE), self.cues
         )
         self.time = 0.0
-        self.outcome = None
 
     @property
     def chosen(self):

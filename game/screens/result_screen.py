@@ -4,34 +4,33 @@ from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
 from game.drawing.nine_slice import draw_box
 from game.drawing.number_text import clock, points_text
-from game.screens.parts.background import SceneGround
+from game.screens.parts.background import SceneBackground
 from game.screens.parts.initials import Initials
 from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 PAGE = (104, 8, 272, 254)
 COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
-class ResultScreen:
+class ResultScreen(CanvasScreen):
     """`place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
 
     `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
 
-    shows_pointer = True
+    shows_result = True
 
     def __init__(self, scene, result, place, initials, enter, can_save=True, notes=(), assisted=False):
+        super().__init__()
         self.scene, self.result, self.place, self.enter = scene, result, place, enter
         self.can_save, self.assisted = can_save, assisted
         self.notes = list(notes)  # what else is to be said: a ghost kept, a file that cannot be written
-        self.ground = SceneGround(scene)
-        self.tune = None
-        self.cues = []
+        self.ground = SceneBackground(scene)
         x = PAGE[0] + (PAGE[2] - 152) // 2
         self.initials = Initials(initials, x, 146, self.cues) if place is not None else None
         self.list = RowList(self._rows, (PAGE[0] + 56, 154, PAGE[2] - 112, 4 * LINE), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     @property
     def entering(self):
@@ -67,6 +66,10 @@ class ResultScreen:
             self.cues.append("back")
             self.outcome = ("menu",)
         self.list.step(inputs, dt)
+
+    def tell(self, message):
+        """Say it under the list, in place of what was said before."""
+        self.notes[:] = [message]
 
     def accept(self):
         """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""

@@ -10,8 +10,9 @@ from game.drawing.number_text import clock, points_text
 from game.errors import FileError
 from game.files.own_levels import own_levels
 from game.files.records import table_of
-from game.screens.parts.background import DuskGround, draw_page
+from game.screens.parts.background import DuskBackground, draw_page
 from game.screens.parts.rows import GRID, Repeat, Row, RowList, confirmed
+from game.screens.screen import CanvasScreen
 
 PAGE = pygame.Rect(40, 8, 400, 254)
 LINE = 15
@@ -47,21 +48,17 @@ def pages_of(registry, records, played=None):
     return found
 
 
-class ScoresScreen:
+class ScoresScreen(CanvasScreen):
     """`outcome` becomes ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
 
-    shows_pointer = True
-    tune = None
-
     def __init__(self, pages, records, shown=None, newest=None, ground=None):
+        super().__init__()
         self.pages, self.records, self.newest = pages, records, newest
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.at = next((number for number, page in enumerate(self.pages) if page.table == shown), 0)
         self.sideways = Repeat(("left", "right"))
         self.turners = RowList(self._rows, (PAGE.x + 16, PAGE.bottom - 34, PAGE.width - 32, 16), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     def _rows(self):
         return [Row("Back", press=self._leave)]

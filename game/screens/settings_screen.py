@@ -7,9 +7,10 @@ from game.drawing.colors import FOG, GOLD, PAPER
 from game.drawing.nine_slice import draw_box
 from game.input.bindings import key_name, shown
 from game.input.rebinding import rebind
-from game.screens.parts.background import MARGIN, DuskGround, draw_page
+from game.screens.parts.background import MARGIN, DuskBackground, draw_page
 from game.screens.parts.rows import Row, RowList, confirmed
 from game.screens.parts.settings_rows import PAGES, rows_of
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 136, 254)
 PAGE = pygame.Rect(LIST.right + MARGIN, MARGIN, 320, 254)
@@ -19,19 +20,16 @@ VALUE_FOOT = "\u2190 \u2192 change   or click left and right on a value"
 BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
-class SettingsScreen:
-    """Works on a Settings object. `changed()` puts it to work; the app saves when the screen is left.
+class SettingsScreen(CanvasScreen):
+    """Works on a Settings object. `changed()` puts it to work; `saved()` is called when the screen is left.
 
     `outcome` becomes ("back",). page: the name of the page to begin with, inside it.
     """
 
-    shows_pointer = True
-    tune = None  # whatever is playing plays on
-
-    def __init__(self, settings, devices, changed=lambda: None, ground=None, page=None):
-        self.settings, self.devices, self.changed = settings, devices, changed
-        self.ground = ground or DuskGround()
-        self.cues = []
+    def __init__(self, settings, devices, changed=lambda: None, ground=None, page=None, saved=lambda: None):
+        super().__init__()
+        self.settings, self.devices, self.changed, self.saved = settings, devices, changed, saved
+        self.ground = ground or DuskBackground()
         self.pages = RowList(
             self._page_rows,
             (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192),
@@ -43,7 +41,6 @@ class SettingsScreen:
         self.waiting_for = None  # (device, action) whose next key or button is its new one
         self.message = ""
         self.time = 0.0
-        self.outcome = None
 
     @property
     def page(self):
@@ -71,6 +68,10 @@ class SettingsScreen:
     def _wait(self, device, action):
         self.waiting_for = device, action
         self.message = ""
+
+    def close(self):
+        """What was changed is kept."""
+        self.saved()
 
     def feed(self, event):
         """Catch the key or button that an action is waiting for; True if the event is used up."""

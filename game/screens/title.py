@@ -10,6 +10,7 @@ from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED
 from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
 from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 LOOP = 9.0  # [s] one pass of the planes
 IDLE = 10.0  # [s] without any input before the games play themselves
@@ -25,23 +26,21 @@ ENTRIES = (
 )
 
 
-class Title:
+class Title(CanvasScreen):
     """The first screen. `outcome` becomes what the chosen entry leads to, or ("attract",) after a while."""
 
-    shows_pointer = True
     tune = "title"
 
     def __init__(self, message=""):
+        super().__init__()
         self.backdrop = Backdrop()
         planes = load_atlas("planes")
         self.left, self.right = planes["large_plane_a"], planes["large_plane_b"]
         self.masks = [pygame.mask.from_surface(image) for image in (self.left, self.right)]
         self.logo = load_atlas("ui")["logo"]
         self.message = message
-        self.cues = []
         self.list = RowList(self._rows, MENU, self.cues)
         self.time = self.idle = 0.0
-        self.outcome = None
 
     def _rows(self):
         return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in ENTRIES]

@@ -10,6 +10,7 @@ from game.errors import UsageError
 from game.screens.parts.demo import Demo
 from game.screens.parts.panel import HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
+from game.screens.screen import SceneScreen
 
 SECONDS = 5  # of each stop: twelve stops are a minute
 CARD = (312, 66)  # [text px]
@@ -111,13 +112,13 @@ BUTTONS = {
 }
 
 
-class Tour:
+class Tour(SceneScreen):
     """`make(name)` builds a scene; a stop whose scene is not there shows the first. `outcome` becomes ("back",)."""
 
-    shows_pointer = True
     tune = "title"
 
     def __init__(self, make, names, devices, accessibility):
+        super().__init__()
         self.make, self.devices, self.accessibility = make, devices, accessibility
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
         self.demos = {}  # scene name -> Demo, each played on from stop to stop
@@ -126,7 +127,6 @@ class Tour:
         self.places = []  # (rect, what it does) of the last picture
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
-        self.outcome = None
 
     @property
     def demo(self):

@@ -10,6 +10,7 @@ from game.run.loop import FixedStep
 from game.run.outcome import solver_name
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
+from game.screens.screen import SceneScreen
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
@@ -37,10 +38,11 @@ BUTTON_KEYS = {
 }
 
 
-class Watch:
+class Watch(SceneScreen):
     """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
 
     def __init__(self, tape, devices, sounds, accessibility, name=""):
+        super().__init__()
         self.tape, self.devices, self.sounds, self.accessibility, self.name = tape, devices, sounds, accessibility, name
         self.overlays = Overlays(tape.scene.overlays)
         self.clock = FixedStep()
@@ -51,7 +53,6 @@ class Watch:
         self.alone = 0.0  # [s] since the last key or move of the mouse
         self.before = None
         self.bar = self.button = pygame.Rect(0, 0, 0, 0)  # of the last picture
-        self.outcome = None
 
     @property
     def shows_pointer(self):
@@ -62,6 +63,11 @@ class Watch:
     def tune(self):
         """The music of the recorded game."""
         return self.tape.scene.music
+
+    @property
+    def failure(self):
+        """Where the game differed from the recording, if it did."""
+        return self.tape.diverged
 
     @property
     def diverged(self):

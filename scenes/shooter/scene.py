@@ -53,7 +53,6 @@ class Shooter(Scene):
     assists = ("invincible", "hit_stop")
     takes_level = True
     level_suffix = ".json"
-    best = 0  # points of the best game so far, to be shown; whoever keeps the list sets it
 
     def build(self):
         """An empty sky, and you."""

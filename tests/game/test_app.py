@@ -64,7 +64,7 @@ def test_by_keyboard_from_title_to_replay(drive):
     d.key(K.K_ESCAPE, K.K_ESCAPE)
     assert d.name == "Title" and d.screen.list.mark == 5, "Esc marks Leave first"
     d.key(K.K_ESCAPE)
-    assert not d.app.running
+    assert not d.app.arcade.running
 
 
 def test_by_controller_from_title_to_replay(drive):
@@ -129,7 +129,7 @@ def test_by_mouse_from_title_to_replay(drive):
     d.click_row("Sound", d.screen.pages)
     bar = d.screen.list.bar_place(d.screen.list.place(1))
     d.click((bar.x + 2, bar.centery))
-    assert d.settings.music < 0.1 and d.app.sounds.music < 0.1
+    assert d.settings.music < 0.1 and d.app.arcade.sounds.music < 0.1
     d.click_row("Comfort", d.screen.pages)
     number = next(i for i, row in enumerate(d.screen.list.rows()) if row.label == "Colours")
     value = d.screen.list.value_place(d.screen.list.place(number))
@@ -221,7 +221,7 @@ def test_closing_the_window_ends_and_keeps_the_run(drive):
     d.turns(150)
     d.post(K.QUIT)
     d.turns(1)
-    assert not d.app.running
+    assert not d.app.arcade.running
     d.app.run()
     assert list(recent_folder().glob("*.json"))
 

@@ -21,8 +21,8 @@ from game.scene import Result
 from game.screens.attract import Attract
 from game.screens.loading import Loading
 from game.screens.menu import Menu
-from game.screens.message_screen import file_message
-from game.screens.parts.background import SceneGround
+from game.screens.message_screen import error_message
+from game.screens.parts.background import SceneBackground
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.settings_rows import PAGES
 from game.screens.pause_menu import PauseMenu
@@ -142,7 +142,7 @@ def test_every_page_and_row_of_the_settings(page, inside):
 
 def test_settings_over_a_game():
     scene = Race()
-    screen = SettingsScreen(Settings(), DeviceSource(), ground=SceneGround(scene))
+    screen = SettingsScreen(Settings(), DeviceSource(), ground=SceneBackground(scene))
     screen.pages.mark = len(PAGES)
     check(screen)
 
@@ -242,8 +242,8 @@ def test_replays(tmp_path):
 
 
 def test_messages():
-    check(file_message(FileError("/tmp/" + "x" * 300, "waves[3].enemies[12].pattern.speed", LONG * 3)))
-    check(file_message(UsageError("no scene 'shoter'; valid: " + ", ".join(SCENES))))
+    check(error_message(FileError("/tmp/" + "x" * 300, "waves[3].enemies[12].pattern.speed", LONG * 3)))
+    check(error_message(UsageError("no scene 'shoter'; valid: " + ", ".join(SCENES))))
 
 
 def tape_of(tmp_path, frames=200, **spoilt):

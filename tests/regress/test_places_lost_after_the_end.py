@@ -26,7 +26,7 @@ def test_the_focus_goes(drive):
 
 def test_the_pad_goes(drive):
     d = ended(drive)
-    d.app.devices.lost_pad = True
+    d.app.arcade.devices.lost_pad = True
     d.turns(2)
     assert d.name == "ResultScreen" and d.screen.entering
 

@@ -12,7 +12,7 @@ DIMMED = 72  # of 255 that is left of a waiting game's light
 MARGIN = 8  # [canvas px] between a page and the edge of the picture
 
 
-class DuskGround:
+class DuskBackground:
     """Mountains that drift."""
 
     def __init__(self):
@@ -23,7 +23,7 @@ class DuskGround:
         self.backdrop.draw(canvas, time * DRIFT, dim=24)
 
 
-class SceneGround:
+class SceneBackground:
     """The scene as it stands, darkened; drawn anew each time, so that a changed setting is seen at once."""
 
     def __init__(self, scene):
