@@ -11,7 +11,8 @@ from game.input.inputs import InputFrame
 from game.run.outcome import judge
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
-from scenes.lab.billiards import CLOTH, HEAD_SPOT, HOLES, Billiards
+from scenes.lab.billiard_table import CLOTH, HEAD_SPOT, HOLES
+from scenes.lab.billiards import Billiards
 from scenes.lab.card_house import NEEDED, CardHouse
 from scenes.lab.cradle import SPEED, Cradle
 from scenes.lab.dominoes import Dominoes
