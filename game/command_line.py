@@ -5,12 +5,15 @@ import json
 import os
 import sys
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
+from typing import NoReturn
 
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.files.own_levels import level_digest
 from game.overlays import LAYER_NAMES
+from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options
 from game.run.replay import LARGEST_SEED
 from game.run.replay_check import load_replay_for
@@ -19,7 +22,7 @@ from game.run.replay_check import load_replay_for
 class Parser(argparse.ArgumentParser):
     """argparse, but a mistake is one line and exit 2 through UsageError."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         """Called by argparse for every mistake it finds."""
         if message.startswith("unrecognized arguments: "):
             given = message.split(": ", 1)[1].split()[0]
@@ -28,7 +31,7 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def run(arguments, registry):
+def run(arguments: Sequence[str], registry: Registry) -> int:
     """Run the program with these arguments and return the exit code."""
     try:
         code = _dispatch(read_options(arguments, registry), registry)
@@ -58,7 +61,7 @@ def _give_up_output():
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def make_parser():
+def make_parser() -> Parser:
     """The parser, on its own for --help and for the tests."""
     parser = Parser(prog="hitbox", description="2D collision you can feel, trust and see.", allow_abbrev=False)
     add = parser.add_argument
@@ -84,7 +87,7 @@ def make_parser():
     return parser
 
 
-def read_options(arguments, registry):
+def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     """Parse and check. Raises UsageError with one line that names what is valid."""
     given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
@@ -126,7 +129,7 @@ def _known(name, what, valid):
         raise unknown_name(what, name, valid)
 
 
-def read_layers(text):
+def read_layers(text: str | None) -> tuple[str, ...] | None:
     """ "bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
     if text is None:
         return None

@@ -7,14 +7,17 @@ and reads no clock. draw() changes nothing: not the state, not the random number
 
 import gc
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
+from typing import Any
 
 from game.drawing.camera import Camera
 from game.drawing.flash import Flash
 from game.drawing.particles import Particles
+from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
 from game.input.drag import Drag
-from game.input.inputs import CHANGES
+from game.input.inputs import CHANGES, InputState
 from physics import BROADPHASES, SOLVERS, Effects, World
 
 STEP_SECONDS = 1.0 / 60.0
@@ -40,7 +43,7 @@ class Result:
     seconds: float
     lines: tuple = ()
 
-    def ranks(self, ranked_by):
+    def ranks(self, ranked_by: str | None) -> bool:
         """True if a run that ended so belongs into a table at all; ranked_by as in Scene."""
         if ranked_by == "seconds":
             return self.won
@@ -59,13 +62,13 @@ class Slider:
     step: float = 1
     choices: tuple = ()
 
-    def clamp(self, value):
+    def clamp(self, value: float) -> float:
         """The nearest allowed value; whole when the step is whole."""
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
 
-    def show(self, value):
+    def show(self, value: float) -> str:
         """The value as text."""
         if self.choices:
             return self.choices[int(value) - int(self.low)]
@@ -113,7 +116,14 @@ class Scene:
         if missing:
             raise TypeError(f"scene {cls.__name__} must define {', '.join(missing)}")
 
-    def __init__(self, seed=0, broadphase=None, solver=None, tier=None, level=None):
+    def __init__(
+        self,
+        seed: int = 0,
+        broadphase: str | None = None,
+        solver: str | None = None,
+        tier: str | None = None,
+        level: Path | None = None,
+    ) -> None:
         self.seed = seed
         self.level_file = level  # None: the scene's own
         self.broadphase = broadphase or type(self).broadphase
@@ -131,7 +141,7 @@ class Scene:
         self.built = set()  # names of the attributes that build() made
         self.restart()
 
-    def restart(self):
+    def restart(self) -> None:
         """Back to the first frame with the same seed. Sliders and switches keep what was chosen."""
         self.drag.release()
         self._drop_last_run()
@@ -157,7 +167,9 @@ class Scene:
             self.worlds = []
             set_loaded_aside()
 
-    def add_world(self, effects=None, broadphase=None, solver=None, **settings):
+    def add_world(
+        self, effects: Effects | None = None, broadphase: str | None = None, solver: str | None = None, **settings: Any
+    ) -> World:
         """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.
 
         settings: what else World takes: gravity, drag, substeps, pixels_per_meter ...
@@ -170,11 +182,11 @@ class Scene:
         return world
 
     @property
-    def world(self):
+    def world(self) -> World:
         """The first world."""
         return self.worlds[0]
 
-    def step(self, inputs):
+    def step(self, inputs: InputState) -> None:
         """One fixed step: changes from the panel first, then the mouse's pull, then the scene's own update."""
         self.cues.clear()
         for name, value in inputs.now.changes:
@@ -188,7 +200,7 @@ class Scene:
         self.flash.step()
         self.frame += 1
 
-    def change(self, name, value):
+    def change(self, name: str, value: Any) -> None:
         """Apply one change that came with the input. An unknown name or value raises ValueError."""
         if name.startswith("slider:") and name[7:] in self.values:
             self.change_slider(name[7:], value)
@@ -208,47 +220,47 @@ class Scene:
             valid = ", ".join((*CHANGES, *(f"slider:{n}" for n in self.values), *(f"assist:{n}" for n in self.assist)))
             raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
 
-    def change_slider(self, name, value):
+    def change_slider(self, name: str, value: float) -> None:
         """Set a slider. A scene whose worlds depend on it overrides this and calls super first."""
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
 
-    def set_broadphase(self, name):
+    def set_broadphase(self, name: str) -> None:
         """Switch the broad phase of every world, mid-game."""
         self.broadphase = name
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
-    def solver_choices(self):
+    def solver_choices(self) -> tuple[str, ...]:
         """The solvers that the player may switch between: none where nothing is pushed, or each world has its own."""
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
     @classmethod
-    def valid_solvers(cls):
+    def valid_solvers(cls) -> tuple[str, ...]:
         """The solvers that the scene's effects allow."""
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
     @classmethod
-    def level_suffixes(cls):
+    def level_suffixes(cls) -> tuple[str, ...]:
         """Of the files that it can play as levels: () where it takes none."""
         if not cls.takes_level:
             return ()
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
-    def set_solver(self, name):
+    def set_solver(self, name: str) -> None:
         """Switch the solver of every world, mid-game."""
         self.solver = name
         for world in self.worlds:
             world.solver = name
 
-    def set_narrowphase(self, on):
+    def set_narrowphase(self, on: bool) -> None:
         """Stop at boxes, or do not, mid-game."""
         self.narrowphase = on
         for world in self.worlds:
             world.set_narrowphase(on)
 
-    def set_tier(self, name):
+    def set_tier(self, name: str) -> None:
         """Test the bodies that have a tier at another one, mid-game; new ones are to be added with self.tier."""
         self.tier = name
         for world in self.worlds:
@@ -257,27 +269,27 @@ class Scene:
                 if body.tier is not None:
                     body.tier = name
 
-    def set_accessibility(self, accessibility):
+    def set_accessibility(self, accessibility: Accessibility) -> None:
         """Take what the player wants of the picture."""
         self.accessibility = accessibility
         self.camera.shake_share = accessibility.shake
 
-    def play(self, sound, x=None, volume=1.0):
+    def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
         """Ask for a sound effect. x: canvas position for the pan; None: the middle."""
         self.cues.append((sound, x, volume))
 
-    def views(self):
+    def views(self) -> list[tuple[World, Camera]]:
         """(world, camera) of each picture on the canvas, for overlays."""
         return [(self.world, self.camera)]
 
-    def draw_on_frame(self, frame):
+    def draw_on_frame(self, frame: Frame) -> None:
         """Draw at window resolution, under the overlays (curves, thin lines). Most scenes have nothing here."""
 
-    def observe(self):
+    def observe(self) -> None:
         """Note timings after a step, for curves. Never part of the state."""
 
 
-def set_loaded_aside():
+def set_loaded_aside() -> None:
     """Collect what is garbage now, and count everything else as here to stay until the next call.
 
     A full collection with numba and a scene loaded takes 40 ms, two frames and a half; of what a game makes as it goes,

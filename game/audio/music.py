@@ -4,6 +4,9 @@ Nothing is read before it is wanted. The old tune goes out before the new one co
 each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
 """
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pygame
 
 from game.places import MUSIC
@@ -17,7 +20,7 @@ DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
 class Music:
     """`playing` is the tune or jingle that is heard, None in silence. `report` is called with one line per unusable file."""
 
-    def __init__(self, report, folder=MUSIC):
+    def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
         self.folder, self.report = folder, report
         self.wanted = None  # the tune that should be heard, once no jingle is
         self.jingle_due = None
@@ -29,22 +32,22 @@ class Music:
         self.ducked_for = 0.0  # [s] more
         self.unusable = set()
 
-    def tune(self, name):
+    def tune(self, name: str | None) -> None:
         """Want a tune, or None for silence. It comes when a jingle that is heard has ended."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
 
-    def jingle(self, name):
+    def jingle(self, name: str) -> None:
         """Play once, at once; the tune comes back after it, from its start."""
         self.resume()
         self.jingle_due = name
 
-    def duck_for(self, seconds):
+    def duck_for(self, seconds: float) -> None:
         """Step back behind a loud effect."""
         self.ducked_for = max(self.ducked_for, seconds)
 
-    def pause(self):
+    def pause(self) -> None:
         """Be silent from the next step on.
 
         The mixer's own pause and unpause are not called: they wait for the sound thread with the interpreter's lock held,
@@ -52,11 +55,11 @@ class Music:
         """
         self.paused = True
 
-    def resume(self):
+    def resume(self) -> None:
         """Be heard again. Another tune or a jingle does so too."""
         self.paused = False
 
-    def step(self, seconds, volume):
+    def step(self, seconds: float, volume: float) -> None:
         """Fade, duck and change tunes. volume: 0..1 of all music."""
         if not self.paused:
             self._advance(seconds)

@@ -6,7 +6,9 @@ own. A buffer of 512 samples (12 ms): larger ones are heard as lag, smaller ones
 
 import math
 import wave
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
 from time import perf_counter
 
@@ -17,6 +19,8 @@ from game.audio.music import Music
 from game.drawing.canvas import CANVAS_SIZE
 from game.places import MUSIC, SOUNDS
 from game.startup import say
+
+Cue = tuple[str, float | None, float]  # name, canvas x or None, volume
 
 RATE = 44_100  # [Hz] of effects and mixer
 CHANNELS = 24
@@ -62,15 +66,15 @@ class Sounds:
 
     def __init__(
         self,
-        master=0.8,
-        effects=1.0,
-        music=0.6,
-        folder=SOUNDS,
-        silent=False,
-        music_folder=MUSIC,
-        report=say,
-        clock=perf_counter,
-    ):
+        master: float = 0.8,
+        effects: float = 1.0,
+        music: float = 0.6,
+        folder: Path = SOUNDS,
+        silent: bool = False,
+        music_folder: Path = MUSIC,
+        report: Callable[[str], object] = say,
+        clock: Callable[[], float] = perf_counter,
+    ) -> None:
         self.master, self.effects, self.music = master, effects, music
         self.folder, self.report, self.clock = folder, report, clock
         self.random = Random(4)  # only heard; never a game's
@@ -94,7 +98,7 @@ class Sounds:
         self.voices = [Voice(pygame.mixer.Channel(number)) for number in range(CHANNELS)]
         return ""
 
-    def play_cues(self, cues):
+    def play_cues(self, cues: Iterable[Cue]) -> None:
         """Play what a scene asked for in one step: (name, canvas x or None, volume) each; of one name the loudest."""
         loudest = {}
         for name, x, volume in cues:
@@ -103,7 +107,7 @@ class Sounds:
         for name, (x, volume) in loudest.items():
             self.play(name, x, volume)
 
-    def play(self, name, x=None, volume=1.0):
+    def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
         """Start a sound; the oldest voice of it gives way. Returns True if it is heard."""
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
@@ -164,40 +168,40 @@ class Sounds:
             return samples
         return None
 
-    def tune(self, name):
+    def tune(self, name: str | None) -> None:
         """Want a tune, faded in, or None for silence. Cheap when it is the same as before."""
         if not self.silent_because:
             self.player.tune(name)
 
-    def jingle(self, name):
+    def jingle(self, name: str) -> None:
         """Play a tune once, at once; the wanted tune comes after it."""
         if not self.silent_because:
             self.player.jingle(name)
 
-    def pause(self):
+    def pause(self) -> None:
         """Hold the music; effects ring out."""
         if not self.silent_because:
             self.player.pause()
 
-    def resume(self):
+    def resume(self) -> None:
         """Let the music go on where it stood."""
         if not self.silent_because:
             self.player.resume()
 
-    def step(self, seconds):
+    def step(self, seconds: float) -> None:
         """Fades and ducking; `seconds` since the last call."""
         if not self.silent_because:
             self.player.step(seconds, self.music * self.master)
 
 
-def pan(x):
+def pan(x: float | None) -> tuple[float, float]:
     """(left, right) volumes 0..1 for a canvas x, of equal power everywhere; None is the middle."""
     side = 0.0 if x is None else max(-1.0, min(1.0, 2.0 * x / CANVAS_SIZE[0] - 1.0)) * PAN_WIDTH
     angle = (side + 1.0) * math.pi / 4.0
     return math.cos(angle), math.sin(angle)
 
 
-def resampled(samples, speed):
+def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
     """The samples played `speed` times as fast, so that much higher."""
     if speed == 1.0:
         return samples
@@ -205,6 +209,6 @@ def resampled(samples, speed):
     return np.round(np.interp(places, np.arange(len(samples)), samples)).astype(np.int16)
 
 
-def stereo(samples):
+def stereo(samples: np.ndarray) -> bytes:
     """Mono samples as bytes of a stereo buffer."""
     return np.repeat(samples, 2).tobytes()

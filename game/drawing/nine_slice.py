@@ -4,12 +4,13 @@ from functools import lru_cache
 
 import pygame
 
+from game.drawing.canvas import Box, Canvas
 from game.drawing.sprites import load_atlas
 
 EDGE = 8  # [px] of a slice that keeps its size
 
 
-def draw_box(canvas, rect, name="panel_dark"):
+def draw_box(canvas: Canvas, rect: Box, name: str = "panel_dark") -> None:
     """Draw a framed box; `name` is panel, panel_selected or panel_dark."""
     canvas.surface.blit(_box(name, rect[2], rect[3]), (rect[0], rect[1]))
 

@@ -5,9 +5,17 @@ A picture is enlarged eight times by Scale2x, which keeps its edges, and then sa
 """
 
 from math import ceil, cos, floor, hypot, pi, sin
+from typing import TypeVar
 
 import numpy as np
 import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
+from game.drawing.sprites import Atlas
+from physics import Body, World
+
+BodyOrId = TypeVar("BodyOrId", Body, int)
 
 BUCKETS = 192  # angles kept per picture: 1.9 degrees moves the edge of a 30 px piece by half a pixel
 DOUBLINGS = 3  # of the picture before it is sampled
@@ -17,18 +25,18 @@ MARGIN = 80  # [canvas px] pieces up to this far outside the view may still reac
 class RotatedPicture:
     """One picture at any angle, its middle at the body's position."""
 
-    def __init__(self, image):
+    def __init__(self, image: pygame.Surface) -> None:
         self.image = image
         self.kept = {}
         self.large = None
 
-    def draw(self, surface, x, y, angle):
+    def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
         """Draw with the middle at the surface point (x, y)."""
         turned = self.at(angle)
         width, height = turned.get_size()
         surface.blit(turned, (floor(x - width / 2 + 0.5), floor(y - height / 2 + 0.5)))
 
-    def at(self, angle):
+    def at(self, angle: float) -> pygame.Surface:
         """The picture turned clockwise to the nearest angle kept [rad]."""
         bucket = round(angle / (2 * pi) * BUCKETS) % BUCKETS
         if bucket not in self.kept:
@@ -65,23 +73,23 @@ class RotatedPicture:
 class Cast:
     """Which picture each body of a world has; draws them all in the order of their ids."""
 
-    def __init__(self, atlas):
+    def __init__(self, atlas: Atlas) -> None:
         self.atlas = atlas
         self.turned = {}  # name -> RotatedPicture
         self.looks = {}  # body id -> name
 
-    def add(self, body, name):
+    def add(self, body: BodyOrId, name: str) -> BodyOrId:
         """Give a body (or its id) the picture of that name; returns the body."""
         self.looks[getattr(body, "id", body)] = name
         return body
 
-    def picture(self, name):
+    def picture(self, name: str) -> RotatedPicture:
         """The turning picture of a name."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
-    def draw(self, canvas, camera, world, alpha):
+    def draw(self, canvas: Canvas, camera: Camera, world: World, alpha: float) -> None:
         """Draw the bodies that have a picture, between the last two steps, clipped to the camera's view."""
         bodies, surface = world.bodies, canvas.surface
         x, y, angle = (

@@ -4,7 +4,7 @@ from functools import cache
 
 import pygame
 
-from game.drawing.canvas import wrap
+from game.drawing.canvas import Canvas, wrap
 from game.drawing.colors import DUSK, INK, SLATE
 from game.drawing.sprites import load_image
 from game.places import IMAGES
@@ -12,7 +12,7 @@ from game.places import IMAGES
 SIZE = (160, 90)
 
 
-def draw_picture(canvas, name, title, x, y):
+def draw_picture(canvas: Canvas, name: str, title: str, x: int, y: int) -> pygame.Rect:
     """Draw a scene's picture with a thin frame at (x, y) and return the frame's rect."""
     rect = pygame.Rect((x, y), SIZE)
     picture = _load(name)

@@ -3,16 +3,18 @@
 import os
 import sys
 import warnings
+from collections.abc import Mapping
 
 import pygame
 
 from game.drawing.canvas import CANVAS_SIZE
 from game.errors import UsageError
+from game.files.settings import Settings
 
 LARGEST_SHARE = 0.9  # of the desktop that a window opened without a chosen size may take
 
 
-def open_window(settings):
+def open_window(settings: Settings) -> pygame.Surface:
     """The window's surface. Raises UsageError when there is no display to open it on."""
     try:
         if not has_screen(sys.platform, os.environ):
@@ -30,18 +32,18 @@ def open_window(settings):
     return surface
 
 
-def has_screen(platform, environment):
+def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
     """False where SDL could only fail, with noise of its own: Linux without X, Wayland or a driver by name."""
     names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return not platform.startswith("linux") or any(environment.get(name) for name in names)
 
 
-def mode_of(settings):
+def mode_of(settings: Settings) -> tuple[bool, int, bool]:
     """What of the settings the window depends on: it is opened anew only when this changes."""
     return settings.fullscreen, settings.window_scale, settings.vsync
 
 
-def set_mode(settings):
+def set_mode(settings: Settings) -> pygame.Surface:
     """Open or change the window to the settings' size."""
     desktop = pygame.display.get_desktop_sizes()[0]
     if settings.fullscreen:
@@ -63,7 +65,7 @@ def _open(size, flags, vsync):
     return pygame.display.set_mode(size, flags)
 
 
-def copy_text(text):
+def copy_text(text: str) -> bool:
     """Put text on the clipboard; True if that worked."""
     try:
         pygame.scrap.put_text(text)

@@ -1,5 +1,6 @@
 """Levels of the player's own: files in the data folder's levels/, listed under the game that can play them."""
 
+from collections.abc import Sequence
 from hashlib import blake2b
 from pathlib import Path
 
@@ -7,12 +8,12 @@ from game.errors import FileError
 from game.files.data_folder import data_folder
 
 
-def levels_folder():
+def levels_folder() -> Path:
     """Where this user's levels are looked for."""
     return data_folder() / "levels"
 
 
-def own_levels(suffixes):
+def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
     """Paths of the files with one of these suffixes, by name (see Scene.level_suffixes); () without such a folder."""
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
@@ -20,7 +21,7 @@ def own_levels(suffixes):
         return ()
 
 
-def level_digest(path):
+def level_digest(path: str | Path) -> str:
     """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
     try:
         return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()

@@ -3,9 +3,13 @@
 A key may mean several actions (Space fires and jumps), as long as no one game uses two of them: `rivals` says which.
 """
 
+from collections.abc import Iterable, Sequence
+
 import pygame
 
 from game.input.inputs import ACTIONS
+
+Table = dict[str, Sequence[str]]  # action -> names of keys or buttons
 
 # What a player may change. The first name of each is the one that the settings show and change.
 DEFAULT_KEYS = {
@@ -100,17 +104,17 @@ PICTURED = {
 _NAMES = {}  # key code -> name, made when first asked for
 
 
-def rivals(action, other):
+def rivals(action: str, other: str) -> bool:
     """True if one game uses both, so that they cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 
-def key_codes(names):
+def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
     """{action: names} -> {key code: actions}, the fixed keys with them. Raises ValueError naming what is wrong."""
     return _turned({**names, **FIXED_KEYS}, _code)
 
 
-def button_actions(names):
+def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
     """{action: names} -> {button name: actions}, the fixed buttons with them. Raises ValueError naming what is wrong."""
     return _turned({**names, **FIXED_BUTTONS}, _button)
 
@@ -141,7 +145,7 @@ def _button(name):
     return name
 
 
-def key_name(code):
+def key_name(code: int) -> str | None:
     """A key code as settings spell it, or None for a key without a plain name."""
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
@@ -151,12 +155,12 @@ def key_name(code):
     return _NAMES.get(code)
 
 
-def shown(control):
+def shown(control: str) -> str:
     """A key or button as the screen shows it."""
     return PICTURED.get(control, control.capitalize())
 
 
-def help_pairs(actions, table):
+def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
     """(what to press, what it does) of Scene.actions as the player has bound them; table {action: names}."""
     pairs = []
     steering = [table[action][0] for action in ("left", "right", "up", "down")]

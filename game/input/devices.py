@@ -5,6 +5,8 @@ between two steps would be lost. Pads are keyed by instance id, which never chan
 while the program runs; device indexes do and are.
 """
 
+from collections.abc import Callable
+
 import pygame
 
 from game.input.bindings import (
@@ -15,10 +17,12 @@ from game.input.bindings import (
     DEFAULT_KEYS,
     JOYSTICK_NAMES,
     TRIGGER_NAMES,
+    Table,
     button_actions,
     key_codes,
 )
 from game.input.inputs import InputFrame
+from game.input.pads import Pads
 
 STICK = {pygame.CONTROLLER_AXIS_LEFTX: AXES[0], pygame.CONTROLLER_AXIS_LEFTY: AXES[1]}
 STICK_RANGE = 32767.0  # CONTROLLERAXISMOTION counts in 16 bits
@@ -28,7 +32,13 @@ PULLED = 0.5  # of a trigger's travel, from where it counts as a button
 class DeviceSource:
     """`to_canvas(position)` maps the window's pointer to the canvas; `pads` opens controllers (see Pads)."""
 
-    def __init__(self, to_canvas=lambda position: position, keys=None, pads=None, buttons=None):
+    def __init__(
+        self,
+        to_canvas: Callable[[tuple[int, int]], tuple[float, float]] = lambda position: position,
+        keys: Table | None = None,
+        pads: Pads | None = None,
+        buttons: Table | None = None,
+    ) -> None:
         self.to_canvas = to_canvas
         self.bind(keys or DEFAULT_KEYS, buttons or DEFAULT_BUTTONS)
         self.menus = False  # True: whatever was rebound, the keys and buttons of the start work the menus
@@ -41,17 +51,17 @@ class DeviceSource:
         self.changes = []
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
-    def bind(self, keys, buttons):
+    def bind(self, keys: Table, buttons: Table) -> None:
         """Take other bindings: {action: names} each."""
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
 
-    def change(self, name, value):
+    def change(self, name: str, value: object) -> None:
         """Queue a change of the simulation (panel, keys) for the next step."""
         self.changes.append((name, value))
 
-    def next(self, scene=None):
+    def next(self, scene: object | None = None) -> InputFrame:
         """The input of the next step. A tap between two steps counts as held for one."""
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
@@ -61,13 +71,13 @@ class DeviceSource:
         self.pointer_tapped, self.wheel = False, 0
         return frame
 
-    def release_all(self):
+    def release_all(self) -> None:
         """Forget what is held: the window lost focus, or another screen opened."""
         self.held.clear()
         self.tapped.clear()
         self.pointer_down = self.pointer_tapped = False
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> None:
         """Take one pygame event."""
         kind = event.type
         if kind == pygame.KEYDOWN:
@@ -89,7 +99,7 @@ class DeviceSource:
         else:
             self._feed_pad(event)
 
-    def button_of(self, event):
+    def button_of(self, event: pygame.event.Event) -> tuple[int, str, bool] | None:
         """(pad, name of the button, down) of an event of a pad, or None. A trigger is a button once it is pulled."""
         kind = event.type
         if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
@@ -101,7 +111,7 @@ class DeviceSource:
                 return event.instance_id, JOYSTICK_NAMES[event.button], kind == pygame.JOYBUTTONDOWN
         return None
 
-    def pressed_button(self, event):
+    def pressed_button(self, event: pygame.event.Event) -> str | None:
         """The name of the button that this event presses, or None."""
         found = self.button_of(event)
         if found is None or not found[2] or found[:2] in self.held:

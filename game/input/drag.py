@@ -5,12 +5,15 @@ force that the implicit spring would give over one step (Catto, "Soft Constraint
 any stiffness and for any mass, and it is capped in proportion to the mass.
 """
 
+from collections.abc import Sequence
 from math import cos, hypot, pi, sin
 from typing import Protocol
 
+import numpy as np
 import pygame
 
-from physics import Circle
+from game.input.inputs import InputState
+from physics import Body, Circle, Effects, World
 
 HERTZ = 5.0  # [1/s] of the spring: in 0.2 s the body is where the pointer is
 DAMPING_RATIO = 1.0  # critical: no swinging back and forth about the pointer
@@ -32,16 +35,16 @@ class View(Protocol):
 class Drag:
     """One pointer's hold on at most one body of a scene."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.body = None
         self.release()
 
     @property
-    def holds(self):
+    def holds(self) -> bool:
         """True while a body is held."""
         return self.body is not None
 
-    def release(self):
+    def release(self) -> None:
         """Let go. What flies without forces flies on as before."""
         if self.holds and self.before is not None and (self.world.bodies["id"] == self.body.id).any():
             self.body.velocity = self.before
@@ -49,7 +52,7 @@ class Drag:
         self.body = self.world = self.camera = None
         self.grip = (0.0, 0.0)  # [px] the grabbed point in body space
 
-    def step(self, inputs, views):
+    def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
         """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
         if inputs.pointer_pressed:
             self._grab(inputs.pointer, views)
@@ -80,7 +83,7 @@ class Drag:
             return False  # the scene was filled anew
         return bool((self.world.bodies["id"] == self.body.id).any()) and can_be_held(self.body)
 
-    def held_point(self):
+    def held_point(self) -> tuple[float, float]:
         """The grabbed point in the world [px]."""
         (x, y), angle = self.body.position, self.body.angle
         c, s = cos(angle), sin(angle)
@@ -104,24 +107,24 @@ class Drag:
             body.apply_torque(-SPIN_DAMPING * float(row["inertia"]) * body.angular_velocity)
 
 
-def to_world(camera, pointer):
+def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
     """The world point under a canvas point. Without the shake, which a player may have switched off."""
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
 
 
-def has_forces(effects):
+def has_forces(effects: Effects) -> bool:
     """True for a world in which a force moves a body."""
     return effects.response or effects.gravity or effects.drag or effects.wind
 
 
-def can_be_held(body):
+def can_be_held(body: Body) -> bool:
     """True for a dynamic body with a mass that takes part in the simulation."""
     row = body.world.bodies[body.world.rows([body.id])[0]]
     return body.kind == "dynamic" and row["inverse_mass"] > 0.0 and not row["quarantined"]
 
 
-def body_at(world, point, reach):
+def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
     """The body to grab at a world point: the uppermost that holds it, else the nearest one within reach, or None."""
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:
@@ -131,7 +134,9 @@ def body_at(world, point, reach):
     return min(near, key=lambda body: (distance[body], body.id), default=None)
 
 
-def spring_force(row, point, target, dt, turns):
+def spring_force(
+    row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
+) -> tuple[float, float]:
     """The force at `point` of a spring to `target`, as the end of the step would have it [mass px/s2].
 
     row: the body's row. With K the inverse mass that the point shows, J = -s K^-1 (v + b (point - target)); s and b

@@ -9,6 +9,7 @@ from game.input.bindings import (
     FIXED_KEYS,
     SHELL_BUTTONS,
     SHELL_KEYS,
+    Table,
     rivals,
     shown,
 )
@@ -18,7 +19,7 @@ DEFAULTS = {"keys": DEFAULT_KEYS, "buttons": DEFAULT_BUTTONS}
 SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
 
 
-def rebind(table, device, action, control):
+def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
     """Make `control` the first of the action's; table {action: [names]} is changed. Returns a line to show.
 
     device: "keys" or "buttons". A rival that had it gets what the action gave up. No action is ever left without.
@@ -66,7 +67,7 @@ def _is_free(table, device, action, control):
     return control not in taken
 
 
-def clash(table):
+def clash(table: Table) -> tuple[str, str, str] | None:
     """The first two rivals that share a control, as (action, other, control), or None."""
     for action in table:
         for other in table:
@@ -77,12 +78,12 @@ def clash(table):
     return None
 
 
-def default_table(device):
+def default_table(device: str) -> dict[str, list[str]]:
     """A fresh copy of the table that a player starts with."""
     return {action: list(controls) for action, controls in DEFAULTS[device].items()}
 
 
-def completed(table, device):
+def completed(table: Table, device: str) -> dict[str, list[str]]:
     """The table with what it lacks: an older file may not know all actions. Clashing names are left out."""
     full = {}
     for action in DEFAULTS[device]:

@@ -4,22 +4,24 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, PINK, SERIES, WHITE
+from game.drawing.colors import FOG, PINK, SERIES, WHITE, Color
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import can_move
-from physics import debug
+from physics import World, debug
 
 COLOR_BUDGET = 800  # contacts per picture; the note says how many there are
 LABEL_BUDGET = 150  # numbers written out per picture
 LISTED = 8  # colours counted one by one in the legend
 
 
-class Colors:
+class Colors(Layer):
     """Each contact joined to the centres of the bodies it moves, in its graph colour; white: in none, solved first."""
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
@@ -27,7 +29,7 @@ class Colors:
         self.room = COLOR_BUDGET // views
         self.labels = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.contact_points(world)
         rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
@@ -60,13 +62,13 @@ class Colors:
         found[: len(self.counts)] += self.counts
         self.counts = found
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Write the colours' numbers where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x + 3 * scale, y - 6 * scale, color, SMALL, scale, "left", True)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         used = np.flatnonzero(self.counts).tolist()
         lines = [(self.color, f"coloured {self.drawn} of {self.total} contacts, {len(used)} colours")]
@@ -78,6 +80,6 @@ class Colors:
         return lines
 
 
-def color_of(number):
+def color_of(number: int) -> Color:
     """The picture's colour of a graph colour; white for none."""
     return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

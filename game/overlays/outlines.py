@@ -1,16 +1,24 @@
 """Thin lines around shapes of every kind, as physics.debug hands them out: what overlays and labs draw with."""
 
+from collections.abc import Sequence
 from math import atan2, ceil, cos, hypot, pi, sin
 
 import numpy as np
 import pygame
+from numpy.typing import ArrayLike
+
+from game.drawing.colors import Color
+from game.drawing.presenter import Lens
+
+Point = tuple[float, float]
+Pose = tuple[float, float, float]
 
 ARC_STEP = 2.5  # [frame px] of an arc that one line stands for
 TICK_GAP, TICK_LENGTH = 7.0, 4.0  # [canvas px] hatching on the solid side of a chain
 TICK_BUDGET = 400  # ticks of one chain
 
 
-def ring(points, radius, scale):
+def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
     """Corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
 
     scale [frame px per px] says how fine the arcs have to be.
@@ -42,7 +50,7 @@ def _steps(turn, radius, scale):
     return max(1 if turn < pi else 6, min(96, ceil(turn * radius * scale / ARC_STEP)))
 
 
-def corners_of(outline, scale=1.0):
+def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
     """World corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
     kind = outline[0]
     if kind == "circle":
@@ -59,7 +67,7 @@ def corners_of(outline, scale=1.0):
     return None
 
 
-def clockwise(points):
+def clockwise(points: ArrayLike) -> list[list[float]]:
     """The corners as a list, clockwise on the screen."""
     points = np.asarray(points, float)
     x, y = points[:, 0], points[:, 1]
@@ -67,7 +75,7 @@ def clockwise(points):
     return (points if area >= 0.0 else points[::-1]).tolist()
 
 
-def moved(outline, start, end):
+def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
     """The outline as it is when its body goes from pose to pose (x, y, angle)."""
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
@@ -87,7 +95,9 @@ def moved(outline, start, end):
     return outline
 
 
-def draw_outline(surface, lens, outline, color, width=1, scale=1):
+def draw_outline(
+    surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
+) -> None:
     """Draw one outline through a lens; a chain with ticks on its solid side. scale: frame px per canvas px."""
     kind = outline[0]
     if kind == "circle":

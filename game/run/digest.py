@@ -3,8 +3,10 @@
 import struct
 from hashlib import blake2b
 
+from game.scene import Scene
 
-def scene_digest(scene):
+
+def scene_digest(scene: Scene) -> str:
     """32 hex digits. Floats count by their bits, with -0.0 as 0.0; raises TypeError for any other type."""
     digest = blake2b(digest_size=16)
     for world in scene.worlds:

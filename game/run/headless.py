@@ -3,23 +3,25 @@
 import json
 import os
 import sys
+from collections.abc import Callable
 from time import perf_counter
 
 import pygame
 
 from game.errors import UsageError
 from game.overlays.stack import Overlays
-from game.run.options import DEFAULT_FRAMES, make_scene
-from game.run.outcome import judge, not_judged
+from game.registry import Registry
+from game.run.options import DEFAULT_FRAMES, Options, make_scene
+from game.run.outcome import Check, RunReport, judge, not_judged
 from game.run.picture import Picture, save_png
 from game.run.replay import Recorder
 from game.run.session import Session
 from game.run.sources import BotSource, IdleSource
 from game.run.warmup import warm_up_scene
-from game.scene import set_loaded_aside
+from game.scene import Scene, set_loaded_aside
 
 
-def start_dummy_display():
+def start_dummy_display() -> None:
     """Let pygame draw without any display or sound device."""
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     os.environ["SDL_AUDIODRIVER"] = "dummy"
@@ -28,7 +30,7 @@ def start_dummy_display():
     pygame.display.set_mode((480, 270))  # so that convert_alpha() has a format to convert to
 
 
-def run_headless(options, registry):
+def run_headless(options: Options, registry: Registry) -> int:
     """Run --frames steps and report. Returns the exit code."""
     start_dummy_display()
     # Kernels first, so that the times below are of steps and not of the compiler.
@@ -59,7 +61,7 @@ def run_headless(options, registry):
     return finish(scene, session.report, options)
 
 
-def save_or_fail(save, path):
+def save_or_fail(save: Callable[[str], object], path: str) -> None:
     """Write an output file; a path that cannot be written is wrong use."""
     try:
         save(path)
@@ -67,7 +69,7 @@ def save_or_fail(save, path):
         raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
-def finish(scene, report, options):
+def finish(scene: Scene, report: RunReport, options: Options) -> int:
     """Print what was asked for and return the exit code."""
     played = options.played_by_bot
     extra = report.strict_failures() if options.strict else []
@@ -84,7 +86,7 @@ def finish(scene, report, options):
     return 0 if check["ok"] else 1
 
 
-def summary_line(scene, report, check, played):
+def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
     """One line about the run, for people."""
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""

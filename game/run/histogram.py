@@ -10,12 +10,12 @@ BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
 class Histogram:
     """Of times [s] that are added one by one."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.bins = [0] * BINS
         self.count = 0
         self.total = self.largest = 0.0
 
-    def add(self, seconds):
+    def add(self, seconds: float) -> None:
         """Count one time."""
         place = floor(log(max(seconds, SHORTEST) / SHORTEST) / WIDTH)
         self.bins[min(place, BINS - 1)] += 1
@@ -24,11 +24,11 @@ class Histogram:
         self.largest = max(self.largest, seconds)
 
     @property
-    def mean(self):
+    def mean(self) -> float:
         """Exact; 0 when nothing was added."""
         return self.total / self.count if self.count else 0.0
 
-    def quantile(self, share):
+    def quantile(self, share: float) -> float:
         """The time that a share 0..1 of all is not longer than; 0 when nothing was added."""
         left = share * (self.count - 1) + 1.0
         for place, count in enumerate(self.bins):

@@ -13,7 +13,7 @@ SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05)  # slow motion, as fractions of real time
 class FixedStep:
     """An accumulator. `advance(now)` returns how many steps are due; `alpha` is the fraction left."""
 
-    def __init__(self, step=STEP_SECONDS):
+    def __init__(self, step: float = STEP_SECONDS) -> None:
         self.step = step
         self.speed = 1.0  # slow motion, for looking closely
         self.pace = 1.0  # game speed, as the player wants to be able to follow
@@ -22,7 +22,7 @@ class FixedStep:
         self.before = None
         self.requested = 0
 
-    def advance(self, now):
+    def advance(self, now: float) -> int:
         """Whole steps due at `now` [s, perf_counter]. The first call only starts the clock."""
         passed = 0.0 if self.before is None else min(max(now - self.before, 0.0), LONGEST_FRAME)
         self.before = now
@@ -35,24 +35,24 @@ class FixedStep:
         self.left_over -= due * self.step
         return due
 
-    def rest(self):
+    def rest(self) -> None:
         """Time does not count until advance() is called again: another screen is in front."""
         self.before = None
         self.requested = 0
 
     @property
-    def alpha(self):
+    def alpha(self) -> float:
         """How far drawing is between the step before and the last one, 0..1. Paused: the last one."""
         return 1.0 if self.paused else self.left_over / self.step
 
-    def request_step(self):
+    def request_step(self) -> None:
         """One step while paused (single step)."""
         self.requested += 1
 
-    def slower(self):
+    def slower(self) -> None:
         """The next slower speed."""
         self.speed = SPEEDS[min(SPEEDS.index(self.speed) + 1, len(SPEEDS) - 1)]
 
-    def faster(self):
+    def faster(self) -> None:
         """The next faster speed, up to real time."""
         self.speed = SPEEDS[max(SPEEDS.index(self.speed) - 1, 0)]

@@ -1,7 +1,13 @@
 """What a run measured: per stage, per frame, counters and events, summed over the scene's worlds."""
 
+from collections.abc import Iterable
+from typing import Any
+
 from game.run.digest import scene_digest
 from game.run.histogram import Histogram
+from game.scene import Scene
+
+Check = dict[str, Any]  # ok, failures, pending
 
 EVENTS = ("begin", "persist", "end", "hits")
 
@@ -9,7 +15,7 @@ EVENTS = ("begin", "persist", "end", "hits")
 class RunReport:
     """Filled step by step. Times are seconds inside and milliseconds in to_json."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.steps = 0
         self.frames = Histogram()  # update, and drawing where there was any; the last one is still open
         self.last = None  # [s] the frame that drawing may still be added to
@@ -19,7 +25,7 @@ class RunReport:
         self.events = dict.fromkeys(EVENTS, 0)
         self.quarantined = 0
 
-    def note_step(self, scene, seconds):
+    def note_step(self, scene: Scene, seconds: float) -> None:
         """Take what the worlds measured in the step just made, which took that long."""
         self.steps += 1
         self._close_frame()
@@ -37,7 +43,7 @@ class RunReport:
         for name, spent in step_stages.items():
             self.stages.setdefault(name, Histogram()).add(spent)
 
-    def note_drawing(self, seconds):
+    def note_drawing(self, seconds: float) -> None:
         """Add drawing time to the frame of the last step."""
         if self.last is not None:
             self.last += seconds
@@ -47,7 +53,7 @@ class RunReport:
             self.frames.add(self.last)
             self.last = None
 
-    def strict_failures(self):
+    def strict_failures(self) -> list[str]:
         """What --strict objects to: quarantined bodies and any cap that was hit."""
         failures = []
         if self.quarantined:
@@ -56,7 +62,7 @@ class RunReport:
             failures.append(f"{self.counters['cap_hits']} cap hits")
         return failures
 
-    def to_json(self, scene, check):
+    def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
         """The object that --json prints; `check` comes from judge()."""
         self._close_frame()
         return {
@@ -75,7 +81,7 @@ class RunReport:
             "events": self.events,
         }
 
-    def profile_lines(self):
+    def profile_lines(self) -> list[str]:
         """The table that --profile prints."""
         self._close_frame()
         lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
@@ -91,18 +97,18 @@ class RunReport:
         return lines
 
 
-def solver_name(scene):
+def solver_name(scene: Scene) -> str:
     """The solver that runs, also where the scene left the choice to the World."""
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
-def summary(times, wanted):
+def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
     """{mean, p50, p99, max} in milliseconds, of what is wanted; zeros when nothing was measured."""
     found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
     return {name: round(1000.0 * found[name], 4) for name in wanted}
 
 
-def judge(scene, frames, extra=()):
+def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
     """{ok, failures, pending} from the scene's goals: one due after the last frame is pending, not failed."""
     failures, pending = list(extra), []
     for goal in scene.check():
@@ -116,6 +122,6 @@ def judge(scene, frames, extra=()):
     return {"ok": not failures, "failures": failures, "pending": pending}
 
 
-def not_judged(scene, extra=()):
+def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
     """The check of a run that nobody played: its goals are all pending; only --strict can fail it."""
     return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

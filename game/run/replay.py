@@ -8,6 +8,7 @@ was played, when, and how it ended; version 1 is still read.
 import json
 from pathlib import Path
 from time import strftime
+from typing import Any
 
 from game.errors import FileError, ReplayDiverged
 from game.files.data_folder import write_atomically
@@ -15,6 +16,7 @@ from game.files.json_file import read_json
 from game.files.own_levels import level_digest
 from game.input.inputs import ACTIONS, NOTHING, InputFrame
 from game.run.digest import scene_digest
+from game.scene import Result, Scene
 
 FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
@@ -30,7 +32,7 @@ MOST_POINTS = 10**15
 class Recorder:
     """Notes what went in and what came out of each step. every: frames between two digests."""
 
-    def __init__(self, scene, bot=False, every=DIGEST_EVERY):
+    def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
         level = scene.level_file
         self.every = every
         self.head = {
@@ -50,7 +52,7 @@ class Recorder:
         self.runs = []  # [repeats, InputFrame]
         self.digests = []
 
-    def note(self, frame, scene):
+    def note(self, frame: InputFrame, scene: Scene) -> None:
         """Call after each step with the input it had."""
         self.frames += 1
         if self.runs and self.runs[-1][1] == frame:
@@ -60,7 +62,7 @@ class Recorder:
         if self.frames % self.every == 0:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
-    def save(self, path, result=None):
+    def save(self, path: str | Path, result: Result | None = None) -> None:
         """Write the recording, with the game.scene.Result it ended in; raises OSError when that is not possible."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
@@ -73,7 +75,7 @@ class Recorder:
 class Replay:
     """A recording read back: a source of input (`next`) and a judge (`verify`)."""
 
-    def __init__(self, path, data, frames):
+    def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
         self.path = path
         self.scene, self.seed = data["scene"], data["seed"]
         self.broadphase, self.solver, self.tier = data["broadphase"], data["solver"], data["tier"]
@@ -84,11 +86,11 @@ class Replay:
         self.index = 0
 
     @property
-    def frames(self):
+    def frames(self) -> int:
         """How many steps were recorded."""
         return len(self.inputs)
 
-    def level_path(self):
+    def level_path(self) -> Path | None:
         """The file of the level that was played, None for the scene's own. Raises FileError if it is another now."""
         if self.level is None:
             return None
@@ -100,12 +102,12 @@ class Replay:
             )
         return path
 
-    def next(self, scene):
+    def next(self, scene: object) -> InputFrame:
         """The input of the next step; nothing after the last."""
         self.index += 1
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
-    def verify(self, scene):
+    def verify(self, scene: Scene) -> None:
         """Compare after a step. Raises ReplayDiverged naming the frame."""
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):
@@ -116,7 +118,7 @@ class Replay:
             raise ReplayDiverged(f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}")
 
 
-def load_replay(path):
+def load_replay(path: str | Path) -> Replay:
     """Read a recording. Raises FileError naming the file, the place and the reason."""
     data = read_json(path)
     if isinstance(data, dict) and data.get("version") == 1:

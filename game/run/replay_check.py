@@ -1,11 +1,15 @@
 """Does a recording fit its scene? Files come from friends and other versions: every name and value is asked about."""
 
+from pathlib import Path
+
 from game.errors import FileError
-from game.run.replay import load_replay
+from game.registry import Registry
+from game.run.replay import Replay, load_replay
+from game.scene import Scene
 from physics import BROADPHASES
 
 
-def load_replay_for(path, registry):
+def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[Scene]]:
     """(recording, scene class) of a file. Raises FileError for one that is damaged, or that its scene cannot play."""
     recording = load_replay(path)
     if recording.scene not in registry.names:
@@ -17,7 +21,7 @@ def load_replay_for(path, registry):
     return recording, scene_class
 
 
-def check_recording(recording, scene_class):
+def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
     """Raises FileError naming the first thing that the scene does not have."""
     path = recording.path
     for place, value, valid in (
@@ -40,7 +44,7 @@ def check_recording(recording, scene_class):
                     )
 
 
-def is_possible(scene_class, name, value):
+def is_possible(scene_class: type[Scene], name: object, value: object) -> bool:
     """True if the scene takes that change; a scene whose worlds have solvers of their own takes no other."""
     if not isinstance(name, str) or isinstance(value, (list, dict)):
         return False

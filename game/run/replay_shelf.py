@@ -4,34 +4,38 @@ Only files in recent/ are ever deleted, the oldest first; what a player kept sta
 """
 
 from itertools import chain, count
+from pathlib import Path
 from stat import S_ISREG
 
 from game.errors import FileError
 from game.files.data_folder import data_folder, free_name, write_atomically
+from game.registry import Registry
+from game.run.replay import Recorder, Replay
 from game.run.replay_check import load_replay_for
+from game.scene import Result
 
 RECENT = 10  # runs that are kept unasked
 SHORTEST = 120  # frames: two seconds are not worth a place
 
 
-def replays_folder():
+def replays_folder() -> Path:
     """Where kept replays are, and where files from friends go."""
     return data_folder() / "replays"
 
 
-def recent_folder():
+def recent_folder() -> Path:
     """Where the last runs are."""
     return replays_folder() / "recent"
 
 
-def shelf():
+def shelf() -> list[tuple[Path, bool]]:
     """Paths of all replays, newest first: (path, kept on purpose) each."""
     found = [(changed, path, True) for changed, path in files_of(replays_folder())]
     found += [(changed, path, False) for changed, path in files_of(recent_folder())]
     return [(path, kept) for _, path, kept in sorted(found, key=lambda each: (-each[0], each[1].name))]
 
 
-def files_of(folder):
+def files_of(folder: Path) -> list[tuple[float, Path]]:
     """(when it was changed, path) of each replay in a folder. What is no file, or gone by now, is left out."""
     found = []
     try:
@@ -48,7 +52,7 @@ def files_of(folder):
     return found
 
 
-def put_recent(recorder, result=None):
+def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
     """Save a run as the newest of the recent ones and let the oldest go. None for a run too short; raises OSError."""
     if recorder.frames < SHORTEST:
         return None
@@ -60,7 +64,7 @@ def put_recent(recorder, result=None):
     return path
 
 
-def keep(path):
+def keep(path: Path) -> Path:
     """Copy a replay out of recent/ so that it stays, and return where it is now. Raises OSError.
 
     Another file of its name is left alone; one that holds the same is the copy.
@@ -77,7 +81,7 @@ def keep(path):
     return kept
 
 
-def read_shelf_entry(path, registry):
+def read_shelf_entry(path: Path, registry: Registry) -> tuple[Replay | None, str]:
     """(replay, "") or (None, reason in one line): a damaged file, or one that no scene here can play."""
     try:
         return load_replay_for(path, registry)[0], ""

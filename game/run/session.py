@@ -4,12 +4,17 @@ from time import perf_counter
 
 from game.input.inputs import InputState
 from game.run.outcome import RunReport
+from game.run.replay import Recorder, Replay
+from game.run.sources import Source
+from game.scene import Scene
 
 
 class Session:
     """`source.next(scene)` gives the input; recorder and replay may be None."""
 
-    def __init__(self, scene, source, recorder=None, replay=None):
+    def __init__(
+        self, scene: Scene, source: Source, recorder: Recorder | None = None, replay: Replay | None = None
+    ) -> None:
         self.scene = scene
         self.source = source
         self.recorder = recorder
@@ -17,7 +22,7 @@ class Session:
         self.inputs = InputState()
         self.report = RunReport()
 
-    def step(self):
+    def step(self) -> None:
         """One fixed step. Raises ReplayDiverged when a replay's digest differs."""
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

@@ -6,12 +6,15 @@ there would be more than MOST_KEYS: `spacing` says how far.
 
 import copy
 import copyreg
+from collections.abc import Callable
 from time import perf_counter
 
 import pygame
 
 from game.errors import ReplayDiverged
+from game.run.replay import Replay
 from game.run.session import Session
+from game.scene import Scene
 
 if not hasattr(pygame.Surface, "__deepcopy__"):
     # pygame 2.6.1 cannot copy pictures. A reduction that is a name tells copy to hand on the thing itself.
@@ -24,7 +27,7 @@ MOST_KEYS = 48
 class Tape:
     """`make()` builds the scene as it was at the start; `recording` is a Replay."""
 
-    def __init__(self, make, recording):
+    def __init__(self, make: Callable[[], Scene], recording: Replay) -> None:
         self.recording = recording
         self.length = recording.frames
         seconds = max(KEY_SECONDS, -(-self.length // (60 * MOST_KEYS)))
@@ -38,21 +41,21 @@ class Tape:
         self._note_key()
 
     @property
-    def scene(self):
+    def scene(self) -> Scene:
         """The scene as it stands."""
         return self.session.scene
 
     @property
-    def position(self):
+    def position(self) -> int:
         """How many frames were played up to here."""
         return self.recording.index
 
     @property
-    def ended(self):
+    def ended(self) -> bool:
         """True after the last frame."""
         return self.position >= self.length
 
-    def step(self):
+    def step(self) -> None:
         """Play one frame; nothing after the last. A divergence is noted and the tape plays on."""
         if self.ended:
             return
@@ -67,13 +70,13 @@ class Tape:
         if self.position % self.spacing == 0 and self.position not in self.keys:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
-    def seek(self, frame):
+    def seek(self, frame: int) -> None:
         """Go to a frame, whatever it takes."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)
 
-    def begin_seek(self, frame):
+    def begin_seek(self, frame: int) -> None:
         """Go to the nearest key frame; seek_on() goes the rest. An earlier search is given up."""
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
@@ -82,7 +85,7 @@ class Tape:
             self.recording.index = nearest
         self.goal = frame if frame != self.position else None
 
-    def seek_on(self, seconds):
+    def seek_on(self, seconds: float) -> None:
         """Play on towards the frame that is sought, for so long at most."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:

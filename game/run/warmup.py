@@ -1,14 +1,22 @@
 """Compiling the kernels before they are needed, with a bar that shows how far that is."""
 
 import sys
+from collections.abc import Callable
 from time import perf_counter
+from typing import TextIO
 
 import physics
+from game.registry import Registry
+from game.scene import Scene
+
+Progress = Callable[[int, int, str], None]  # done, total, name of the piece that is next
 
 BAR = 32  # characters
 
 
-def warm_up_scene(scene_class, broadphase=None, solver=None, progress=None):
+def warm_up_scene(
+    scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, progress: Progress | None = None
+) -> None:
     """Compile what one scene needs at its start. progress(done, total, name) is called before each piece."""
     strategy = (broadphase or scene_class.broadphase) if scene_class.switches_broadphase else "all"
     names = solvers_of(scene_class, solver)
@@ -18,26 +26,26 @@ def warm_up_scene(scene_class, broadphase=None, solver=None, progress=None):
         )
 
 
-def solvers_of(scene_class, chosen=None):
+def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
     """Names of all solvers that a scene's worlds may use; None is the World's own choice."""
     return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
 
 
-def pieces_of(scene_class):
+def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
     """What of the physics a scene says it meets, and what dragging asks."""
     if scene_class.pieces is None:
         return None
     return (*scene_class.pieces, *("queries",) * (scene_class.draggable and "queries" not in scene_class.pieces))
 
 
-def part_of(progress, index, parts):
+def part_of(progress: Progress | None, index: int, parts: int) -> Progress | None:
     """`progress` for one of several equal parts: it counts on where the part before ended. None stays None."""
     if progress is None:
         return None
     return lambda done, total, name: progress(index * total + done, parts * total, name)
 
 
-def warm_up_all(registry, out=None):
+def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
     """--warmup: every scene under every broad phase. Returns the exit code."""
     out = out or sys.stdout
     started = perf_counter()
@@ -60,7 +68,7 @@ def warm_up_all(registry, out=None):
     return 0
 
 
-def draw_bar(out, share, name):
+def draw_bar(out: TextIO, share: float, name: str) -> None:
     """One line that overwrites itself on a terminal; a file or a pipe gets none."""
     if not out.isatty():
         return

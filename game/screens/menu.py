@@ -2,14 +2,16 @@
 
 import pygame
 
-from game.drawing.canvas import SMALL, TEXT, shorten, wrap
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten, wrap
 from game.drawing.colors import FOG, GOLD, PAPER, SKY
 from game.drawing.nine_slice import draw_box
 from game.drawing.number_text import clock, points_text
 from game.drawing.thumbnails import SIZE, draw_picture
 from game.errors import FileError
 from game.files.own_levels import own_levels
-from game.files.records import table_of
+from game.files.records import Records, table_of
+from game.input.inputs import InputState
+from game.registry import Registry
 from game.screens.parts.background import MARGIN, DuskBackground, draw_page
 from game.screens.parts.rows import Row, RowList
 from game.screens.screen import CanvasScreen
@@ -25,7 +27,7 @@ class Menu(CanvasScreen):
 
     tune = "title"
 
-    def __init__(self, registry, records=None, chosen=None):
+    def __init__(self, registry: Registry, records: Records | None = None, chosen: str | None = None) -> None:
         super().__init__()
         self.registry, self.records = registry, records
         self.ground = DuskBackground()
@@ -64,7 +66,7 @@ class Menu(CanvasScreen):
     def _back(self):
         self.outcome = ("back",)
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again: levels may have been put into the folder meanwhile."""
         mark = self.list.mark
         self.tables.clear()
@@ -72,7 +74,7 @@ class Menu(CanvasScreen):
         self.list.mark = min(mark, len(self.entries) - 1)
         self.list.show_marked()
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if inputs.pressed("cancel"):
@@ -80,7 +82,7 @@ class Menu(CanvasScreen):
             self.outcome = ("back",)
         self.list.step(inputs, dt)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Play", FOOT)

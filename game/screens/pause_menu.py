@@ -1,8 +1,12 @@
 """The pause menu over the darkened game."""
 
-from game.drawing.canvas import SMALL, TEXT, wrap
+from collections.abc import Sequence
+
+from game.drawing.canvas import SMALL, TEXT, Canvas, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
 from game.drawing.nine_slice import draw_box
+from game.input.inputs import InputState
+from game.scene import Scene
 from game.screens.parts.background import SceneBackground
 from game.screens.parts.rows import LINE, Row, RowList
 from game.screens.screen import CanvasScreen
@@ -19,7 +23,9 @@ class PauseMenu(CanvasScreen):
 
     holds_music = True
 
-    def __init__(self, scene, can_save=True, message="", pairs=()):
+    def __init__(
+        self, scene: Scene, can_save: bool = True, message: str = "", pairs: Sequence[tuple[str, str]] = ()
+    ) -> None:
         super().__init__()
         self.scene, self.can_save, self.message, self.pairs = scene, can_save, message, pairs
         self.ground = SceneBackground(scene)
@@ -49,11 +55,11 @@ class PauseMenu(CanvasScreen):
         high = len(self._rows()) * LINE
         return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
 
-    def tell(self, message):
+    def tell(self, message: str) -> None:
         """Say it under the menu."""
         self.message = message
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if inputs.pressed("cancel") or inputs.pressed("pause"):
@@ -61,7 +67,7 @@ class PauseMenu(CanvasScreen):
             self.outcome = ("back",)
         self.list.step(inputs, dt)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         lines = wrap(self.message, WIDTH - 24, TEXT)

@@ -1,13 +1,18 @@
 """The replays of this user: what each is, and watching, keeping and finding it."""
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pygame
 
-from game.drawing.canvas import SMALL, TEXT, shorten, wrap
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten, wrap
 from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
 from game.drawing.nine_slice import draw_box
 from game.drawing.number_text import clock, points_text, short_clock
+from game.input.inputs import InputState
+from game.registry import Registry
 from game.run.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
-from game.screens.parts.background import MARGIN, DuskBackground, draw_page
+from game.screens.parts.background import MARGIN, Background, DuskBackground, draw_page
 from game.screens.parts.rows import LINE, Row, RowList
 from game.screens.screen import CanvasScreen
 
@@ -22,7 +27,9 @@ class ReplaysScreen(CanvasScreen):
 
     tune = "title"
 
-    def __init__(self, registry, copy=lambda text: False, ground=None):
+    def __init__(
+        self, registry: Registry, copy: Callable[[str], bool] = lambda text: False, ground: Background | None = None
+    ) -> None:
         super().__init__()
         self.registry, self.copy = registry, copy
         self.ground = ground or DuskBackground()
@@ -37,7 +44,7 @@ class ReplaysScreen(CanvasScreen):
         self.time = 0.0
 
     @property
-    def chosen(self):
+    def chosen(self) -> tuple[Path, bool] | None:
         """(path, kept on purpose) of the marked replay, or None."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
@@ -91,7 +98,7 @@ class ReplaysScreen(CanvasScreen):
         copied = self.copy(path)
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again: there may be other files now."""
         before = self.chosen
         self.entries = shelf()
@@ -100,7 +107,7 @@ class ReplaysScreen(CanvasScreen):
         self.list.show_marked()
         self.inside = False
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         unread = next((path for path, _ in self.entries if path not in self.read), None)
@@ -127,7 +134,7 @@ class ReplaysScreen(CanvasScreen):
             if mark != self.list.mark:
                 self.message, self.card.mark = "", 0
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Replays", FOOT)

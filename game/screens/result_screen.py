@@ -1,9 +1,15 @@
 """After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
 
-from game.drawing.canvas import SMALL, TEXT, shorten
+from collections.abc import Callable, Iterable
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
 from game.drawing.nine_slice import draw_box
 from game.drawing.number_text import clock, points_text
+from game.input.inputs import InputState
+from game.scene import Result, Scene
 from game.screens.parts.background import SceneBackground
 from game.screens.parts.initials import Initials
 from game.screens.parts.rows import LINE, Row, RowList
@@ -21,7 +27,17 @@ class ResultScreen(CanvasScreen):
 
     shows_result = True
 
-    def __init__(self, scene, result, place, initials, enter, can_save=True, notes=(), assisted=False):
+    def __init__(
+        self,
+        scene: Scene,
+        result: Result,
+        place: int | None,
+        initials: str,
+        enter: Callable[[str], None],
+        can_save: bool = True,
+        notes: Iterable[str] = (),
+        assisted: bool = False,
+    ) -> None:
         super().__init__()
         self.scene, self.result, self.place, self.enter = scene, result, place, enter
         self.can_save, self.assisted = can_save, assisted
@@ -33,7 +49,7 @@ class ResultScreen(CanvasScreen):
         self.time = 0.0
 
     @property
-    def entering(self):
+    def entering(self) -> bool:
         """True while initials are asked for."""
         return self.initials is not None and not self.initials.done
 
@@ -48,11 +64,11 @@ class ResultScreen(CanvasScreen):
     def _leave(self, outcome):
         self.outcome = outcome
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Typed letters of the initials; True if the event is used up."""
         return self.entering and self.initials.feed(event)
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if self.entering:
@@ -67,17 +83,17 @@ class ResultScreen(CanvasScreen):
             self.outcome = ("menu",)
         self.list.step(inputs, dt)
 
-    def tell(self, message):
+    def tell(self, message: str) -> None:
         """Say it under the list, in place of what was said before."""
         self.notes[:] = [message]
 
-    def accept(self):
+    def accept(self) -> None:
         """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
         if self.entering:
             self.initials.done = True
             self.enter(self.initials.text)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_box(canvas, PAGE)

@@ -1,13 +1,18 @@
 """The settings: pages on the left, the marked page's rows on the right. Every change works at once."""
 
+from collections.abc import Callable
+
 import pygame
 
-from game.drawing.canvas import SMALL, wrap
+from game.drawing.canvas import SMALL, Canvas, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
 from game.drawing.nine_slice import draw_box
+from game.files.settings import Settings
 from game.input.bindings import key_name, shown
+from game.input.devices import DeviceSource
+from game.input.inputs import InputState
 from game.input.rebinding import rebind
-from game.screens.parts.background import MARGIN, DuskBackground, draw_page
+from game.screens.parts.background import MARGIN, Background, DuskBackground, draw_page
 from game.screens.parts.rows import Row, RowList, confirmed
 from game.screens.parts.settings_rows import PAGES, rows_of
 from game.screens.screen import CanvasScreen
@@ -26,7 +31,15 @@ class SettingsScreen(CanvasScreen):
     `outcome` becomes ("back",). page: the name of the page to begin with, inside it.
     """
 
-    def __init__(self, settings, devices, changed=lambda: None, ground=None, page=None, saved=lambda: None):
+    def __init__(
+        self,
+        settings: Settings,
+        devices: DeviceSource,
+        changed: Callable[[], None] = lambda: None,
+        ground: Background | None = None,
+        page: str | None = None,
+        saved: Callable[[], None] = lambda: None,
+    ) -> None:
         super().__init__()
         self.settings, self.devices, self.changed, self.saved = settings, devices, changed, saved
         self.ground = ground or DuskBackground()
@@ -43,7 +56,7 @@ class SettingsScreen(CanvasScreen):
         self.time = 0.0
 
     @property
-    def page(self):
+    def page(self) -> str | None:
         """The page that is shown, or None while Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
@@ -69,11 +82,11 @@ class SettingsScreen(CanvasScreen):
         self.waiting_for = device, action
         self.message = ""
 
-    def close(self):
+    def close(self) -> None:
         """What was changed is kept."""
         self.saved()
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Catch the key or button that an action is waiting for; True if the event is used up."""
         if self.waiting_for is None:
             return False
@@ -97,7 +110,7 @@ class SettingsScreen(CanvasScreen):
         self.devices.release_all()
         return True
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if self.waiting_for is not None:
@@ -128,7 +141,7 @@ class SettingsScreen(CanvasScreen):
                 self.list.mark = self.list.first = 0
                 self.list.show_marked()
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Settings", FOOT)

@@ -1,6 +1,7 @@
 """The stack of screens, and what each outcome of a screen leads to. What a screen is stands in game/screens/screen.py."""
 
 from collections.abc import Callable
+from pathlib import Path
 from time import strftime
 
 from game.drawing.window import copy_text
@@ -25,7 +26,7 @@ from game.screens.play import Play
 from game.screens.replays_screen import ReplaysScreen
 from game.screens.result_screen import ResultScreen
 from game.screens.scores_screen import ScoresScreen, pages_of
-from game.screens.screen import CanvasScreen, SceneScreen
+from game.screens.screen import CanvasScreen, Outcome, SceneScreen
 from game.screens.settings_screen import SettingsScreen
 from game.screens.title import Title
 from game.screens.tour import Tour
@@ -78,11 +79,11 @@ class Screens:
             arcade.stop_if_closed()
 
     @property
-    def top(self):
+    def top(self) -> AnyScreen:
         """The screen that is seen and heard."""
         return self.stack[-1]
 
-    def follow(self, outcome):
+    def follow(self, outcome: Outcome) -> None:
         """Open what the top screen named. A file that cannot be used becomes a message."""
         name, *rest = outcome
         self.top.outcome = None
@@ -93,7 +94,7 @@ class Screens:
         except LoadingStopped:
             self.arcade.stop_if_closed()
 
-    def complain(self, error, ends_scene=True):
+    def complain(self, error: UsageError, ends_scene: bool = True) -> None:
         """Show why a file cannot be used, over what can be gone on with.
 
         ends_scene: False where it is about another file than that of the scene on top, which then goes on.
@@ -112,24 +113,24 @@ class Screens:
     def _ground(self) -> SceneBackground | None:
         return SceneBackground(self.played.scene) if self.played else None
 
-    def title(self, message=""):
+    def title(self, message: str = "") -> None:
         """The title and nothing else."""
         self._leave_play()
         self.stack = [Title(message)]
 
-    def menu(self):
+    def menu(self) -> None:
         """The scene menu, over the title."""
         self._leave_play()
         self.stack = [Title(), self._scene_menu()]
 
-    def back(self):
+    def back(self) -> None:
         """The screen below; the title where there is none."""
         self.stack.pop().close()
         if not self.stack:
             self.stack = [Title()]
         self.top.resume()
 
-    def settings(self, page=None):
+    def settings(self, page: str | None = None) -> None:
         """The settings, over a game or over the title."""
         arcade = self.arcade
         changed, saved = self._settings_changed, arcade.save_settings
@@ -140,17 +141,17 @@ class Screens:
         if self.played:
             self.played.apply_settings()
 
-    def scores(self):
+    def scores(self) -> None:
         """The high scores, from a game those of its scene or level."""
         arcade, play = self.arcade, self.played
         pages = pages_of(arcade.registry, arcade.records, play and (play.scene.name, play.scene.level_file))
         self.stack.append(ScoresScreen(pages, arcade.records, play and play.table, self.newest, self._ground()))
 
-    def replays(self):
+    def replays(self) -> None:
         """The list of replays."""
         self.stack.append(ReplaysScreen(self.arcade.registry, copy_text))
 
-    def watch(self, path):
+    def watch(self, path: str | Path) -> None:
         """A recording; its kernels are compiled first. Raises UsageError for one that cannot be used."""
         arcade = self.arcade
         recording, scene_class = load_replay_for(path, arcade.registry)
@@ -163,12 +164,12 @@ class Screens:
         tape, name = Tape(make, recording), str(recording.path)
         self.stack.append(Watch(tape, arcade.devices, arcade.sounds, arcade.settings.accessibility(), name))
 
-    def tour(self):
+    def tour(self) -> None:
         """The tour of the overlays."""
         arcade = self.arcade
         self.stack.append(Tour(self._make_demo, arcade.registry.names, arcade.devices, arcade.settings.accessibility()))
 
-    def attract(self):
+    def attract(self) -> None:
         """The bots play, until somebody comes."""
         self.stack.append(Attract(self._make_shown, self.arcade.registry.names, self.arcade.settings.accessibility()))
 
@@ -185,7 +186,7 @@ class Screens:
             return None
         return scene_class(0)
 
-    def play(self, name, level=None):
+    def play(self, name: str, level: Path | None = None) -> None:
         """A scene from the menu."""
         arcade = self.arcade
         scene_class = arcade.registry.scene_class(name)
@@ -193,7 +194,7 @@ class Screens:
         scene = scene_class(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
-    def play_first(self):
+    def play_first(self) -> None:
         """The scene that the command line names, with all it says about it."""
         arcade, options = self.arcade, self.arcade.options
         scene_class = arcade.registry.scene_class(options.scene)
@@ -252,7 +253,7 @@ class Screens:
         assert self.played is not None
         return self.played
 
-    def pause(self, message=""):
+    def pause(self, message: str = "") -> None:
         """The pause menu; after the end of a game its result, or its place in the table would be lost."""
         play = self._game()
         if play.scene.result is not None:
@@ -261,7 +262,7 @@ class Screens:
         pairs = help_pairs(play.scene.actions, self.arcade.settings.keys)
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
-    def restart(self):
+    def restart(self) -> None:
         """From the pause menu or the result back into the game, from its start."""
         play = self._game()
         while self.top is not play:
@@ -270,7 +271,7 @@ class Screens:
         self._bring_best(play)
         play.resume()
 
-    def result(self):
+    def result(self) -> None:
         """What came of the game; a run that ranks asks for initials."""
         arcade, play = self.arcade, self._game()
         scene, result = play.scene, play.scene.result
@@ -304,7 +305,7 @@ class Screens:
         screen = ResultScreen(scene, result, place, arcade.settings.initials, enter, play.renews, notes, play.assisted)
         self.stack.append(screen)
 
-    def enter_results(self):
+    def enter_results(self) -> None:
         """The window closes: a place in the table that waits for its initials is taken with those entered last."""
         play = self.played
         if play is not None and play.since_result and not any(screen.shows_result for screen in self.stack):
@@ -312,7 +313,7 @@ class Screens:
         for screen in self.stack:
             screen.accept()
 
-    def save_replay(self):
+    def save_replay(self) -> None:
         """Keep the run so far for good, and say where."""
         play = self._game()
         assert play.recorder is not None  # else the screens do not offer it
@@ -323,7 +324,7 @@ class Screens:
         except OSError as error:
             self.top.tell(f"It could not be saved: {error.strerror or error}")
 
-    def quit(self):
+    def quit(self) -> None:
         """Out of the program."""
         self._leave_play()
         self.arcade.running = False

@@ -5,10 +5,11 @@ from math import pi, sin
 import pygame
 
 from game.drawing.backdrop import Backdrop
-from game.drawing.canvas import SMALL, TEXT, shorten
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED
 from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
+from game.input.inputs import InputState
 from game.screens.parts.rows import LINE, Row, RowList
 from game.screens.screen import CanvasScreen
 
@@ -31,7 +32,7 @@ class Title(CanvasScreen):
 
     tune = "title"
 
-    def __init__(self, message=""):
+    def __init__(self, message: str = "") -> None:
         super().__init__()
         self.backdrop = Backdrop()
         planes = load_atlas("planes")
@@ -48,11 +49,11 @@ class Title(CanvasScreen):
     def _leave(self, outcome):
         self.outcome = outcome
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again."""
         self.idle = 0.0
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         busy = (
@@ -68,7 +69,7 @@ class Title(CanvasScreen):
         if self.idle >= IDLE:
             self.outcome = ("attract",)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.backdrop.draw(canvas, self.time * 40.0)
         self._draw_planes(canvas)

@@ -1,12 +1,18 @@
 """One minute through the overlays: bots play, one layer after the other comes on, two lines say what it shows."""
 
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 import pygame
 
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SLATE
+from game.drawing.presenter import Frame
 from game.errors import UsageError
+from game.files.accessibility import Accessibility
+from game.input.devices import DeviceSource
+from game.run.picture import Picture
+from game.scene import Scene
 from game.screens.parts.demo import Demo
 from game.screens.parts.panel import HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
@@ -117,7 +123,9 @@ class Tour(SceneScreen):
 
     tune = "title"
 
-    def __init__(self, make, names, devices, accessibility):
+    def __init__(
+        self, make: Callable[[str], Scene], names: Sequence[str], devices: DeviceSource, accessibility: Accessibility
+    ) -> None:
         super().__init__()
         self.make, self.devices, self.accessibility = make, devices, accessibility
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
@@ -129,7 +137,7 @@ class Tour(SceneScreen):
         self.panel.focused = False
 
     @property
-    def demo(self):
+    def demo(self) -> Demo:
         """The scene of this stop, played by its bot."""
         name = self.stops[self.at][0][0]
         if name not in self.demos:
@@ -137,7 +145,7 @@ class Tour(SceneScreen):
         return self.demos[name]
 
     @property
-    def begins_in(self):
+    def begins_in(self) -> int:
         """How many steps the bot plays first, fast, up to where there is something to see."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
@@ -152,7 +160,7 @@ class Tour(SceneScreen):
             Row(NOTE, "R restart, F12 a picture"),
         ]
 
-    def advance(self, now):
+    def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]; the next stop when this one has had its time."""
         try:
             due = self.demo.advance(now)
@@ -180,7 +188,7 @@ class Tour(SceneScreen):
         self.shown = 0
         self.demo.clock.rest()
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""
         what = None
         if event.type == pygame.KEYDOWN:
@@ -193,7 +201,7 @@ class Tour(SceneScreen):
             self._go(what)
         return what is not None
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene with this stop's layer, and its card."""
         layer = self.stops[self.at][1]
         demo = self.demo
@@ -240,7 +248,7 @@ class Tour(SceneScreen):
             right = place.left - 12 * scale
 
 
-def card_rect(frame):
+def card_rect(frame: Frame) -> pygame.Rect:
     """Where the card goes: over the lower edge of the game."""
     scale, area = frame.scale_for(CARD[0]), frame.area.clip(frame.rect)
     rect = pygame.Rect(0, 0, min(CARD[0] * scale, area.width), CARD[1] * scale)

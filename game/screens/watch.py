@@ -2,12 +2,18 @@
 
 import pygame
 
+from game.audio.sound import Sounds
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
 from game.drawing.number_text import short_clock
+from game.drawing.presenter import Frame
+from game.files.accessibility import Accessibility
+from game.input.devices import DeviceSource
 from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
 from game.run.outcome import solver_name
+from game.run.picture import Picture
+from game.run.tape import Tape
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
 from game.screens.screen import SceneScreen
@@ -41,7 +47,9 @@ BUTTON_KEYS = {
 class Watch(SceneScreen):
     """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
 
-    def __init__(self, tape, devices, sounds, accessibility, name=""):
+    def __init__(
+        self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
+    ) -> None:
         super().__init__()
         self.tape, self.devices, self.sounds, self.accessibility, self.name = tape, devices, sounds, accessibility, name
         self.overlays = Overlays(tape.scene.overlays)
@@ -55,26 +63,26 @@ class Watch(SceneScreen):
         self.bar = self.button = pygame.Rect(0, 0, 0, 0)  # of the last picture
 
     @property
-    def shows_pointer(self):
+    def shows_pointer(self) -> bool:
         """True while there is something to click."""
         return self.shows_controls or self.panel_open
 
     @property
-    def tune(self):
+    def tune(self) -> str | None:
         """The music of the recorded game."""
         return self.tape.scene.music
 
     @property
-    def failure(self):
+    def failure(self) -> str:
         """Where the game differed from the recording, if it did."""
         return self.tape.diverged
 
     @property
-    def diverged(self):
+    def diverged(self) -> bool:
         """True from the frame on at which the game differed from the recording."""
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
-    def advance(self, now):
+    def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s], or go on towards the frame that is sought."""
         self.devices.next()  # a replay takes no advice
         self.alone += 0.0 if self.before is None else now - self.before
@@ -89,7 +97,7 @@ class Watch(SceneScreen):
         if self.tape.ended and self.tape.goal is None:
             self.clock.paused = True
 
-    def step(self):
+    def step(self) -> None:
         """One recorded step, with its sounds where they are as fast as they were."""
         if not self.tape.ended:
             self.tape.step()
@@ -97,7 +105,7 @@ class Watch(SceneScreen):
             if SPEEDS[self.speed] == 1.0:
                 self.sounds.play_cues(self.tape.scene.cues)
 
-    def toggle(self):
+    def toggle(self) -> None:
         """Freeze or play; at the end, from the start again."""
         if self.tape.ended:
             self.tape.begin_seek(0)
@@ -105,22 +113,22 @@ class Watch(SceneScreen):
         else:
             self.clock.paused = not self.clock.paused
 
-    def turn_speed(self, way):
+    def turn_speed(self, way: int) -> None:
         """The next speed, or the one before."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
         self.clock.pace = SPEEDS[self.speed]
 
-    def leap(self, frames):
+    def leap(self, frames: int) -> None:
         """Go so many frames on or back; from where a search under way leads to."""
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
-    def shows_controls(self):
+    def shows_controls(self) -> bool:
         """False while it just plays: the controls would hide a part of the game."""
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""
         self.alone = 0.0
         if self.panel_open and self.panel.feed(event):
@@ -151,7 +159,7 @@ class Watch(SceneScreen):
         share = (position[0] - self.bar.x) / max(self.bar.width, 1)
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
-    def single(self, way):
+    def single(self, way: int) -> None:
         """Freeze, and go one frame on or back."""
         self.clock.paused = True
         self.leap(way)
@@ -194,7 +202,7 @@ class Watch(SceneScreen):
     def _leave(self):
         self.outcome = ("back",)
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene with what lies over it, and the controls."""
         panel = self.panel if self.panel_open else None
         frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
@@ -270,7 +278,7 @@ def _draw_button(surface, rect, paused, scale):
         surface.fill(GOLD, (x + 5 * scale, y, 3 * scale, high))
 
 
-def watch_rows(watch):
+def watch_rows(watch: Watch) -> list[Row]:
     """Rows of the panel: what is seen can be changed, what happened cannot."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60

@@ -3,9 +3,10 @@
 import pygame
 
 from game.drawing.backdrop import Backdrop
-from game.drawing.canvas import SMALL, TEXT
+from game.drawing.canvas import SMALL, TEXT, Box, Canvas
 from game.drawing.colors import FOG, GOLD, SLATE
 from game.drawing.nine_slice import draw_box
+from game.scene import Scene
 
 DRIFT = 20.0  # [px/s] of the backdrop
 DIMMED = 72  # of 255 that is left of a waiting game's light
@@ -15,10 +16,10 @@ MARGIN = 8  # [canvas px] between a page and the edge of the picture
 class DuskBackground:
     """Mountains that drift."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.backdrop = Backdrop()
 
-    def draw(self, canvas, time):
+    def draw(self, canvas: Canvas, time: float) -> None:
         """Draw it, `time` [s] after the start."""
         self.backdrop.draw(canvas, time * DRIFT, dim=24)
 
@@ -26,10 +27,10 @@ class DuskBackground:
 class SceneBackground:
     """The scene as it stands, darkened; drawn anew each time, so that a changed setting is seen at once."""
 
-    def __init__(self, scene):
+    def __init__(self, scene: Scene) -> None:
         self.scene = scene
 
-    def draw(self, canvas, time):
+    def draw(self, canvas: Canvas, time: float) -> None:
         """Draw it. Its text is only scenery now: menus may cover it, and keep away from it."""
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
@@ -37,7 +38,10 @@ class SceneBackground:
         canvas.reserved.clear()
 
 
-def draw_page(canvas, rect, title, foot=""):
+Background = DuskBackground | SceneBackground
+
+
+def draw_page(canvas: Canvas, rect: Box, title: str, foot: str = "") -> pygame.Rect:
     """A box with a title and a line under it; `foot`: what the keys do here, in the box's last line. Returns the inside."""
     rect = pygame.Rect(rect)
     draw_box(canvas, rect)

@@ -4,6 +4,7 @@ import pygame
 
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
+from game.drawing.presenter import Frame
 
 LINES = (("Tab or Y", "the panel"), ("1 to 9", "see what the physics sees"), ("Esc", "menu: a one-minute tour"))
 FOOT = "Enter or a click puts this away"
@@ -15,10 +16,10 @@ SIZE = (224, 74)  # [text px]
 class HintCard:
     """Shown until it is put away by one of the keys it names, or by a click on it."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.rect = pygame.Rect(0, 0, 0, 0)
 
-    def dismissed_by(self, event, button):
+    def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
         """True if this event puts the card away; `button`: the pad's button it presses, or None."""
         if event.type == pygame.KEYDOWN:
             return event.key in KEYS
@@ -26,7 +27,7 @@ class HintCard:
             return self.rect.collidepoint(event.pos)
         return button in BUTTONS
 
-    def draw(self, frame):
+    def draw(self, frame: Frame) -> None:
         """Draw it where the picture is free, at window resolution."""
         scale = frame.text_scale
         area = frame.area.clip(frame.rect)

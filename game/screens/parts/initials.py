@@ -2,10 +2,11 @@
 
 import pygame
 
-from game.drawing.canvas import TEXT
+from game.drawing.canvas import TEXT, Canvas
 from game.drawing.colors import DUSK, FOG, GOLD, PAPER
 from game.drawing.nine_slice import draw_box
 from game.files.settings import LETTERS
+from game.input.inputs import InputState
 from game.screens.parts.rows import Repeat, confirmed
 
 CELL = (32, 44)  # of a letter with its two arrows
@@ -15,7 +16,7 @@ GAP = 8
 class Initials:
     """`text` is what stands there, `done` True once it was accepted. `at` 0..2 a letter, 3 the OK beside them."""
 
-    def __init__(self, text, x, y, cues):
+    def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
         self.letters = list(text)
         self.cues = cues
         self.at = 0
@@ -25,11 +26,11 @@ class Initials:
         self.pointer = None
 
     @property
-    def text(self):
+    def text(self) -> str:
         """The three letters."""
         return "".join(self.letters)
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take a typed letter; True if the event is used up."""
         if event.type != pygame.KEYDOWN:
             return False
@@ -46,7 +47,7 @@ class Initials:
             self.cues.append("blip")
         return True
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         turn, way = self.vertical.move(inputs, dt), self.sideways.move(inputs, dt)
         if turn and self.at < 3:
@@ -81,7 +82,7 @@ class Initials:
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")
 
-    def draw(self, canvas):
+    def draw(self, canvas: Canvas) -> None:
         """Draw the letters with arrows above and below, and OK."""
         for number, cell in enumerate(self.cells):
             marked = number == self.at

@@ -11,6 +11,7 @@ import pygame
 
 from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import DUSK, FOG, GOLD, INK, NIGHT, PAPER, SKY, SLATE, faded
+from game.drawing.presenter import Frame
 
 HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE = "head", "check", "choice", "slider", "button", "note"
 LIVE = (CHECK, CHOICE, SLIDER, BUTTON)
@@ -38,7 +39,7 @@ class Row:
 class Panel:
     """`rows()` gives the present rows. `focused`: the keyboard works the panel, not the game."""
 
-    def __init__(self, rows):
+    def __init__(self, rows: Callable[[], list[Row]]) -> None:
         self.rows = rows
         self.mark = 0
         self.first = 0  # first row shown, when there are more than fit
@@ -47,7 +48,7 @@ class Panel:
         self.dragged = None  # row number of the slider being dragged
         self.rect = pygame.Rect(0, 0, 0, 0)
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if the panel used it."""
         if event.type == pygame.KEYDOWN and self.focused:
             return self.key(event.key)
@@ -64,7 +65,7 @@ class Panel:
             return True
         return False
 
-    def key(self, key):
+    def key(self, key: int) -> bool:
         """Take a key; True if the panel used it."""
         rows = self.rows()
         row = rows[self.mark] if self.mark < len(rows) else None
@@ -116,7 +117,7 @@ class Panel:
                 self.mark = number
         return self.rect.collidepoint(position)
 
-    def draw(self, frame, rect):
+    def draw(self, frame: Frame, rect: pygame.Rect) -> None:
         """Paint the panel into a frame rect."""
         self.rect = rect
         scale = frame.text_scale
@@ -203,7 +204,7 @@ def _draw_check(surface, x, rect, row, color, scale):
     return box.right + 4 * scale
 
 
-def slider_bar(rect, scale):
+def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
     """The bar of a slider row."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
@@ -213,7 +214,7 @@ def _share(rect, position):
     return max(0.0, min(1.0, (position[0] - rect.x) / max(rect.width, 1)))
 
 
-def act(row, direction=0):
+def act(row: Row, direction: int = 0) -> None:
     """Press or turn a row; a press on something that only turns turns it forward."""
     if direction and row.turn is not None:
         row.turn(direction)

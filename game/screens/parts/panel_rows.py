@@ -1,13 +1,17 @@
 """Which rows the panel has while a scene is played. Everything that changes the simulation goes through
 devices.change, so that a recording holds it."""
 
+from collections.abc import Sequence
+
+from game.overlays.stack import Overlays
 from game.run.loop import SPEEDS
 from game.run.outcome import solver_name
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
+from game.screens.parts.played import Played
 from physics import BROADPHASES
 
 
-def play_rows(play):
+def play_rows(play: Played) -> list[Row]:
     """Rows for a Play screen."""
     scene = play.scene
     return [
@@ -71,7 +75,7 @@ def _switches(play, scene):
     return rows
 
 
-def layer_rows(overlays):
+def layer_rows(overlays: Overlays) -> list[Row]:
     """A check box per overlay layer."""
     return [
         Row(
@@ -136,6 +140,6 @@ def _slider(play, scene, slider):
     )
 
 
-def following(names, name, way):
+def following(names: Sequence[str], name: str, way: int) -> str:
     """The name `way` places on, around the end."""
     return names[(names.index(name) + way) % len(names)]

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import pygame
 
-from game.drawing.canvas import SMALL, TEXT, shorten
+from game.drawing.canvas import SMALL, TEXT, Box, Canvas, shorten
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SKY, SLATE
+from game.input.inputs import InputState
 
 FIRST_WAIT, NEXT_WAIT = 0.4, 0.1  # [s] before a held direction repeats, and between repeats
 GRID = 8
@@ -37,11 +38,11 @@ class Row:
 class Repeat:
     """Turns a held direction into single moves."""
 
-    def __init__(self, names):
+    def __init__(self, names: tuple[str, str]) -> None:
         self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
-    def move(self, inputs, dt):
+    def move(self, inputs: InputState, dt: float) -> int:
         """-1, 0 or +1 in this step."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
@@ -58,7 +59,7 @@ class Repeat:
         return way
 
 
-def confirmed(inputs):
+def confirmed(inputs: InputState) -> bool:
     """True in the step in which a person says yes: Enter, Space or the pad's A."""
     return inputs.pressed("confirm") or inputs.pressed("fire")
 
@@ -66,7 +67,7 @@ def confirmed(inputs):
 class RowList:
     """`rows()` gives the present rows, `rect` is where they go; `cues` is a list that takes the sounds of the menu."""
 
-    def __init__(self, rows, rect, cues, mark=0):
+    def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
         self.rows, self.rect, self.cues = rows, pygame.Rect(rect), cues
         self.first = 0  # first row shown, when there are more than fit
         self.dragged = None  # row number of the bar being dragged
@@ -76,23 +77,23 @@ class RowList:
         self.show_marked()
 
     @property
-    def room(self):
+    def room(self) -> int:
         """How many rows fit."""
         return max(1, self.rect.height // LINE)
 
     @property
-    def marked(self):
+    def marked(self) -> Row | None:
         """The marked row, or None in an empty list."""
         rows = self.rows()
         return rows[self.mark] if self.mark < len(rows) else None
 
-    def place(self, number):
+    def place(self, number: int) -> pygame.Rect | None:
         """Where a row is now, or None while it is scrolled out of sight."""
         if not self.first <= number < self.first + self.room:
             return None
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
 
-    def show_marked(self):
+    def show_marked(self) -> None:
         """Have the mark on a row that can be marked, and scroll as little as brings it and its heading into sight."""
         rows = self.rows()
         live = [number for number, row in enumerate(rows) if not row.head]
@@ -102,7 +103,7 @@ class RowList:
         self.first = max(min(self.first, top), self.mark - self.room + 1)
         self.first = max(0, min(self.first, len(rows) - self.room))
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self._step_mark(self.vertical.move(inputs, dt))
         rows = self.rows()
@@ -170,17 +171,17 @@ class RowList:
             row.turn(1)
             self.cues.append("blip")
 
-    def value_place(self, place):
+    def value_place(self, place: pygame.Rect) -> pygame.Rect:
         """The part of a row that shows its value."""
         wide = min(VALUE_WIDTH, place.width // 2)
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
-    def bar_place(self, place):
+    def bar_place(self, place: pygame.Rect) -> pygame.Rect:
         """The bar of a slider's row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 
-    def draw(self, canvas, focused=True):
+    def draw(self, canvas: Canvas, focused: bool = True) -> None:
         """Draw what is in sight; `focused`: the keys work this list and not another one beside it."""
         rows = self.rows()
         for number in range(self.first, min(len(rows), self.first + self.room)):

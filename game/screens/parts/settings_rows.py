@@ -1,10 +1,11 @@
 """The pages of the settings: which rows each has, and what turning one does to the Settings."""
 
+from collections.abc import Callable
 from functools import partial
 
 from game.drawing.colors import FOG
 from game.files.accessibility import PALETTES
-from game.files.settings import FRAME_CAPS, LARGEST_SCALE, SLOWEST
+from game.files.settings import FRAME_CAPS, LARGEST_SCALE, SLOWEST, Settings
 from game.input.bindings import REBOUND, shown
 from game.input.rebinding import default_table
 from game.screens.parts.rows import Row
@@ -20,7 +21,9 @@ PALETTE_HINTS = {
 }
 
 
-def rows_of(page, settings, changed, wait_for):
+def rows_of(
+    page: str, settings: Settings, changed: Callable[[], None], wait_for: Callable[[str, str], None]
+) -> list[Row]:
     """Rows of a page. changed() is called after each change; wait_for(device, action) asks for a key or button."""
     if page in ("Keyboard", "Controller"):
         return _binding_rows("keys" if page == "Keyboard" else "buttons", settings, changed, wait_for)

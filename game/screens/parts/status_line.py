@@ -3,22 +3,24 @@
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import GOLD, PAPER
+from game.drawing.colors import GOLD, PAPER, Color
+from game.drawing.presenter import Frame
 from game.input.bindings import help_pairs
+from game.screens.parts.played import Played
 
 HELP_SECONDS = 6.0  # how long the keys stay after the start
 RESULT_WAIT = 60  # steps after the end before a key leads on: nobody skips it by holding fire
 SHADE = (20, 16, 32, 225)
 
 
-def draw_status(frame, play):
+def draw_status(frame: Frame, play: Played) -> None:
     """Draw what there is to say of a Play."""
     text, color = status_of(play)
     if text:
         draw_line(frame, text, color)
 
 
-def status_of(play):
+def status_of(play: Played) -> tuple[str, Color]:
     """(text, color) of the line; "" where nothing is to be said."""
     scene, clock = play.scene, play.clock
     if clock.paused:
@@ -35,7 +37,7 @@ def status_of(play):
     return "", PAPER
 
 
-def draw_line(frame, text, color):
+def draw_line(frame: Frame, text: str, color: Color) -> None:
     """In the middle near the bottom, or wherever a line is free."""
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)

@@ -10,16 +10,16 @@ SPREAD = 0.5  # of the time, by which the last strip goes later than the first
 class Wipe:
     """Holds the last picture of the screen that was left, for as long as some of it is seen."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.old = None
         self.started = 0.0
 
-    def begin(self, surface, now):
+    def begin(self, surface: pygame.Surface, now: float) -> None:
         """Keep what is on the surface, to be wiped away from now [s] on."""
         self.old = surface.copy()
         self.started = now
 
-    def draw(self, surface, now, fades=False):
+    def draw(self, surface: pygame.Surface, now: float, fades: bool = False) -> None:
         """Draw what is left of the old picture over the new one."""
         if self.old is None:
             return
