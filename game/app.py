@@ -1,4 +1,4 @@
-"""The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens/stack.py."""
+"""The window's program: events in, fixed steps, a picture out. Which screen is next stands in game/screens/stack.py."""
 
 from collections.abc import Iterator
 from time import perf_counter
@@ -155,7 +155,7 @@ class App:
             self.arcade.apply_settings()
             self.arcade.save_settings()
         elif event.type in (pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED):
-            self.arcade.picture.presenter.frame.surface = pygame.display.get_surface()
+            self.arcade.picture.presenter.frame.surface = pygame.display.get_surface() or self.window
         elif event.type == pygame.DROPFILE:
             self._follow(("watch", event.file))
         else:

@@ -6,18 +6,20 @@ and reads no clock. draw() changes nothing: not the state, not the random number
 """
 
 import gc
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from typing import Any
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
 from game.drawing.flash import Flash
 from game.drawing.particles import Particles
 from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
 from game.input.drag import Drag
-from game.input.inputs import CHANGES, InputState
+from game.input.inputs import CHANGES, InputFrame, InputState
 from physics import BROADPHASES, SOLVERS, Effects, World
 
 STEP_SECONDS = 1.0 / 60.0
@@ -87,27 +89,34 @@ class Scene:
     """
 
     DEFINED = ("build", "update", "draw", "check", "bot", "state")
+    build: Callable[[], None]
+    update: Callable[[InputState], None]
+    draw: Callable[[Canvas, float], None]
+    check: Callable[[], list[Goal]]
+    bot: Callable[[], frozenset[str] | InputFrame]
+    state: Callable[[], tuple]
 
     name = ""  # as in scenes/__init__.py
     title = ""
     about = ""  # one sentence for the menu
     effects = Effects()
     broadphase = "hash"
-    solver = None  # None: the World's own choice
-    solvers = ()  # all that its worlds may use, where there is more than one: compiled before the start
-    features = ()  # short phrases for the menu and --list
-    pieces = None  # of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all
-    sliders = ()
-    actions = ()  # (what to press, what it does) pairs for the help line
-    tiers = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
-    overlays = ()  # overlay layers on from the start
-    legend_at = None  # canvas (x, y) where the overlays' legend goes if it is free
+    solver: str | None = None  # None: the World's own choice
+    solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start
+    features: tuple[str, ...] = ()  # short phrases for the menu and --list
+    # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.
+    pieces: tuple[str, ...] | None = None
+    sliders: tuple[Slider, ...] = ()
+    actions: tuple[tuple[str, str], ...] = ()  # (what to press, what it does) pairs for the help line
+    tiers: tuple[str, ...] = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
+    overlays: tuple[str, ...] = ()  # overlay layers on from the start
+    legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
     hides_pointer = True
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True  # False: the scene's worlds have their own
     music = "lab"  # the tune; a scene may set another on itself, mid-game
-    ranked_by = None  # what its high scores are ordered by: "points", most first, or "seconds", fewest first
-    assists = ()  # those of ASSISTS that it offers
+    ranked_by: str | None = None  # what high scores are ordered by: "points", most first, or "seconds", fewest first
+    assists: tuple[str, ...] = ()  # those of ASSISTS that it offers
     takes_level = False  # True: `level` may name a file to play instead of the scene's own
     level_suffix = ""  # of such files, ".tmj" or ".json": which of the player's own the menu lists
 
@@ -130,15 +139,15 @@ class Scene:
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
-        self.values = {slider.name: slider.start for slider in self.sliders}
-        self.assist = {name: ASSISTS[name] for name in self.assists}
+        self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
+        self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}
         self.accessibility = Accessibility()
-        self.ghost = None  # the trail of an earlier run, to be seen beside this one; set from outside
+        self.ghost: list[tuple] | None = None  # the trail of an earlier run, seen beside this one; set from outside
         self.best = 0  # points of the best run so far, to be shown; set from outside too
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
-        self.built = set()  # names of the attributes that build() made
+        self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
     def restart(self) -> None:
@@ -147,13 +156,15 @@ class Scene:
         self._drop_last_run()
         self.frame = 0
         self.random = Random(self.seed)
-        self.cues = []  # (sound, canvas x, volume) of this step; the app plays them
-        self.worlds = []
+        self.cues: list[
+            tuple[str, float | None, float]
+        ] = []  # (sound, canvas x, volume) of this step; the app plays them
+        self.worlds: list[World] = []
         self.camera = Camera()
         self.camera.shake_share = self.accessibility.shake
         self.flash = Flash()
-        self.result = None  # a Result when the game has ended; who plays it decides what comes then
-        self.trail = []  # rows of where the player was in each step, for a ghost in later runs
+        self.result: Result | None = None  # a Result when the game has ended; who plays it decides what comes then
+        self.trail: list[tuple] = []  # rows of where the player was in each step, for a ghost in later runs
         self.particles.clear()
         before = set(vars(self))
         self.build()

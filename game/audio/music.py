@@ -18,7 +18,7 @@ DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
 
 
 class Music:
-    """`playing` is the tune or jingle that is heard, None in silence. `report` is called with one line per unusable file."""
+    """`playing`: the tune or jingle that is heard, None in silence. `report` is called once per unusable file."""
 
     def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
         self.folder, self.report = folder, report
@@ -50,8 +50,9 @@ class Music:
     def pause(self) -> None:
         """Be silent from the next step on.
 
-        The mixer's own pause and unpause are not called: they wait for the sound thread with the interpreter's lock held,
-        while that thread, when an effect has just ended, waits for this lock. The program then stands still for good.
+        The mixer's own pause and unpause are not called: they wait for the sound thread with the interpreter's lock
+        held, while that thread, when an effect has just ended, waits for this lock. The program then stands still for
+        good.
         """
         self.paused = True
 

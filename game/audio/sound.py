@@ -1,7 +1,7 @@
 """Sound: effects with a few voices each, panned and varied in pitch, over music; silence where there is no device.
 
-Seen from the game this is only output: nothing here is read back by a scene, and the variation has random numbers of its
-own. A buffer of 512 samples (12 ms): larger ones are heard as lag, smaller ones pop.
+Seen from the game this is only output: nothing here is read back by a scene, and the variation has random numbers of
+its own. A buffer of 512 samples (12 ms): larger ones are heard as lag, smaller ones pop.
 """
 
 import math
@@ -52,7 +52,7 @@ RANKS = {
 class Voice:
     """One channel of the mixer and what it last played. `started`: the number of that start."""
 
-    channel: object
+    channel: pygame.mixer.Channel
     name: str = ""
     rank: int = LAST
     started: int = 0
@@ -78,12 +78,12 @@ class Sounds:
         self.master, self.effects, self.music = master, effects, music
         self.folder, self.report, self.clock = folder, report, clock
         self.random = Random(4)  # only heard; never a game's
-        self.samples = {}  # name -> int16 samples, None for a file that cannot be used
-        self.variants = {}  # name -> {pitch: pygame Sound}
+        self.samples: dict[str, np.ndarray | None] = {}  # name -> int16 samples, None for a file that cannot be used
+        self.variants: dict[str, dict[float, pygame.mixer.Sound]] = {}  # name -> {pitch: pygame Sound}
         self.last_pitch = {}
         self.last_start = {}  # name -> when [s]
         self.starts = 0
-        self.voices = []
+        self.voices: list[Voice] = []
         self.player = Music(report, music_folder)
         self.silent_because = "sound is off" if silent else self._open()
 
@@ -116,7 +116,7 @@ class Sounds:
         sound = self._variant(name)
         rank = RANKS.get(name, 1)
         voice = self._voice_for(name, rank) if sound else None
-        if voice is None:
+        if sound is None or voice is None:
             return False
         left, right = pan(x)
         voice.channel.play(sound)
@@ -143,13 +143,14 @@ class Sounds:
         """The sound at one of its pitches, never the same twice running; None for a file that cannot be used."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
-        if self.samples[name] is None:
+        samples = self.samples[name]
+        if samples is None:
             return None
         pitches = (1.0,) if name in STEADY else [each for each in PITCHES if each != self.last_pitch.get(name)]
         pitch = self.last_pitch[name] = self.random.choice(pitches)
         made = self.variants.setdefault(name, {})
         if pitch not in made:
-            made[pitch] = pygame.mixer.Sound(buffer=stereo(resampled(self.samples[name], pitch)))
+            made[pitch] = pygame.mixer.Sound(buffer=stereo(resampled(samples, pitch)))
         return made[pitch]
 
     def _read(self, name):

@@ -15,7 +15,7 @@ CLOUD_TOP = 18
 class Backdrop:
     """Parallax layers that repeat in x."""
 
-    def __init__(self, layers: Sequence[tuple[str, float, int]] = DUSK, sky: str = "sky_dusk") -> None:
+    def __init__(self, layers: Sequence[tuple[str, float, int | None]] = DUSK, sky: str = "sky_dusk") -> None:
         self.sky = load_backdrop(sky)
         self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
 

@@ -46,7 +46,7 @@ BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color: Color, palette: str) -> Color:
-    """An overlay's colour as a palette of game.files.accessibility.PALETTES has it; alpha, where there is one, is kept."""
+    """An overlay's colour as a palette of game.files.accessibility.PALETTES has it; its alpha, if any, is kept."""
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:

@@ -8,12 +8,13 @@ from game.input.drag import Drag, to_world
 
 
 def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
-    """Draw the line, a ring where the body is held and a dot at the pointer [canvas px]; nothing where nothing is held."""
-    if drag.camera is None:
+    """Draw the line, a ring where the body is held, a dot at the pointer [canvas px]; nothing while nothing is held."""
+    hold = drag.hold
+    if hold is None:
         return
-    lens, width = frame.lens(drag.camera), max(1, frame.scale - 1)
-    start = lens.points(*drag.held_point())
-    end = lens.points(*to_world(drag.camera, pointer))
+    lens, width = frame.lens(hold.camera), max(1, frame.scale - 1)
+    start = lens.points(*hold.point())
+    end = lens.points(*to_world(hold.camera, pointer))
     surface = frame.surface
     pygame.draw.line(surface, INK, start, end, width + 2)
     pygame.draw.line(surface, GOLD, start, end, width)

@@ -1,7 +1,7 @@
 """Flashes of the whole picture: one place that makes them, so that they can be limited and left out.
 
-At most two begin within a second, and none adds more than a third of white: half of what WCAG 2.3.1 allows (three general
-flashes a second).
+At most two begin within a second, and none adds more than a third of white: half of what WCAG 2.3.1 allows (three
+general flashes a second).
 """
 
 import pygame

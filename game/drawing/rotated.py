@@ -4,6 +4,7 @@ A picture is enlarged eight times by Scale2x, which keeps its edges, and then sa
 (the idea of RotSprite). What was turned once is kept.
 """
 
+from collections.abc import Mapping
 from math import ceil, cos, floor, hypot, pi, sin
 from typing import TypeVar
 
@@ -73,7 +74,7 @@ class RotatedPicture:
 class Cast:
     """Which picture each body of a world has; draws them all in the order of their ids."""
 
-    def __init__(self, atlas: Atlas) -> None:
+    def __init__(self, atlas: Atlas | Mapping[str, pygame.Surface]) -> None:
         self.atlas = atlas
         self.turned = {}  # name -> RotatedPicture
         self.looks = {}  # body id -> name

@@ -1,7 +1,5 @@
 """A tile layer as pictures: drawn once in chunks, then blitted, so a level of any length costs the same."""
 
-from collections.abc import Sequence
-
 import pygame
 
 from game.drawing.camera import Camera
@@ -16,7 +14,7 @@ CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are
 class TilePicture:
     """draw() paints one layer of a TileMap through a camera."""
 
-    def __init__(self, tilemap: TileMap, layer: str, tiles: Sequence[pygame.Surface] | None = None) -> None:
+    def __init__(self, tilemap: TileMap, layer: str, tiles: pygame.Surface | None = None) -> None:
         self.map, self.layer = tilemap, layer
         self.sheet = tiles if tiles is not None else _sheet(tilemap)
         self.chunks = {}

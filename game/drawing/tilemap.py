@@ -40,7 +40,7 @@ class Thing:
 class TileMap:
     """A level. `layers[name]`: (rows, columns) tile numbers, -1 empty. `tiles[number]`: properties."""
 
-    path: object
+    path: Path
     columns: int
     rows: int
     tile_size: int
@@ -261,6 +261,7 @@ class _Reader:
             if not isinstance(entry, dict):
                 self.fail(here, "is not an object")
             kind = entry.get("type") or entry.get("class") or ""
-            numbers = [self.number(entry, here, name) for name in ("x", "y", "width", "height")]
-            found.append(Thing(str(kind), str(entry.get("name", "")), *numbers, self.properties(entry, here), here))
+            x, y, width, height = (self.number(entry, here, name) for name in ("x", "y", "width", "height"))
+            name, properties = str(entry.get("name", "")), self.properties(entry, here)
+            found.append(Thing(str(kind), name, x, y, width, height, properties, here))
         return found

@@ -58,8 +58,8 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError when the
-    folder cannot be written; the old file is then untouched.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError
+    when the folder cannot be written; the old file is then untouched.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -93,7 +93,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
         content = path.read_bytes()
     except OSError:
         return path.rename(next(kept for kept in names if not kept.exists()))
-    for kept in names:
+    while True:
+        kept = next(names)
         try:
             with open(kept, "xb") as file:
                 file.write(content)

@@ -63,7 +63,7 @@ class Records:
         return place
 
     def save(self) -> str:
-        """Write the file, with what another window of the game has put into it; raises OSError when that is not possible.
+        """Write the file, with what another window of the game has put into it. Raises OSError where it cannot.
 
         Returns "" or a message about the file that was there, as load_records does.
         """

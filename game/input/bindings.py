@@ -3,13 +3,13 @@
 A key may mean several actions (Space fires and jumps), as long as no one game uses two of them: `rivals` says which.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import pygame
 
 from game.input.inputs import ACTIONS
 
-Table = dict[str, Sequence[str]]  # action -> names of keys or buttons
+Table = Mapping[str, Sequence[str]]  # action -> names of keys or buttons
 
 # What a player may change. The first name of each is the one that the settings show and change.
 DEFAULT_KEYS = {
@@ -115,7 +115,7 @@ def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """{action: names} -> {button name: actions}, the fixed buttons with them. Raises ValueError naming what is wrong."""
+    """{action: names} -> {button name: actions}, with the fixed buttons. Raises ValueError naming what is wrong."""
     return _turned({**names, **FIXED_BUTTONS}, _button)
 
 
@@ -129,7 +129,7 @@ def _turned(names, read):
     return {control: tuple(actions) for control, actions in table.items()}
 
 
-def _code(key):
+def _code(key: str) -> int:
     """The key code of a key name. The table is pygame's constants, so that no display is needed."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):

@@ -6,6 +6,7 @@ any stiffness and for any mass, and it is capped in proportion to the mass.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import cos, hypot, pi, sin
 from typing import Protocol
 
@@ -24,33 +25,60 @@ REACH = 4.0  # [canvas px] how far beside a body a press may be: a card is 2 px 
 
 
 class View(Protocol):
-    """What a drag asks of a camera: the world point at its left top corner, its zoom, and its place on the canvas."""
+    """What is asked of a camera: the world point at its left top corner, its zoom, and its place on the canvas."""
 
     x: float
     y: float
     zoom: float
     viewport: pygame.Rect
 
+    def view(self, alpha: float = 1.0) -> tuple[float, float]:
+        """The world point at its left top corner as it is drawn, a shake included."""
+        ...
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A body in hand. `grip`: the grabbed point in body space [px]; `before`: the velocity to fly on with, or None."""
+
+    body: Body
+    world: World
+    camera: View
+    grip: tuple[float, float]
+    before: tuple[float, float] | None
+
+    def point(self) -> tuple[float, float]:
+        """The grabbed point in the world [px]."""
+        (x, y), angle = self.body.position, self.body.angle
+        c, s = cos(angle), sin(angle)
+        return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
+
+    def is_there(self) -> bool:
+        """True while the world has the body."""
+        return bool((self.world.bodies["id"] == self.body.id).any())
+
 
 class Drag:
-    """One pointer's hold on at most one body of a scene."""
+    """One pointer's hold on at most one body of a scene; `hold` is None while nothing is held."""
 
     def __init__(self) -> None:
-        self.body = None
-        self.release()
+        self.hold: Hold | None = None
 
     @property
     def holds(self) -> bool:
         """True while a body is held."""
-        return self.body is not None
+        return self.hold is not None
+
+    @property
+    def held(self) -> int:
+        """Id of the body that is held, -1 for none."""
+        return -1 if self.hold is None else self.hold.body.id
 
     def release(self) -> None:
         """Let go. What flies without forces flies on as before."""
-        if self.holds and self.before is not None and (self.world.bodies["id"] == self.body.id).any():
-            self.body.velocity = self.before
-        self.before = None
-        self.body = self.world = self.camera = None
-        self.grip = (0.0, 0.0)  # [px] the grabbed point in body space
+        hold, self.hold = self.hold, None
+        if hold is not None and hold.before is not None and hold.is_there():
+            hold.body.velocity = hold.before
 
     def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
         """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
@@ -58,10 +86,10 @@ class Drag:
             self._grab(inputs.pointer, views)
         elif not inputs.pointer_down:
             self.release()
-        if self.holds and not self._still_there(views):
+        if self.hold is not None and not _goes_on(self.hold, views):
             self.release()
-        if self.holds:
-            self._pull(to_world(self.camera, inputs.pointer))
+        if self.hold is not None:
+            _pull(self.hold, to_world(self.hold.camera, inputs.pointer))
 
     def _grab(self, pointer, views):
         self.release()
@@ -71,40 +99,34 @@ class Drag:
             point = to_world(camera, pointer)
             body = body_at(world, point, REACH / camera.zoom)
             if body is not None:
-                self.body, self.world, self.camera = body, world, camera
-                self.before = None if has_forces(world.effects) else body.velocity
                 x, y = point[0] - body.position[0], point[1] - body.position[1]
                 c, s = cos(body.angle), sin(body.angle)
-                self.grip = (c * x + s * y, c * y - s * x)
+                before = None if has_forces(world.effects) else body.velocity
+                self.hold = Hold(body, world, camera, (c * x + s * y, c * y - s * x), before)
             return
 
-    def _still_there(self, views):
-        if not any(world is self.world for world, _ in views):
-            return False  # the scene was filled anew
-        return bool((self.world.bodies["id"] == self.body.id).any()) and can_be_held(self.body)
 
-    def held_point(self) -> tuple[float, float]:
-        """The grabbed point in the world [px]."""
-        (x, y), angle = self.body.position, self.body.angle
-        c, s = cos(angle), sin(angle)
-        return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
+def _goes_on(hold, views):
+    """False where the scene was filled anew, or the body is gone or can no longer be held."""
+    return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
-    def _pull(self, target):
-        world, body = self.world, self.body
-        body.wake()
-        turns = world.effects.rotation
-        point = self.held_point()
-        if not has_forces(world.effects):
-            body.velocity = tuple(FOLLOW * (goal - at) for goal, at in zip(target, point, strict=True))
-            return
-        row = world.bodies[world.rows([body.id])[0]]
-        force = spring_force(row, point, target, world.dt, turns)
-        most = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
-        size = hypot(*force)
-        share = most / size if size > most else 1.0
-        body.apply_force((force[0] * share, force[1] * share), point)
-        if turns:
-            body.apply_torque(-SPIN_DAMPING * float(row["inertia"]) * body.angular_velocity)
+
+def _pull(hold, target):
+    world, body = hold.world, hold.body
+    body.wake()
+    turns = world.effects.rotation
+    point = hold.point()
+    if not has_forces(world.effects):
+        body.velocity = (FOLLOW * (target[0] - point[0]), FOLLOW * (target[1] - point[1]))
+        return
+    row = world.bodies[world.rows([body.id])[0]]
+    force = spring_force(row, point, target, world.dt, turns)
+    most = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
+    size = hypot(*force)
+    share = most / size if size > most else 1.0
+    body.apply_force((force[0] * share, force[1] * share), point)
+    if turns:
+        body.apply_torque(-SPIN_DAMPING * float(row["inertia"]) * body.angular_velocity)
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:

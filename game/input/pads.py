@@ -1,4 +1,4 @@
-"""The controllers that are plugged in, kept by instance id, which never changes and is never reused while the program runs."""
+"""The controllers that are plugged in, by instance id, which never changes and is never used again in one run."""
 
 from types import ModuleType
 

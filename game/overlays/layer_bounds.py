@@ -40,10 +40,8 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
     small = np.flatnonzero(~large)
     kinds, which = np.unique((colors[small] << 16) | (wide[small] << 8) | high[small], return_inverse=True)
     images = [outline(tones[kind >> 16], kind >> 8 & 255, kind & 255) for kind in kinds.tolist()]
-    blit_many(
-        frame.surface,
-        list(zip(map(images.__getitem__, which.tolist()), zip(left[small].tolist(), top[small].tolist()))),
-    )
+    places = zip(left[small].tolist(), top[small].tolist(), strict=True)
+    blit_many(frame.surface, [(images[i], place) for i, place in zip(which.tolist(), places, strict=True)])
 
 
 @lru_cache(maxsize=2048)

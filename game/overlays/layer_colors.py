@@ -48,11 +48,13 @@ class Colors(Layer):
             cx, cy = lens.points(bodies["center_x"][owner], bodies["center_y"][owner])
             for i in np.flatnonzero(moves).tolist():
                 color = frame.tone(color_of(int(rows["color"][seen[i]])))
-                pygame.draw.line(frame.surface, color, (x[seen[i]], y[seen[i]]), (cx[i], cy[i]))
+                pygame.draw.line(
+                    frame.surface, color, (float(x[seen[i]]), float(y[seen[i]])), (float(cx[i]), float(cy[i]))
+                )
         for i in seen.tolist():
             color = int(rows["color"][i])
             tone = frame.tone(color_of(color))
-            pygame.draw.circle(frame.surface, tone, (x[i], y[i]), 2 * frame.scale)
+            pygame.draw.circle(frame.surface, tone, (float(x[i]), float(y[i])), 2 * frame.scale)
             if len(self.labels) < LABEL_BUDGET:
                 self.labels.append((f"{color}" if color >= 0 else "-", float(x[i]), float(y[i]), tone))
 

@@ -30,9 +30,10 @@ class Features(Layer):
         self.total += len(rows)
         if len(rows) == 0:
             return
-        x, y = lens.points(rows["point_x"], rows["point_y"])
-        seen = seen_points(lens, x, y)[: self.room]
-        for x, y, feature in zip(x[seen].tolist(), y[seen].tolist(), rows["feature"][seen].tolist(), strict=True):
+        across, down = lens.points(rows["point_x"], rows["point_y"])
+        seen = seen_points(lens, across, down)[: self.room]
+        features = rows["feature"][seen].tolist()
+        for x, y, feature in zip(across[seen].tolist(), down[seen].tolist(), features, strict=True):
             color = frame.tone(SERIES[feature % len(SERIES)])
             pygame.draw.circle(frame.surface, color, (x, y), frame.scale)
             self.labels.append((text_of(feature), x, y, color))

@@ -45,7 +45,7 @@ class Filters(Layer):
 
     def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
-        lines = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
+        lines: list[LegendLine] = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
         listed = list(self.kinds.items())
         for (membership, mask), (color, count) in listed[:KINDS_LISTED]:
             lines.append((color, f"{count} x {_bits(membership)} meets {_bits(mask)}"))

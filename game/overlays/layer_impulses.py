@@ -19,7 +19,7 @@ FADE = 0.95  # a step: how slowly the scale comes down after a blow
 
 
 class Impulses(Layer):
-    """Red: the push along the normal, on B or on the one that can move. Yellow: friction. One scale, named in the legend."""
+    """Red: the push along the normal, on B or on what can move. Yellow: friction. The legend names the scale."""
 
     name, title, key, color = "impulses", "Impulses", "9", RED
 
@@ -48,18 +48,12 @@ class Impulses(Layer):
         self.drawn += len(seen)
         scale = REFERENCE * frame.scale / self.unit if self.unit else 0.0
         scale = scale * np.where(can_move(world.bodies, rows["body_b"][seen]), 1.0, -1.0)
-        nx, ny, push, rub = (rows[name][seen] for name in ("normal_x", "normal_y", "normal_impulse", "tangent_impulse"))
-        for x, y, nx, ny, push, rub in zip(
-            x[seen].tolist(),
-            y[seen].tolist(),
-            nx.tolist(),
-            ny.tolist(),
-            (push * scale).tolist(),
-            (rub * scale).tolist(),
-            strict=True,
-        ):
-            arrow(frame, x, y, nx * push, ny * push, RED)
-            arrow(frame, x, y, -ny * rub, nx * rub, YELLOW)
+        shown = rows[seen]
+        push, rub = shown["normal_impulse"] * scale, shown["tangent_impulse"] * scale
+        columns = (x[seen], y[seen], shown["normal_x"], shown["normal_y"], push, rub)
+        for at_x, at_y, nx, ny, along, across in zip(*(column.tolist() for column in columns), strict=True):
+            arrow(frame, at_x, at_y, nx * along, ny * along, RED)
+            arrow(frame, at_x, at_y, -ny * across, nx * across, YELLOW)
 
     def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""

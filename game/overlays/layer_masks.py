@@ -51,7 +51,8 @@ class Masks(Layer):
         )
         self.total += len(x)
         self.drawn += len(seen)
-        pairs = list(zip(map(images.__getitem__, found.which[seen].tolist()), zip(x[seen].tolist(), y[seen].tolist())))
+        places = zip(x[seen].tolist(), y[seen].tolist(), strict=True)
+        pairs = [(images[i], place) for i, place in zip(found.which[seen].tolist(), places, strict=True)]
         canvas.surface.set_clip(view)
         blit_many(canvas.surface, pairs)
         canvas.surface.set_clip(None)

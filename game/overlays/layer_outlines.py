@@ -1,5 +1,6 @@
 """Outlines: the exact shapes that collide, whatever is drawn over them. Masks have a layer of their own."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,11 @@ from physics.tables import MASK
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
 
+Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, open from below
+
 
 class Outlines(Layer):
-    """Every shape's own outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
+    """Every shape's outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
@@ -68,7 +71,7 @@ class Outlines(Layer):
         ]
 
 
-def edges_of(grid: Any, lens: Lens, x: float, y: float) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
     """Frame lines around the cells in view of a TileGrid at (x, y): (start, end, one way) each."""
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip

@@ -46,7 +46,7 @@ class Times(Layer):
         self.mean = {}
         self.counters = {}
         self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
-        self.sheet, self.sheet_for = None, None
+        self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
 
     def note(self, scene: Scene) -> None:
         """Take the measurements of the last step."""

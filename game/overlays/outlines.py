@@ -1,6 +1,7 @@
 """Thin lines around shapes of every kind, as physics.debug hands them out: what overlays and labs draw with."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import atan2, ceil, cos, hypot, pi, sin
 
 import numpy as np
@@ -29,7 +30,7 @@ def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list
         steps = _steps(2 * pi, radius, scale)
         return [(x + radius * cos(2 * pi * i / steps), y + radius * sin(2 * pi * i / steps)) for i in range(steps)]
     if radius <= 0.0:
-        return [tuple(point) for point in points]
+        return [(x, y) for x, y in points]
     facing = []
     for i in range(count):
         (ax, ay), (bx, by) = points[i], points[(i + 1) % count]
@@ -119,7 +120,7 @@ def _draw_ticks(surface, clip, points, color, scale):
     """Hatching below a chain: it is solid on the side its normal does not show to."""
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
-    for (ax, ay), (bx, by) in zip(points, points[1:]):
+    for (ax, ay), (bx, by) in pairwise(points):
         length = hypot(bx - ax, by - ay)
         if length == 0.0 or not room.clipline((ax, ay), (bx, by)):
             continue

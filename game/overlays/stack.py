@@ -122,7 +122,7 @@ class Overlays:
                 shade = pygame.Surface(size, pygame.SRCALPHA)
                 shade.fill((*faded(NIGHT, 0.5), 190))
                 frame.surface.blit(shade, place)
-                draw_legend(frame, shown, *place, scale)
+                draw_legend(frame, shown, place[0], place[1], scale)
                 return
 
     def _active(self, on_canvas):

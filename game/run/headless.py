@@ -11,7 +11,7 @@ import pygame
 from game.errors import UsageError
 from game.overlays.stack import Overlays
 from game.registry import Registry
-from game.run.options import DEFAULT_FRAMES, Options, make_scene
+from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
 from game.run.outcome import Check, RunReport, judge, not_judged
 from game.run.picture import Picture, save_png
 from game.run.replay import Recorder
@@ -34,7 +34,7 @@ def run_headless(options: Options, registry: Registry) -> int:
     """Run --frames steps and report. Returns the exit code."""
     start_dummy_display()
     # Kernels first, so that the times below are of steps and not of the compiler.
-    warm_up_scene(registry.scene_class(options.scene), options.broadphase, options.solver)
+    warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     scene = make_scene(options, registry)
     recording = options.recording
     frames = options.last_frame or DEFAULT_FRAMES
@@ -54,7 +54,7 @@ def run_headless(options: Options, registry: Registry) -> int:
                 picture.draw_scene(scene, overlays)
                 session.report.note_drawing(perf_counter() - started)
     finally:
-        if recorder is not None:
+        if recorder is not None and options.record:
             save_or_fail(recorder.save, options.record)
     if options.screenshot:
         save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)

@@ -1,4 +1,4 @@
-"""A histogram of times whose memory does not grow: bins a hundredth wide, and the exact mean and maximum beside them."""
+"""A histogram of times whose memory does not grow: bins a hundredth wide, and the exact mean and maximum."""
 
 from math import floor, log
 

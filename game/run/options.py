@@ -51,7 +51,14 @@ class Options:
         return self.frames or (self.recording.frames if self.recording else None)
 
 
+def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
+    """The class of the scene that the options name; they must name one."""
+    assert options.scene is not None
+    return registry.scene_class(options.scene)
+
+
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """The scene that the options ask for, which must name one. Raises FileError for a level with a mistake."""
-    scene_class = registry.scene_class(options.scene or "")
-    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier, options.level)
+    """The scene that the options ask for. Raises FileError for a level with a mistake."""
+    return scene_class_of(options, registry)(
+        options.seed or 0, options.broadphase, options.solver, options.tier, options.level
+    )

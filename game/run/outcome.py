@@ -97,7 +97,7 @@ class RunReport:
         return lines
 
 
-def solver_name(scene: Scene) -> str:
+def solver_name(scene: Scene) -> str | None:
     """The solver that runs, also where the scene left the choice to the World."""
     return scene.worlds[0].solver if scene.worlds else scene.solver
 

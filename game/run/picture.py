@@ -107,7 +107,7 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:
-    """Write a surface as PNG, whatever the file is called, whole or not at all; raises OSError when that is not possible."""
+    """Write a surface as PNG, whatever the file is called, whole or not at all. Raises OSError where it cannot."""
     picture = BytesIO()
     pygame.image.save(surface, picture, "picture.png")
     write_atomically(path, picture.getvalue(), makes_folder=False)

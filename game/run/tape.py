@@ -1,7 +1,7 @@
 """A recording being played: forward step by step, and to any frame by key frames.
 
-A key frame is a deep copy of the scene and its input; no rule of a game paints, so its pictures may be shared. They lie KEY_SECONDS apart, further in a recording so long that
-there would be more than MOST_KEYS: `spacing` says how far.
+A key frame is a deep copy of the scene and its input; no rule of a game paints, so its pictures may be shared. They
+lie KEY_SECONDS apart, further in a recording so long that there would be more than MOST_KEYS: `spacing` says how far.
 """
 
 import copy

@@ -47,21 +47,21 @@ def part_of(progress: Progress | None, index: int, parts: int) -> Progress | Non
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
     """--warmup: every scene under every broad phase. Returns the exit code."""
-    out = out or sys.stdout
+    stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()
     for index, scene_class in enumerate(classes):
 
-        def show(done, total, name, index=index):
-            draw_bar(out, (index + done / max(total, 1)) / len(classes), name)
+        def show(done, total, name, index=index, stream=stream):
+            draw_bar(stream, (index + done / max(total, 1)) / len(classes), name)
 
         names = solvers_of(scene_class)
         for part, name in enumerate(names):
             physics.warmup(scene_class.effects, "all", name, progress=part_of(show, part, len(names)))
-    draw_bar(out, 1.0, "ready")
-    if out.isatty():
-        out.write("\n")
-    out.write(
+    draw_bar(stream, 1.0, "ready")
+    if stream.isatty():
+        stream.write("\n")
+    stream.write(
         f"{len(classes)} scenes, {len(physics.BROADPHASES)} broad phases: "
         f"kernels ready after {perf_counter() - started:.1f} s\n"
     )

@@ -42,8 +42,8 @@ KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than thes
 class Play(SceneScreen):
     """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
 
-    settings: the player's, or None in a test. last_frame: the step that the run ends with, None for no end. A person's run
-    is recorded in `recorder`, from its last restart on.
+    settings: the player's, or None in a test. last_frame: the step that the run ends with, None for no end. A
+    person's run is recorded in `recorder`, from its last restart on.
     """
 
     takes_game_input = True
@@ -229,7 +229,8 @@ class Play(SceneScreen):
         """Take an event before the game does; True if it is used up."""
         if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
             self.hint = None
-            self.settings.hint_seen = True
+            if self.settings is not None:
+                self.settings.hint_seen = True
             self.settings_changed()
             if event.type == pygame.MOUSEBUTTONDOWN:
                 return True

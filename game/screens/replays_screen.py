@@ -1,6 +1,7 @@
 """The replays of this user: what each is, and watching, keeping and finding it."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pygame
@@ -70,8 +71,12 @@ class ReplaysScreen(CanvasScreen):
         if self.read.get(path, (None, ""))[0] is not None:
             rows.append(Row("Watch", press=lambda: self._go(("watch", path))))
             if not kept:
-                rows.append(Row("Keep", press=self._keep))
-        return [*rows, Row("Copy the path", press=self._copy), Row("Back to the list", press=self._close)]
+                rows.append(Row("Keep", press=partial(self._keep, path)))
+        return [
+            *rows,
+            Row("Copy the path", press=partial(self._copy, path)),
+            Row("Back to the list", press=self._close),
+        ]
 
     def _leave(self):
         self.outcome = ("back",)
@@ -85,16 +90,16 @@ class ReplaysScreen(CanvasScreen):
     def _close(self):
         self.inside = False
 
-    def _keep(self):
+    def _keep(self, chosen):
         try:
-            path = keep(self.chosen[0])
+            path = keep(chosen)
             self.message = f"Kept as {path.name}: it stays until you delete it."
         except OSError as error:
             self.message = f"It could not be kept: {error.strerror or error}"
         self.resume()
 
-    def _copy(self):
-        path = str(self.chosen[0])
+    def _copy(self, chosen):
+        path = str(chosen)
         copied = self.copy(path)
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
@@ -150,15 +155,15 @@ class ReplaysScreen(CanvasScreen):
                 canvas.text(shorten(line, width, SMALL), x, y, FOG, SMALL)
                 y += 9
             return
-        for text, color, font, height in self._about(width):
+        for text, color, font, height in self._about(self.chosen, width):
             if text:
                 canvas.text(text, x, y, color, font)
             y += height
         self.card.draw(canvas, self.inside)
 
-    def _about(self, width):
+    def _about(self, chosen, width):
         """(text, color, font, height) lines about the chosen replay."""
-        path, kept = self.chosen
+        path, kept = chosen
         replay, reason = self.read.get(path, (MISSING, ""))
         if replay is MISSING:
             return [("reading ..", FOG, TEXT, 12)]

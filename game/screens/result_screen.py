@@ -49,9 +49,14 @@ class ResultScreen(CanvasScreen):
         self.time = 0.0
 
     @property
+    def asked(self) -> Initials | None:
+        """The initials while they are asked for."""
+        return self.initials if self.initials is not None and not self.initials.done else None
+
+    @property
     def entering(self) -> bool:
         """True while initials are asked for."""
-        return self.initials is not None and not self.initials.done
+        return self.asked is not None
 
     def _rows(self):
         rows = [Row("Again", press=lambda: self._leave(("again",)))]
@@ -66,15 +71,16 @@ class ResultScreen(CanvasScreen):
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Typed letters of the initials; True if the event is used up."""
-        return self.entering and self.initials.feed(event)
+        return self.asked is not None and self.asked.feed(event)
 
     def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
-        if self.entering:
-            self.initials.step(inputs, dt)
-            if self.initials.done:
-                self.enter(self.initials.text)
+        asked = self.asked
+        if asked is not None:
+            asked.step(inputs, dt)
+            if asked.done:
+                self.enter(asked.text)
             elif inputs.pressed("cancel"):
                 self.accept()
             return
@@ -89,9 +95,10 @@ class ResultScreen(CanvasScreen):
 
     def accept(self) -> None:
         """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
-        if self.entering:
-            self.initials.done = True
-            self.enter(self.initials.text)
+        asked = self.asked
+        if asked is not None:
+            asked.done = True
+            self.enter(asked.text)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
@@ -109,10 +116,10 @@ class ResultScreen(CanvasScreen):
         for number, line in enumerate(lines[:3]):
             text = shorten(str(line), PAGE[2] - 32, SMALL)
             canvas.text(text, x, y + 72 + 9 * number, FOG, SMALL, 1, "center")
-        if self.place is not None:
-            self._draw_place(canvas, x, y + 110)
-        if self.entering:
-            self.initials.draw(canvas)
+        if self.place is not None and self.initials is not None:
+            self._draw_place(canvas, x, y + 110, self.place, self.initials)
+        if self.asked is not None:
+            self.asked.draw(canvas)
             keys = "\u2191 \u2193 letter   \u2190 \u2192 place   or type   Enter goes on"
             canvas.text(keys, x, 206, FOG, SMALL, 1, "center")
             return
@@ -124,9 +131,7 @@ class ResultScreen(CanvasScreen):
         canvas.text(label, x, y, GOLD, SMALL, 1, align)
         canvas.text(value, x, y + 8, SKY, TEXT, 2, align)
 
-    def _draw_place(self, canvas, x, y):
-        words = "the best run so far" if self.place == 1 else f"place {self.place} of the table"
-        text = (
-            f"{self.initials.text}   {words}" if self.initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
-        )
-        canvas.text(text, x, y, PAPER if self.place > 1 else GOLD, TEXT, 1, "center")
+    def _draw_place(self, canvas, x, y, place, initials):
+        words = "the best run so far" if place == 1 else f"place {place} of the table"
+        text = f"{initials.text}   {words}" if initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
+        canvas.text(text, x, y, PAPER if place > 1 else GOLD, TEXT, 1, "center")

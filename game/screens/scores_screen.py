@@ -52,7 +52,7 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
 
 
 class ScoresScreen(CanvasScreen):
-    """`outcome` becomes ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
+    """`outcome`: ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
 """What the program asks of the screen on top; every screen answers for itself.
 
-A screen is drawn on the canvas and moved in fixed steps (CanvasScreen), or it shows a scene, keeps its own time and draws
-at the window's resolution (SceneScreen).
+A screen is drawn on the canvas and moved in fixed steps (CanvasScreen), or it shows a scene, keeps its own time and
+draws at the window's resolution (SceneScreen).
 """
 
 from abc import ABC, abstractmethod

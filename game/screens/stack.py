@@ -1,4 +1,4 @@
-"""The stack of screens, and what each outcome of a screen leads to. What a screen is stands in game/screens/screen.py."""
+"""The stack of screens, and what each outcome of a screen leads to. A screen is what game/screens/screen.py says."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +10,7 @@ from game.files.best_run import keep_ghost, load_ghost
 from game.files.data_folder import free_name
 from game.files.records import Entry
 from game.input.bindings import help_pairs
-from game.run.options import make_scene
+from game.run.options import make_scene, scene_class_of
 from game.run.replay_check import load_replay_for
 from game.run.replay_shelf import put_recent, replays_folder
 from game.run.tape import Tape
@@ -197,7 +197,7 @@ class Screens:
     def play_first(self) -> None:
         """The scene that the command line names, with all it says about it."""
         arcade, options = self.arcade, self.arcade.options
-        scene_class = arcade.registry.scene_class(options.scene)
+        scene_class = scene_class_of(options, arcade.registry)
         arcade.compile_for(scene_class, options.solver, options.broadphase)
         scene = make_scene(options, arcade.registry)
         self._begin(

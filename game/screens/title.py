@@ -1,4 +1,4 @@
-"""The title: two planes pass, their boxes meet, and only where pixels meet does it say HIT. Left alone, it shows games."""
+"""The title: two planes pass, their boxes meet, and only where pixels meet it says HIT. Left alone, it shows games."""
 
 from math import pi, sin
 

@@ -196,7 +196,7 @@ class Tour(SceneScreen):
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             what = next((does for rect, does in self.places if rect.collidepoint(event.pos)), None)
         else:
-            what = BUTTONS.get(self.devices.pressed_button(event))
+            what = BUTTONS.get(self.devices.pressed_button(event) or "")
         if what is not None:
             self._go(what)
         return what is not None

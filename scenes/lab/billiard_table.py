@@ -22,10 +22,10 @@ def cushions():
     shapes = []
     for y, way in ((top, -1), (bottom, 1)):
         for a, b in ((left + CORNER_GAP, middle - SIDE_GAP), (middle + SIDE_GAP, right - CORNER_GAP)):
-            shapes.append(Polygon([(a, y), (b, y), (b + JAW, y + way * DEEP), (a - JAW, y + way * DEEP)]))
+            shapes.append(Polygon(((a, y), (b, y), (b + JAW, y + way * DEEP), (a - JAW, y + way * DEEP))))
     for x, way in ((left, -1), (right, 1)):
         a, b = top + CORNER_GAP, bottom - CORNER_GAP
-        shapes.append(Polygon([(x, a), (x, b), (x + way * DEEP, b + JAW), (x + way * DEEP, a - JAW)]))
+        shapes.append(Polygon(((x, a), (x, b), (x + way * DEEP, b + JAW), (x + way * DEEP, a - JAW))))
     wide, high, deep = CLOTH.width + 2 * DEEP, CLOTH.height + 2 * DEEP, 40
     for x, y, width, height in (
         (CLOTH.centerx, top - DEEP - deep / 2, wide + 2 * deep, deep),
@@ -49,7 +49,7 @@ def rack(random):
 
 
 def first_in_the_way(start, heading, balls):
-    """How far [px] a cue ball runs from `start` before it meets a ball or a cushion's line, and that ball's place or None.
+    """How far [px] a cue ball runs from `start` to a ball or a cushion's line, and that ball's place or None.
 
     heading: a unit vector; balls: places of the other balls.
     """
@@ -71,7 +71,7 @@ def first_in_the_way(start, heading, balls):
 
 
 def best_point(cue, balls):
-    """Where the cue ball has to be to send a ball into a pocket, in whole canvas pixels: the straightest and nearest."""
+    """Where the cue ball has to be to send a ball into a pocket [whole canvas px]: the straightest and nearest."""
     x, y = cue
     best = (-2.0, (round(x) + 40, round(y)))
     for bx, by in balls:

@@ -71,7 +71,7 @@ def signed_distance(points, radius, x, y):
     x, y = np.asarray(x, float), np.asarray(y, float)
     nearest = np.full(x.shape, np.inf)
     inside = np.full(x.shape, len(points) > 2)
-    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0)):
+    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0), strict=True):
         dx, dy = bx - ax, by - ay
         length = dx * dx + dy * dy
         share = np.clip(((x - ax) * dx + (y - ay) * dy) / length, 0.0, 1.0) if length > 0.0 else 0.0

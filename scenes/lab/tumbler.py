@@ -45,8 +45,8 @@ KINDS = (
     ("disc", Circle(10)),
     ("brick", Polygon.box(28, 12)),
     ("pill", Capsule((-6, 0), (6, 0), 6)),
-    ("hexagon", Polygon(ring(6, 24, 0.0))),
-    ("triangle", Polygon(ring(3, 28, -pi / 2))),
+    ("hexagon", Polygon(tuple(ring(6, 24, 0.0)))),
+    ("triangle", Polygon(tuple(ring(3, 28, -pi / 2)))),
 )
 THINNEST = 12.0  # [px] bricks and pills
 

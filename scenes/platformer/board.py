@@ -1,4 +1,4 @@
-"""Words and numbers over the picture: counters, names of acts, signs that are read, the iris of a new life, the result."""
+"""Words and numbers over the picture: counters, acts' names, signs that are read, the iris, the result."""
 
 from functools import lru_cache
 

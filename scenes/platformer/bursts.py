@@ -1,4 +1,4 @@
-"""What flies in the platformer: dust, grit, sparks and confetti, each with its colours. All of it is seen and never felt.
+"""What flies in the platformer: dust, grit, sparks and confetti, each with its colours; seen and never felt.
 
 Every function takes the scene's Particles and a place in the world [px]; speeds are px/s, lives s.
 """

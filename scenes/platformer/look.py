@@ -1,4 +1,4 @@
-"""What is only seen and heard: squash and stretch, dust, trails, sparkles, the light of an act. No rule reads any of it."""
+"""What is only seen and heard: squash and stretch, dust, trails, sparkles, an act's light. No rule reads any of it."""
 
 from math import exp
 
@@ -133,7 +133,8 @@ class Look:
         elif hero.pushing and abs(hero.vx) > 20.0 and scene.frame % 7 == 0:
             self._dust(2, hero.facing * 10, speed=(8, 26))
         elif hero.sliding and scene.frame % 4 == 0:
-            bursts.slide(scene.particles, *hero.character.position, hero.sliding)
+            x, y = hero.character.position
+            bursts.slide(scene.particles, x, y, hero.sliding)
         for crumble in scene.things.crumbles:
             if crumble.shaking and scene.frame % 3 == 0:
                 bursts.trickle(scene.particles, crumble.box)
@@ -206,7 +207,8 @@ class Look:
                 self._dust(14, 0, speed=(20, 90))
                 self.scene.camera.shake(0.22)
             elif word == "wall_jump":
-                bursts.wall_jump(self.scene.particles, *self.scene.hero.character.position, self.scene.hero.facing)
+                x, y = self.scene.hero.character.position
+                bursts.wall_jump(self.scene.particles, x, y, self.scene.hero.facing)
             elif word == "launch":
                 bursts.launch(self.scene.particles, *self._feet())
 

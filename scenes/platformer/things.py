@@ -77,7 +77,7 @@ class Trigger:
             user=self.kind,
         )
         self.lit = False
-        self.touched = None
+        self.touched: int | None = None
 
     @property
     def foot(self):

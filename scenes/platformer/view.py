@@ -225,7 +225,7 @@ class View:
         x, y = between(scene.hero.before, scene.hero.character.position, alpha)
         yield x - self.left, y - self.top, "hero"
 
-    # --- the hero ------------------------------------------------------------------------------------------------------
+    # --- the hero ----------------------------------------------------------------------------------------------------
 
     def _draw_hero(self, canvas, scene, alpha):
         hero, look = scene.hero, scene.look
@@ -336,7 +336,7 @@ def strode(animation, way, stride):
 
 
 def lowered(level, hero):
-    """How far below his box the hero is drawn [px]: on a slope the box stands on its corner, his feet at their middle."""
+    """How far below his box the hero is drawn [px]: on a slope it stands on its corner, his feet at their middle."""
     if hero.slope == 0.0:
         return 0.0
     left, _, right, bottom = hero.box

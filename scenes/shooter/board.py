@@ -25,7 +25,7 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's top left."""
+    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's corner."""
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view

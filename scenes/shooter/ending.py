@@ -1,4 +1,4 @@
-"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and its bonuses are counted.
+"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and bonuses counted.
 
 `scene.result` is set once, at the very end; then the picture stands and keys do nothing.
 """

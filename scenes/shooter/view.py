@@ -127,7 +127,7 @@ class View:
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """(picture, place, whiteness) of what is in the air, the player last; (picture, place) of what is on the ground."""
+        """(picture, place, whiteness) of all in the air, the player last; (picture, place) of what is on the ground."""
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
         if fleet:

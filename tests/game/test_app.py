@@ -292,8 +292,7 @@ def test_the_tour_is_a_minute_and_can_be_walked(drive):
     d.mark("Tour of the overlays")
     d.turns(60)
     assert d.name == "Tour"
-    for number in range(3):
-        d.key(K.K_RIGHT)
+    d.key(K.K_RIGHT, K.K_RIGHT, K.K_RIGHT)
     assert d.screen.at == 3 and d.screen.demo.overlays.on == {d.screen.stops[3][1]}
     d.key(K.K_LEFT)
     d.pad("rb")

@@ -1,7 +1,7 @@
 """Full-screen flashes: at most three a second whatever happens, none for who asks for none.
 
-A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker side
-under 0.8, over a quarter of the picture or more.
+A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker
+side under 0.8, over a quarter of the picture or more.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ AREA = 0.25  # of the picture
 
 
 def squares(surface):
-    """Luminance of each square of a canvas, by its mean colour: the whole picture's pixels would take ten times as long."""
+    """Luminance of each square of a canvas, by its mean colour: all its pixels would take ten times as long."""
     width, height = surface.get_size()
     return luminance(pygame.surfarray.array3d(pygame.transform.smoothscale(surface, (width // BLOCK, height // BLOCK))))
 

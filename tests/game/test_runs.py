@@ -1,4 +1,4 @@
-"""A person's runs: each attempt its own recording, help noticed, results ranked, ghosts kept; files that cannot be used."""
+"""A person's runs: each attempt its own recording, help noticed, results ranked, ghosts kept, damaged files told."""
 
 import json
 

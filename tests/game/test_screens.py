@@ -232,7 +232,8 @@ def test_replays(tmp_path):
     check(screen)
     settled(screen)
     assert [replay is None for replay, _ in screen.read.values()].count(True) == 2
-    for screen.list.mark in range(len(screen.entries) + 1):
+    for mark in range(len(screen.entries) + 1):
+        screen.list.mark = mark
         screen.list.show_marked()
         screen.inside = screen.chosen is not None
         check(screen)

@@ -1,4 +1,4 @@
-"""Effects: every file plays, few voices at once, what matters is never lost to what does not, and no file can crash a game."""
+"""Effects: every file plays, few voices at once, what matters is never lost, and no file can crash a game."""
 
 import ast
 import wave

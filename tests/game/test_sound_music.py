@@ -1,4 +1,4 @@
-"""Music: a tune fades into the next, a jingle comes between, a loud effect pushes it back, and no file can crash a game."""
+"""Music: a tune fades into the next, a jingle comes between, a loud effect pushes it back, no file crashes a game."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Closing the window while kernels were compiled was a traceback, except from the menu: at the start, in the tour, for a solver."""
+"""Closing the window while kernels compiled was a traceback, except from the menu: at the start, in the tour."""
 
 import pygame
 import pytest

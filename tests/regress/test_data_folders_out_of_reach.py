@@ -1,4 +1,4 @@
-"""A data folder that may not be looked into, or whose name no system takes, was a traceback at the start and in the menus."""
+"""A data folder that may not be looked into, or whose name no system takes, was a traceback at start and in menus."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A recording of a few bytes could ask for all memory, or stop the program with a traceback: repeats, pointers, level names.
+"""A recording of a few bytes could ask for all memory, or end in a traceback: repeats, pointers, level names.
 
 Dates and points without end made a line of text that took gigabytes to draw.
 """

@@ -1,7 +1,7 @@
 """A replay that was gone once it was listed, or a link to nowhere, stopped the program when the replays were opened.
 
-In recent/, a link or a folder made every kept run look as if it could not be kept; and where the clock had been set back,
-the run just played was the oldest, and went.
+In recent/, a link or a folder made every kept run look as if it could not be kept; and where the clock had been set
+back, the run just played was the oldest, and went.
 """
 
 import os

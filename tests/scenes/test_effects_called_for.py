@@ -1,6 +1,7 @@
 """The ledger of the games: an effect that a scene declares changes what happens, one that it does not call for nothing.
 
-The same recorded keys are played with one effect taken out, or put in. What cannot even be built without it is called for.
+The same recorded keys are played with one effect taken out, or put in. What cannot even be built without it is called
+for.
 """
 
 from dataclasses import fields

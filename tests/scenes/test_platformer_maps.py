@@ -1,4 +1,4 @@
-"""Maps with a mistake: file, place, reason. And maps that are right: a copy elsewhere, a changed one, one without decor."""
+"""Maps with a mistake: file, place, reason. And maps that are right: a copy elsewhere, a changed one, a bare one."""
 
 import json
 import os

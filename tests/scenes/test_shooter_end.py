@@ -98,7 +98,7 @@ def test_a_restart_forgets_everything():
     assert sky.scene.result is None and sky.scene.score.points == 0 and sky.scene.director.grounds[0][1] == "sea"
 
 
-# --- points ----------------------------------------------------------------------------------------------------------------
+# --- points ----------------------------------------------------------------------------------------------------------
 
 
 class Target:

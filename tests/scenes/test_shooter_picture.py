@@ -1,4 +1,4 @@
-"""The shooter's picture: text keeps clear of text, bullets can be read anywhere, palettes and flashes as the player wants."""
+"""The shooter's picture: text keeps clear of text, bullets can be read, palettes and flashes as the player wants."""
 
 from itertools import combinations
 

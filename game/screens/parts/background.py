@@ -42,7 +42,7 @@ Background = DuskBackground | SceneBackground
 
 
 def draw_page(canvas: Canvas, rect: Box, title: str, foot: str = "") -> pygame.Rect:
-    """A box with a title and a line under it; `foot`: what the keys do here, in the box's last line. Returns the inside."""
+    """A box with a title and a line under it; `foot`: what the keys do, in the box's last line. Returns the inside."""
     rect = pygame.Rect(rect)
     draw_box(canvas, rect)
     canvas.text(title, rect.x + 16, rect.y + 9, GOLD, TEXT, 2)

@@ -45,7 +45,7 @@ def _switches(play, scene):
             Row(
                 CHOICE,
                 "Solver",
-                solver_name(scene).replace("_", " "),
+                (solver_name(scene) or "").replace("_", " "),
                 "V",
                 turn=lambda way: play.switch_solver(way),
                 hint="how overlaps are resolved",
@@ -140,6 +140,6 @@ def _slider(play, scene, slider):
     )
 
 
-def following(names: Sequence[str], name: str, way: int) -> str:
+def following(names: Sequence[str], name: str | None, way: int) -> str:
     """The name `way` places on, around the end."""
     return names[(names.index(name) + way) % len(names)]

@@ -70,8 +70,8 @@ class RowList:
     def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
         self.rows, self.rect, self.cues = rows, pygame.Rect(rect), cues
         self.first = 0  # first row shown, when there are more than fit
-        self.dragged = None  # row number of the bar being dragged
-        self.pointer = None
+        self.dragged: int | None = None  # row number of the bar being dragged
+        self.pointer: tuple[int, int] | None = None
         self.vertical, self.sideways = Repeat(("up", "down")), Repeat(("left", "right"))
         self.mark = mark
         self.show_marked()
@@ -119,7 +119,7 @@ class RowList:
             self.mark = under
             self._click(rows[under], under, inputs.pointer)
         elif self.dragged is not None and inputs.pointer_down:
-            self._drag(inputs.pointer)
+            self._drag(self.dragged, inputs.pointer)
         elif confirmed(inputs):
             self._act(row, 0)
         else:
@@ -140,25 +140,30 @@ class RowList:
     def _row_at(self, pointer):
         rows = self.rows()
         for number in range(self.first, min(len(rows), self.first + self.room)):
-            if not rows[number].head and self.place(number).collidepoint(pointer):
+            place = self.place(number)
+            if place is not None and not rows[number].head and place.collidepoint(pointer):
                 return number
         return None
 
     def _click(self, row, number, pointer):
-        value = self.value_place(self.place(number))
+        place = self.place(number)
+        if place is None:
+            return
+        value = self.value_place(place)
         if row.put is not None and pointer[0] >= value.x:
             self.dragged = number
-            self._drag(pointer)
+            self._drag(number, pointer)
         elif row.turn is not None and pointer[0] >= value.x:
             self._act(row, 1 if pointer[0] >= value.centerx else -1)
         else:
             self._act(row, 0)
 
-    def _drag(self, pointer):
-        rows, place = self.rows(), self.place(self.dragged)
-        if self.dragged < len(rows) and place is not None and rows[self.dragged].put is not None:
+    def _drag(self, number, pointer):
+        rows, place = self.rows(), self.place(number)
+        put = rows[number].put if number < len(rows) else None
+        if place is not None and put is not None:
             bar = self.bar_place(place)
-            rows[self.dragged].put(max(0.0, min(1.0, (pointer[0] - bar.x) / bar.width)))
+            put(max(0.0, min(1.0, (pointer[0] - bar.x) / bar.width)))
 
     def _act(self, row, way):
         if way and row.turn is not None:
