@@ -12,7 +12,7 @@ from typing import NoReturn
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.files.own_levels import level_digest
-from game.overlays import LAYER_NAMES
+from game.overlays.layer import LAYER_NAMES
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options
 from game.run.replay import LARGEST_SEED

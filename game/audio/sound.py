@@ -52,7 +52,7 @@ RANKS = {
 class Voice:
     """One channel of the mixer and what it last played. `started`: the number of that start."""
 
-    channel: pygame.mixer.Channel
+    channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer refuses the name, and plays on in silence
     name: str = ""
     rank: int = LAST
     started: int = 0

@@ -8,6 +8,25 @@ from physics import World
 
 LegendLine = tuple[Color, str]
 
+# What --overlay takes, in the order of the panel: keys 1 to 9, then letters.
+LAYER_NAMES = (
+    "bounds",
+    "motion",
+    "structure",
+    "pairs",
+    "masks",
+    "contacts",
+    "filters",
+    "times",
+    "impulses",
+    "features",
+    "islands",
+    "colors",
+    "centers",
+    "ghosts",
+    "outlines",
+)
+
 
 class Layer:
     """`key`: the key that switches it; `color`: of its check box and of its first legend line."""

@@ -42,8 +42,7 @@ KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than thes
 class Play(SceneScreen):
     """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
 
-    settings: the player's, or None in a test. last_frame: the step that the run ends with, None for no end. A
-    person's run is recorded in `recorder`, from its last restart on.
+    settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
     """
 
     takes_game_input = True
@@ -58,11 +57,10 @@ class Play(SceneScreen):
         records: bool = False,
         overlays: Iterable[str] | None = None,
         settings: Settings | None = None,
-        last_frame: int | None = None,
     ) -> None:
         super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
-        self.last_frame = last_frame
+        self.last_frame: int | None = None  # the step that the run ends with, None for no end
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records  # each attempt is a recording of its own

@@ -200,19 +200,18 @@ class Screens:
         scene_class = scene_class_of(options, arcade.registry)
         arcade.compile_for(scene_class, options.solver, options.broadphase)
         scene = make_scene(options, arcade.registry)
-        self._begin(
-            Play(
-                scene,
-                arcade.devices,
-                arcade.sounds,
-                options.bot,
-                options.recording,
-                bool(options.record),
-                options.overlay,
-                arcade.settings,
-                options.last_frame,
-            )
+        play = Play(
+            scene,
+            arcade.devices,
+            arcade.sounds,
+            options.bot,
+            options.recording,
+            bool(options.record),
+            options.overlay,
+            arcade.settings,
         )
+        play.last_frame = options.last_frame
+        self._begin(play)
 
     def _begin(self, play):
         scene_class = type(play.scene)

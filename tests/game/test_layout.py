@@ -6,7 +6,7 @@ import pytest
 import physics
 from game.audio.sound import Sounds
 from game.input.devices import DeviceSource
-from game.overlays import LAYER_NAMES
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.picture import Picture

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from game.input.inputs import InputFrame, InputState
-from game.overlays import LAYER_NAMES
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_features import text_of
 from game.overlays.layer_impulses import short, step_of
 from game.overlays.layer_islands import hull_of

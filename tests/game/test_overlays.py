@@ -7,7 +7,7 @@ import pytest
 from game.audio.sound import Sounds
 from game.input.devices import DeviceSource
 from game.input.inputs import InputFrame, InputState
-from game.overlays import LAYER_NAMES
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_pairs import Pairs
 from game.overlays.stack import Overlays
 from game.run.digest import scene_digest

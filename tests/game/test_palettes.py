@@ -8,7 +8,7 @@ import pytest
 
 from game.drawing.colors import SERIES, toned
 from game.files.accessibility import PALETTES, Accessibility
-from game.overlays import LAYER_NAMES
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.stack import Overlays
 from game.run.picture import Picture
 from tests.game.test_overlays import Crowd, stepped
