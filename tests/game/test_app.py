@@ -175,6 +175,15 @@ def test_a_run_left_early_is_a_recent_replay(drive):
     assert replay.scene == "arena" and replay.result is None and replay.frames >= 150
 
 
+def test_a_lost_focus_pauses_nothing_that_nobody_plays(drive):
+    d = drive("--scene", "arena", "--bot")
+    d.turns(3)
+    before = d.screen.scene.frame
+    d.post(K.WINDOWFOCUSLOST)
+    d.turns(3)
+    assert d.name == "Play" and d.screen.scene.frame > before
+
+
 def test_focus_and_pad_lost_pause(drive):
     d = drive("--scene", "arena")
     d.turns(3)
