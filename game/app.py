@@ -1,36 +1,36 @@
-"""The window's program: events in, fixed steps, a picture out. Which screen is next is told in game/screens/stack.py."""
+"""The window's program: events in, fixed steps, a picture out. Which screen is next stands in game/screens/stack.py."""
 
+from collections.abc import Iterator
 from time import perf_counter
 
 import pygame
 
-from game.devices import DeviceSource, Pads
+from game.drawing.canvas import SMALL
 from game.drawing.colors import GOLD
-from game.drawing.draw import SMALL
-from game.drawing.picture import Picture, save_png
+from game.drawing.presenter import Frame
+from game.drawing.window import open_window
 from game.errors import UsageError
 from game.files.data_folder import data_folder, free_name
-from game.files.records import load_records
-from game.files.settings import load_settings, save_settings
-from game.headless import finish, save_or_fail
-from game.inputs import InputState
-from game.loop import STEP_SECONDS, FixedStep
-from game.screens.loading import Loading, LoadingStopped
-from game.screens.pause_menu import PauseMenu
-from game.screens.play import Play
-from game.screens.stack import Screens
-from game.screens.watch import Watch
-from game.screens.wipe import Wipe
-from game.sound import Sounds
+from game.files.settings import Settings, load_settings
+from game.input.inputs import InputState
+from game.registry import Registry
+from game.run.headless import finish, save_or_fail
+from game.run.loop import FixedStep
+from game.run.options import Options
+from game.run.picture import save_png
+from game.scene import STEP_SECONDS
+from game.screens.arcade import Arcade
+from game.screens.loading import LoadingStopped
+from game.screens.parts.wipe import Wipe
+from game.screens.screen import Outcome
+from game.screens.stack import AnyScreen, Screens
 from game.startup import say
-from game.warmup import warm_up_scene
-from game.window import mode_of, open_window, set_mode
 
 IDLE_SECONDS = 0.002  # rest between frames when the display does not wait for its refresh
 QUIET = 0.3  # of the music's volume while nobody plays
 
 
-def run_app(options, registry):
+def run_app(options: Options, registry: Registry) -> int:
     """Open the window and run until it is closed. Returns the exit code."""
     settings, message = load_settings()
     say(message)
@@ -43,93 +43,65 @@ def run_app(options, registry):
 
 
 class App:
-    """What all screens share, and the loop that runs the one on top."""
+    """The loop that runs the screen on top; what screens share is in `arcade`, which is next in `screens`."""
 
-    def __init__(self, options, registry, settings, surface, message=""):
-        self.options, self.registry, self.settings = options, registry, settings
-        self.records, lost = load_records()
-        say(lost)
-        self.picture = Picture(surface)
-        self.pads = Pads()
-        self.devices = DeviceSource(self.picture.presenter.to_canvas, settings.keys, self.pads, settings.buttons)
-        self.sounds = Sounds(settings.master, settings.effects, settings.music)
-        say(self.sounds.silent_because)
-        self.mode = mode_of(settings)
+    def __init__(
+        self, options: Options, registry: Registry, settings: Settings, surface: pygame.Surface, message: str = ""
+    ) -> None:
+        self.options, self.settings = options, settings
+        self.arcade = Arcade(options, registry, settings, surface, message)
+        self.screens = Screens(self.arcade)
         self.inputs = InputState()
-        self.clock = FixedStep()
+        self.clock = FixedStep()  # of the menus: a scene keeps its own time
         self.wipe = Wipe()
         self.frame_seconds = STEP_SECONDS
-        self.before = None
-        self.running = True
-        self.screens = Screens(self)
-        self._open_first(message or lost)
-        self.apply_settings()
-
-    def _open_first(self, message):
-        recording = self.options.recording
-        try:
-            if recording is not None and not self._is_a_run():
-                self.screens.stack.append(self.screens.watching(self.options.replay))
-            elif self.options.scene:
-                self.screens.play_first()
-            else:
-                self.screens.title(message)
-        except LoadingStopped:
-            self.screens.title(message)
-            self.stop_if_closed()
-
-    def _is_a_run(self):
-        """True for a run that the command line measures or saves: it is about one scene, and ends with it."""
-        o = self.options
-        return bool(o.frames or o.record or o.json or o.profile or o.screenshot)
+        self.before: float | None = None
+        self.screens.open_first()
+        self.arcade.apply_settings()
 
     @property
-    def screen(self):
+    def screen(self) -> AnyScreen:
         """The screen on top."""
         return self.screens.top
 
-    def run(self):
+    @property
+    def window(self) -> pygame.Surface:
+        """The window's surface."""
+        return self.arcade.picture.presenter.frame.surface
+
+    def run(self) -> int:
         """The loop. Returns the exit code."""
-        code = 0
         try:
-            while self.running:
+            while self.arcade.running:
                 self.turn()
         finally:
             self._save_what_is_open()
         play = self.screens.played
         if play is not None and self.options.scene:
             if self.options.screenshot:
-                frame = self.picture.presenter.frame
-                save_or_fail(lambda path: save_png(frame.surface, path), self.options.screenshot)
-            recording = self.options.recording
-            code = finish(
-                play.scene, play.session.report, self.options, self.options.bot or bool(recording and recording.bot)
-            )
-        elif isinstance(self.screen, Watch) and self.screen.tape.diverged:
-            say(self.screen.tape.diverged)
-            code = 1
-        return code
+                save_or_fail(lambda path: save_png(self.window, path), self.options.screenshot)
+            return finish(play.scene, play.session.report, self.options)
+        say(self.screen.failure)
+        return 1 if self.screen.failure else 0
 
-    def turn(self):
+    def turn(self) -> None:
         """One turn of the loop: events, due steps, one picture."""
         started = perf_counter()
         try:
             for event in pygame.event.get():
                 self._feed(event)
-            if hasattr(self.screen, "advance"):
-                self._turn_scene(started)
-            else:
-                self._turn_menu(started)
+            frame = self.screen.turn(started, self._menu_steps(started), self.arcade.picture)
+            self._after_drawing(frame)
         except UsageError as error:
-            if self._is_a_run():
+            if self.options.is_a_run:
                 raise
             self.screens.complain(error)
             self._arrive()
             return
         except LoadingStopped:
-            self.stop_if_closed()
+            self.arcade.stop_if_closed()
             return
-        self.wipe.draw(self.picture.presenter.frame.surface, started, self.settings.reduced_flashing)
+        self.wipe.draw(self.window, started, self.settings.reduced_flashing)
         self._sound(started)
         pygame.mouse.set_visible(self.screen.shows_pointer)
         pygame.display.flip()
@@ -137,60 +109,37 @@ class App:
         if self.screen.outcome is not None:
             self._follow(self.screen.outcome)
 
-    def _turn_scene(self, now):
-        """A screen that shows a scene: it keeps its own time and draws at the window's resolution."""
-        screen = self.screen
-        if isinstance(screen, Play):
-            screen.advance(now, self.options.frames)
-            drawn = perf_counter()
-        else:
-            screen.advance(now)
-        frame = screen.draw(self.picture)
-        if self.settings.show_fps:
-            frame.text_if_free(
-                f"{self.frame_seconds * 1000:.1f} ms a frame",
-                frame.area.right - 4,
-                frame.area.top + 4,
-                GOLD,
-                SMALL,
-                frame.text_scale,
-                "right",
-                True,
-            )
-        if isinstance(screen, Play):
-            screen.session.report.note_drawing(perf_counter() - drawn)
-            self._end_run(screen)
-
-    def _end_run(self, play):
-        if play.wants_screenshot:
-            play.wants_screenshot = False
-            self._save_screenshot(play.scene.name)
-        ended = self.options.frames or (self.options.recording and self.options.recording.frames)
-        if ended and play.session.report.steps >= ended and self.options.scene:
-            self.running = False
-
-    def _turn_menu(self, now):
-        screen = self.screen
+    def _menu_steps(self, now: float) -> Iterator[InputState]:
+        """The input of each step that is due at `now` [s]. A screen that keeps its own time asks for none."""
         for _ in range(self.clock.advance(now)):
-            self.inputs.set(self.devices.next())
-            screen.step(self.inputs, STEP_SECONDS)
-            if screen.outcome is not None:
-                break
-        self.picture.draw_screen(screen)
+            self.inputs.set(self.arcade.devices.next())
+            yield self.inputs
 
-    def _sound(self, now):
-        """The menu's sounds and the tune of this moment."""
+    def _after_drawing(self, frame: Frame | None) -> None:
+        if frame is not None and self.settings.show_fps:
+            text = f"{self.frame_seconds * 1000:.1f} ms a frame"
+            x, y = frame.area.right - 4, frame.area.top + 4
+            frame.text_if_free(text, x, y, GOLD, SMALL, frame.text_scale, "right", True)
         screen = self.screen
-        if getattr(screen, "cues", None):
-            self.sounds.play_cues([(name, None, 1.0) for name in screen.cues])
+        if screen.wants_screenshot:
+            screen.wants_screenshot = False
+            self._save_screenshot()
+        if screen.finished:
+            self.arcade.running = False
+
+    def _sound(self, now: float) -> None:
+        """The menu's sounds and the tune of this moment."""
+        screen, sounds = self.screen, self.arcade.sounds
+        if screen.cues:
+            sounds.play_cues([(name, None, 1.0) for name in screen.cues])
             screen.cues.clear()
         if screen.tune is not None:
-            self.sounds.tune(screen.tune)
-        self.sounds.music = self.settings.music * (QUIET if getattr(screen, "quiet", False) else 1.0)
-        self.sounds.step(0.0 if self.before is None else now - self.before)
+            sounds.tune(screen.tune)
+        sounds.music = self.settings.music * (QUIET if screen.quiet else 1.0)
+        sounds.step(0.0 if self.before is None else now - self.before)
         self.before = now
 
-    def _rest(self, started):
+    def _rest(self, started: float) -> None:
         """Wait for the next picture, so that an unpaced display does not burn a core."""
         spent = perf_counter() - started
         self.frame_seconds += (spent - self.frame_seconds) * 0.05
@@ -198,94 +147,66 @@ class App:
         if spent < wanted:
             pygame.time.wait(max(1, int((wanted - spent - IDLE_SECONDS) * 1000)))
 
-    def _feed(self, event):
+    def _feed(self, event: pygame.event.Event) -> None:
         if event.type == pygame.QUIT:
-            self.running = False
+            self.arcade.running = False
         elif event.type == pygame.KEYDOWN and event.key == pygame.K_F11:
             self.settings.fullscreen = not self.settings.fullscreen
-            self.apply_settings()
-            self.save_settings()
+            self.arcade.apply_settings()
+            self.arcade.save_settings()
         elif event.type in (pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED):
-            self.picture.presenter.frame.surface = pygame.display.get_surface()
+            self.arcade.picture.presenter.frame.surface = pygame.display.get_surface() or self.window
         elif event.type == pygame.DROPFILE:
             self._follow(("watch", event.file))
         else:
-            if event.type == pygame.WINDOWFOCUSLOST and isinstance(self.screen, Play) and self.screen.person:
-                self.screen.outcome = self.screen.outcome or ("pause", "")
-            if not (hasattr(self.screen, "feed") and self.screen.feed(event)):
-                self.devices.feed(event)
+            if event.type == pygame.WINDOWFOCUSLOST:
+                self.screen.lose_focus()
+            if not self.screen.feed(event):
+                self.arcade.devices.feed(event)
 
-    def stop_if_closed(self):
-        """End the program if the window's closing waits in the queue: it was what stopped the loading."""
-        self.running = self.running and not pygame.event.peek(pygame.QUIT)
-
-    def _follow(self, outcome):
+    def _follow(self, outcome: Outcome) -> None:
         """Go where the top screen leads; the old picture is wiped away."""
         if outcome[0] == "menu" and self.screens.played is not None:
-            if self.options.scene and (self._is_a_run() or self.options.recording):
-                self.running = False  # such a run is about one scene; leaving it ends the program
+            if self.options.scene and (self.options.is_a_run or self.options.recording):
+                self.arcade.running = False  # such a run is about one scene; leaving it ends the program
                 self.screen.outcome = None
                 return
             self.options.scene = None
-        self.wipe.begin(self.picture.presenter.frame.surface, perf_counter())
+        self.wipe.begin(self.window, perf_counter())
         self.screens.follow(outcome)
         self._arrive()
 
-    def _arrive(self):
+    def _arrive(self) -> None:
         """Another screen is on top: nothing is held there yet, and its time begins."""
-        self.devices.release_all()
-        self.devices.menus = not isinstance(self.screen, Play)
-        self.devices.lost_pad = False
-        if isinstance(self.screen, PauseMenu):
-            self.sounds.pause()
+        devices, sounds = self.arcade.devices, self.arcade.sounds
+        devices.release_all()
+        devices.menus = not self.screen.takes_game_input
+        devices.lost_pad = False
+        if self.screen.holds_music:
+            sounds.pause()
         else:
-            self.sounds.resume()
+            sounds.resume()
         self.inputs = InputState()
         self.clock.rest()
 
-    def compile_for(self, scene_class, solver=None, broadphase=None, stops_for_anybody=False):
-        """Compile what a scene needs, behind a bar. Raises LoadingStopped."""
-        loading = Loading(scene_class.title, stops_for_anybody)
-        warm_up_scene(
-            scene_class,
-            broadphase or self.options.broadphase,
-            solver,
-            lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel),
-        )
-
-    def apply_settings(self):
-        """Put changed settings to work."""
-        if mode_of(self.settings) != self.mode:
-            self.mode = mode_of(self.settings)
-            self.picture.presenter.frame.surface = set_mode(self.settings)
-        self.devices.bind(self.settings.keys, self.settings.buttons)
-        self.sounds.master, self.sounds.effects = self.settings.master, self.settings.effects
-
-    def save_settings(self):
-        """Write the settings; a failed save is said and does not stop the game."""
-        try:
-            save_settings(self.settings)
-        except OSError as error:
-            say(f"settings could not be saved: {error}")
-
-    def _save_what_is_open(self):
+    def _save_what_is_open(self) -> None:
         """The window is closed mid-game: the run is kept, and what was asked for is written."""
         if not self.options.frames:
             self.screens.enter_results()
-        self.save_settings()
+        self.arcade.save_settings()
         play = self.screens.played
         if play is not None and self.options.record and play.recorder is not None:
             save_or_fail(play.recorder.save, self.options.record)
         elif play is not None:
             play.end_run()
 
-    def _save_screenshot(self, name):
-        """F12: into the player's folder, under the time."""
-        folder = data_folder() / "screenshots"
+    def _save_screenshot(self) -> None:
+        """F12: into the player's folder, under the scene's name and the time."""
+        folder, play = data_folder() / "screenshots", self.screens.played
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            path = free_name(folder, name, ".png")
-            save_png(self.picture.presenter.frame.surface, path)
+            path = free_name(folder, play.scene.name if play else "hitbox", ".png")
+            save_png(self.window, path)
             say(f"saved {path}")
         except OSError as error:
             say(f"screenshot could not be saved: {error}")

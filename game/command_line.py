@@ -5,22 +5,24 @@ import json
 import os
 import sys
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
+from typing import NoReturn
 
 from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
 from game.files.own_levels import level_digest
-from game.files.replay import LARGEST_SEED
-from game.files.replay_check import load_replay_for
-from game.overlays import LAYER_NAMES
-
-DEFAULT_FRAMES = 600  # of a headless run that names no number: ten seconds
+from game.overlays.layer import LAYER_NAMES
+from game.registry import Registry
+from game.run.options import DEFAULT_FRAMES, Options
+from game.run.replay import LARGEST_SEED
+from game.run.replay_check import load_replay_for
 
 
 class Parser(argparse.ArgumentParser):
     """argparse, but a mistake is one line and exit 2 through UsageError."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         """Called by argparse for every mistake it finds."""
         if message.startswith("unrecognized arguments: "):
             given = message.split(": ", 1)[1].split()[0]
@@ -29,7 +31,7 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def run(arguments, registry):
+def run(arguments: Sequence[str], registry: Registry) -> int:
     """Run the program with these arguments and return the exit code."""
     try:
         code = _dispatch(read_options(arguments, registry), registry)
@@ -59,7 +61,7 @@ def _give_up_output():
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def make_parser():
+def make_parser() -> Parser:
     """The parser, on its own for --help and for the tests."""
     parser = Parser(prog="hitbox", description="2D collision you can feel, trust and see.", allow_abbrev=False)
     add = parser.add_argument
@@ -85,15 +87,16 @@ def make_parser():
     return parser
 
 
-def read_options(arguments, registry):
+def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     """Parse and check. Raises UsageError with one line that names what is valid."""
-    options = make_parser().parse_args(arguments)
+    given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
 
-    _known(options.broadphase, "broad phase", tuple(BROADPHASES))
-    _known(options.solver, "solver", tuple(SOLVERS))
-    _known(options.scene, "scene", registry.names)
-    options.overlay = read_layers(options.overlay)
+    _known(given["broadphase"], "broad phase", tuple(BROADPHASES))
+    _known(given["solver"], "solver", tuple(SOLVERS))
+    _known(given["scene"], "scene", registry.names)
+    layers, level = read_layers(given.pop("overlay")), given.pop("level")
+    options = Options(**given, overlay=layers, level=None if level is None else Path(level))
     if options.frames is not None and options.frames < 1:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
@@ -126,7 +129,7 @@ def _known(name, what, valid):
         raise unknown_name(what, name, valid)
 
 
-def read_layers(text):
+def read_layers(text: str | None) -> tuple[str, ...] | None:
     """ "bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
     if text is None:
         return None
@@ -185,14 +188,7 @@ def _check_level(options, registry):
         raise UsageError(f"--level needs --scene; scenes that take one: {takers}")
     if not registry.scene_class(options.scene).takes_level:
         raise UsageError(f"--level: {options.scene} takes none; scenes that take one: {takers}")
-    options.level = Path(options.level)
     level_digest(options.level)  # a file that is not there is said before anything is compiled
-
-
-def make_scene(options, registry):
-    """The scene that the options ask for. Raises FileError for a level with a mistake."""
-    scene_class = registry.scene_class(options.scene)
-    return scene_class(options.seed or 0, options.broadphase, options.solver, options.tier, options.level)
 
 
 def _dispatch(options, registry):
@@ -207,11 +203,11 @@ def _dispatch(options, registry):
     if options.list:
         return _print_list(options, registry)
     if options.warmup:
-        from game.warmup import warm_up_all
+        from game.run.warmup import warm_up_all
 
         return warm_up_all(registry)
     if options.headless:
-        from game.headless import run_headless
+        from game.run.headless import run_headless
 
         return run_headless(options, registry)
     from game.app import run_app
@@ -224,12 +220,11 @@ def _print_version():
     import pygame
 
     import physics
-    from game.compat import pygame_name
 
     sdl = ".".join(str(part) for part in pygame.get_sdl_version())
     compiled = "compiled kernels" if physics.JIT else "plain kernels"
     print(
-        f"Hitbox {VERSION} ({pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
+        f"Hitbox {VERSION} ({startup.pygame_name()}, SDL {sdl}, numpy {numpy.__version__}, {compiled}, "
         f"Python {sys.version.split()[0]})"
     )
     return 0

@@ -5,19 +5,24 @@ and reads no clock. draw() changes nothing: not the state, not the random number
 (particles, curves, camera shake) lives outside state() and uses random numbers of its own.
 """
 
+import gc
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from random import Random
+from typing import Any
 
-from game.comfort import Comfort
-from game.drag import Drag
 from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
 from game.drawing.flash import Flash
 from game.drawing.particles import Particles
-from game.garbage import set_loaded_aside
-from game.inputs import CHANGES
-from game.loop import STEP_SECONDS
+from game.drawing.presenter import Frame
+from game.files.accessibility import Accessibility
+from game.input.drag import Drag
+from game.input.inputs import CHANGES, InputFrame, InputState
 from physics import BROADPHASES, SOLVERS, Effects, World
 
+STEP_SECONDS = 1.0 / 60.0
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input
 
 
@@ -40,6 +45,12 @@ class Result:
     seconds: float
     lines: tuple = ()
 
+    def ranks(self, ranked_by: str | None) -> bool:
+        """True if a run that ended so belongs into a table at all; ranked_by as in Scene."""
+        if ranked_by == "seconds":
+            return self.won
+        return ranked_by == "points" and self.points > 0
+
 
 @dataclass(frozen=True)
 class Slider:
@@ -53,13 +64,13 @@ class Slider:
     step: float = 1
     choices: tuple = ()
 
-    def clamp(self, value):
+    def clamp(self, value: float) -> float:
         """The nearest allowed value; whole when the step is whole."""
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
 
-    def show(self, value):
+    def show(self, value: float) -> str:
         """The value as text."""
         if self.choices:
             return self.choices[int(value) - int(self.low)]
@@ -78,27 +89,34 @@ class Scene:
     """
 
     DEFINED = ("build", "update", "draw", "check", "bot", "state")
+    build: Callable[[], None]
+    update: Callable[[InputState], None]
+    draw: Callable[[Canvas, float], None]
+    check: Callable[[], list[Goal]]
+    bot: Callable[[], frozenset[str] | InputFrame]
+    state: Callable[[], tuple]
 
     name = ""  # as in scenes/__init__.py
     title = ""
     about = ""  # one sentence for the menu
     effects = Effects()
     broadphase = "hash"
-    solver = None  # None: the World's own choice
-    solvers = ()  # all that its worlds may use, where there is more than one: compiled before the start
-    features = ()  # short phrases for the menu and --list
-    pieces = None  # of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all
-    sliders = ()
-    actions = ()  # (what to press, what it does) pairs for the help line
-    tiers = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
-    overlays = ()  # overlay layers on from the start
-    legend_at = None  # canvas (x, y) where the overlays' legend goes if it is free
+    solver: str | None = None  # None: the World's own choice
+    solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start
+    features: tuple[str, ...] = ()  # short phrases for the menu and --list
+    # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.
+    pieces: tuple[str, ...] | None = None
+    sliders: tuple[Slider, ...] = ()
+    actions: tuple[tuple[str, str], ...] = ()  # (what to press, what it does) pairs for the help line
+    tiers: tuple[str, ...] = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
+    overlays: tuple[str, ...] = ()  # overlay layers on from the start
+    legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
     hides_pointer = True
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True  # False: the scene's worlds have their own
     music = "lab"  # the tune; a scene may set another on itself, mid-game
-    ranked_by = None  # what its high scores are ordered by: "points", most first, or "seconds", fewest first
-    assists = ()  # those of ASSISTS that it offers
+    ranked_by: str | None = None  # what high scores are ordered by: "points", most first, or "seconds", fewest first
+    assists: tuple[str, ...] = ()  # those of ASSISTS that it offers
     takes_level = False  # True: `level` may name a file to play instead of the scene's own
     level_suffix = ""  # of such files, ".tmj" or ".json": which of the player's own the menu lists
 
@@ -107,36 +125,46 @@ class Scene:
         if missing:
             raise TypeError(f"scene {cls.__name__} must define {', '.join(missing)}")
 
-    def __init__(self, seed=0, broadphase=None, solver=None, tier=None, level=None):
+    def __init__(
+        self,
+        seed: int = 0,
+        broadphase: str | None = None,
+        solver: str | None = None,
+        tier: str | None = None,
+        level: Path | None = None,
+    ) -> None:
         self.seed = seed
         self.level_file = level  # None: the scene's own
         self.broadphase = broadphase or type(self).broadphase
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
-        self.values = {slider.name: slider.start for slider in self.sliders}
-        self.assist = {name: ASSISTS[name] for name in self.assists}
-        self.comfort = Comfort()
-        self.ghost = None  # the trail of an earlier run, to be seen beside this one; set from outside
+        self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
+        self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}
+        self.accessibility = Accessibility()
+        self.ghost: list[tuple] | None = None  # the trail of an earlier run, seen beside this one; set from outside
+        self.best = 0  # points of the best run so far, to be shown; set from outside too
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
-        self.built = set()  # names of the attributes that build() made
+        self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
-    def restart(self):
+    def restart(self) -> None:
         """Back to the first frame with the same seed. Sliders and switches keep what was chosen."""
         self.drag.release()
         self._drop_last_run()
         self.frame = 0
         self.random = Random(self.seed)
-        self.cues = []  # (sound, canvas x, volume) of this step; the app plays them
-        self.worlds = []
+        self.cues: list[
+            tuple[str, float | None, float]
+        ] = []  # (sound, canvas x, volume) of this step; the app plays them
+        self.worlds: list[World] = []
         self.camera = Camera()
-        self.camera.shake_share = self.comfort.shake
+        self.camera.shake_share = self.accessibility.shake
         self.flash = Flash()
-        self.result = None  # a Result when the game has ended; who plays it decides what comes then
-        self.trail = []  # rows of where the player was in each step, for a ghost in later runs
+        self.result: Result | None = None  # a Result when the game has ended; who plays it decides what comes then
+        self.trail: list[tuple] = []  # rows of where the player was in each step, for a ghost in later runs
         self.particles.clear()
         before = set(vars(self))
         self.build()
@@ -150,7 +178,9 @@ class Scene:
             self.worlds = []
             set_loaded_aside()
 
-    def add_world(self, effects=None, broadphase=None, solver=None, **settings):
+    def add_world(
+        self, effects: Effects | None = None, broadphase: str | None = None, solver: str | None = None, **settings: Any
+    ) -> World:
         """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.
 
         settings: what else World takes: gravity, drag, substeps, pixels_per_meter ...
@@ -163,11 +193,11 @@ class Scene:
         return world
 
     @property
-    def world(self):
+    def world(self) -> World:
         """The first world."""
         return self.worlds[0]
 
-    def step(self, inputs):
+    def step(self, inputs: InputState) -> None:
         """One fixed step: changes from the panel first, then the mouse's pull, then the scene's own update."""
         self.cues.clear()
         for name, value in inputs.now.changes:
@@ -181,7 +211,7 @@ class Scene:
         self.flash.step()
         self.frame += 1
 
-    def change(self, name, value):
+    def change(self, name: str, value: Any) -> None:
         """Apply one change that came with the input. An unknown name or value raises ValueError."""
         if name.startswith("slider:") and name[7:] in self.values:
             self.change_slider(name[7:], value)
@@ -201,40 +231,47 @@ class Scene:
             valid = ", ".join((*CHANGES, *(f"slider:{n}" for n in self.values), *(f"assist:{n}" for n in self.assist)))
             raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
 
-    def change_slider(self, name, value):
+    def change_slider(self, name: str, value: float) -> None:
         """Set a slider. A scene whose worlds depend on it overrides this and calls super first."""
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
 
-    def set_broadphase(self, name):
+    def set_broadphase(self, name: str) -> None:
         """Switch the broad phase of every world, mid-game."""
         self.broadphase = name
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
-    def solver_choices(self):
+    def solver_choices(self) -> tuple[str, ...]:
         """The solvers that the player may switch between: none where nothing is pushed, or each world has its own."""
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
     @classmethod
-    def valid_solvers(cls):
+    def valid_solvers(cls) -> tuple[str, ...]:
         """The solvers that the scene's effects allow."""
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
-    def set_solver(self, name):
+    @classmethod
+    def level_suffixes(cls) -> tuple[str, ...]:
+        """Of the files that it can play as levels: () where it takes none."""
+        if not cls.takes_level:
+            return ()
+        return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
+
+    def set_solver(self, name: str) -> None:
         """Switch the solver of every world, mid-game."""
         self.solver = name
         for world in self.worlds:
             world.solver = name
 
-    def set_narrowphase(self, on):
+    def set_narrowphase(self, on: bool) -> None:
         """Stop at boxes, or do not, mid-game."""
         self.narrowphase = on
         for world in self.worlds:
             world.set_narrowphase(on)
 
-    def set_tier(self, name):
+    def set_tier(self, name: str) -> None:
         """Test the bodies that have a tier at another one, mid-game; new ones are to be added with self.tier."""
         self.tier = name
         for world in self.worlds:
@@ -243,21 +280,32 @@ class Scene:
                 if body.tier is not None:
                     body.tier = name
 
-    def set_comfort(self, comfort):
+    def set_accessibility(self, accessibility: Accessibility) -> None:
         """Take what the player wants of the picture."""
-        self.comfort = comfort
-        self.camera.shake_share = comfort.shake
+        self.accessibility = accessibility
+        self.camera.shake_share = accessibility.shake
 
-    def play(self, sound, x=None, volume=1.0):
+    def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
         """Ask for a sound effect. x: canvas position for the pan; None: the middle."""
         self.cues.append((sound, x, volume))
 
-    def views(self):
+    def views(self) -> list[tuple[World, Camera]]:
         """(world, camera) of each picture on the canvas, for overlays."""
         return [(self.world, self.camera)]
 
-    def draw_on_frame(self, frame):
+    def draw_on_frame(self, frame: Frame) -> None:
         """Draw at window resolution, under the overlays (curves, thin lines). Most scenes have nothing here."""
 
-    def observe(self):
+    def observe(self) -> None:
         """Note timings after a step, for curves. Never part of the state."""
+
+
+def set_loaded_aside() -> None:
+    """Collect what is garbage now, and count everything else as here to stay until the next call.
+
+    A full collection with numba and a scene loaded takes 40 ms, two frames and a half; of what a game makes as it goes,
+    less than one. Call it when a scene is ready to begin.
+    """
+    gc.unfreeze()
+    gc.collect()
+    gc.freeze()

@@ -6,31 +6,36 @@ Old syntax on purpose (see main.py). `*_problem` returns a line that stops the p
 
 import os
 import sys
+from collections.abc import Callable
 
 OLDEST_PYTHON = (3, 11)
 INSTALL = "python -m pip install -e ."
 
 
-def python_problem(version, executable):
+def python_problem(version: tuple, executable: str) -> str:
     """Say that this Python is too old, and which one it is; "" when it is new enough."""
     if tuple(version[:2]) >= OLDEST_PYTHON:
         return ""
-    return "Python %d.%d or newer is needed; this is %d.%d.%d (%s)" % (
-        OLDEST_PYTHON + tuple(version[:3]) + (executable,)
-    )
+    needed, found = dotted(OLDEST_PYTHON), dotted(version[:3])
+    return "Python " + needed + " or newer is needed; this is " + found + " (" + executable + ")"
 
 
-def package_problem():
+def dotted(version: tuple) -> str:
+    """A version as it is written: 3.11."""
+    return ".".join(str(part) for part in version)
+
+
+def package_problem() -> str:
     """Name the first package that is missing and how to install it; "" when all are there."""
     from importlib.util import find_spec
 
     for module, package in (("numpy", "numpy"), ("pygame", "pygame-ce")):
         if find_spec(module) is None:
-            return "the package %s is not installed; run: %s" % (package, INSTALL)
+            return "the package " + package + " is not installed; run: " + INSTALL
     return ""
 
 
-def installed(package):
+def installed(package: str) -> bool:
     """True when a distribution of that name is installed in this environment."""
     from importlib import metadata
 
@@ -41,7 +46,7 @@ def installed(package):
     return True
 
 
-def pygame_note(is_installed=installed):
+def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
     """Warn when pygame and pygame-ce are both there: they overwrite each other's files."""
     if is_installed("pygame") and is_installed("pygame-ce"):
         return (
@@ -51,19 +56,27 @@ def pygame_note(is_installed=installed):
     return ""
 
 
-def numba_note(jit):
+def numba_note(jit: bool) -> str:
     """Say that the kernels run uncompiled. `jit`: physics.JIT."""
     if jit:
         return ""
     return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
 
 
-def prepare_environment():
+def pygame_name() -> str:
+    """Which pygame this is, for --version."""
+    import pygame
+
+    edition = "pygame-ce" if getattr(pygame, "IS_CE", 0) else "pygame"
+    return edition + " " + pygame.version.ver
+
+
+def prepare_environment() -> None:
     """Keep pygame's greeting off standard output, where --json prints its one object."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
-def say(line):
+def say(line: str) -> None:
     """Print one line for the person at the terminal; never on standard output."""
     if line and sys.stderr is not None:  # closed, or a start without a terminal
         sys.stderr.write("hitbox: " + line + "\n")

@@ -17,13 +17,13 @@ import numpy as np
 import pygame
 
 from assets.craft import png
-from game.drawing.picture import Picture
 from game.drawing.presenter import SCREENSHOT_SCALE
-from game.headless import start_dummy_display
-from game.inputs import BotSource
 from game.overlays.stack import Overlays
 from game.registry import Registry
-from game.session import Session
+from game.run.headless import start_dummy_display
+from game.run.picture import Picture
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes import SCENES
 from scenes.moments import MOMENTS, SEED, Moment, done, leader
 

@@ -69,10 +69,10 @@ def check_scene(name, folder):
 def run_plain(name):
     """120 frames of a scene in this process, with few bodies; returns a line for the log."""
     sys.path.insert(0, str(ROOT))
-    from game.headless import start_dummy_display
-    from game.inputs import BotSource
     from game.registry import Registry
-    from game.session import Session
+    from game.run.headless import start_dummy_display
+    from game.run.session import Session
+    from game.run.sources import BotSource
     from scenes import SCENES
 
     start_dummy_display()

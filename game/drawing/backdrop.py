@@ -1,8 +1,10 @@
 """Dusk, mountains and clouds that drift: the ground of the title and menu, and of any scene that wants it."""
 
+from collections.abc import Sequence
+
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, Canvas, whole
 from game.drawing.sprites import load_backdrop
 
 # (picture, share of the camera's motion it takes part in, how far its bottom hangs below the canvas)
@@ -13,11 +15,11 @@ CLOUD_TOP = 18
 class Backdrop:
     """Parallax layers that repeat in x."""
 
-    def __init__(self, layers=DUSK, sky="sky_dusk"):
+    def __init__(self, layers: Sequence[tuple[str, float, int | None]] = DUSK, sky: str = "sky_dusk") -> None:
         self.sky = load_backdrop(sky)
         self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
 
-    def draw(self, canvas, distance, dim=0):
+    def draw(self, canvas: Canvas, distance: float, dim: int = 0) -> None:
         """Draw for a camera that has travelled `distance` px to the right. dim 0..255 darkens it for text."""
         canvas.surface.blit(self.sky, (0, 0))
         for picture, share, low in self.layers:

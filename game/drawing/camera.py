@@ -4,7 +4,7 @@ from math import exp, sin
 
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, Box, Number, whole
 
 SHAKE_PIXELS = 5.0  # [canvas px] at full trauma; more hides bullets
 SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake is over in 1.3 s
@@ -17,7 +17,13 @@ class Camera:
     everything in the picture steps together.
     """
 
-    def __init__(self, viewport=None, zoom=1.0, x=0.0, y=0.0):
+    def __init__(
+        self,
+        viewport: Box | tuple[tuple[int, int], tuple[int, int]] | None = None,
+        zoom: float = 1.0,
+        x: float = 0.0,
+        y: float = 0.0,
+    ) -> None:
         self.viewport = pygame.Rect(viewport if viewport is not None else ((0, 0), CANVAS_SIZE))
         self.zoom = zoom
         self.x = self.previous_x = float(x)
@@ -28,31 +34,33 @@ class Camera:
         self.limits = None
 
     @property
-    def size(self):
+    def size(self) -> tuple[float, float]:
         """Width and height of the seen part of the world [world px]."""
         return self.viewport.width / self.zoom, self.viewport.height / self.zoom
 
-    def keep_within(self, left, top, right, bottom):
+    def keep_within(self, left: float, top: float, right: float, bottom: float) -> None:
         """Never show anything outside these world limits (a level's edges)."""
         self.limits = (left, top, right, bottom)
 
-    def place(self, x, y):
+    def place(self, x: float, y: float) -> None:
         """Jump to a top left without a move in between (a restart, a door)."""
         self.x, self.y = self._limited(x, y)
         self.previous_x, self.previous_y = self.x, self.y
 
-    def center_on(self, x, y):
+    def center_on(self, x: float, y: float) -> None:
         """Jump so that the world point is in the middle."""
         width, height = self.size
         self.place(x - width / 2, y - height / 2)
 
-    def begin_step(self, dt):
+    def begin_step(self, dt: float) -> None:
         """Remember where the camera was, for interpolation, and let a shake fade. Once per step."""
         self.previous_x, self.previous_y = self.x, self.y
         self.clock += dt
         self.trauma = max(0.0, self.trauma - SHAKE_DECAY * dt)
 
-    def follow(self, x, y, dt, rate=8.0, dead_zone=(0.0, 0.0)):
+    def follow(
+        self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
         """Move towards having the world point in the middle, at `rate` [1/s], inside a dead zone not at all."""
         width, height = self.size
         share = 1.0 - exp(-rate * dt)
@@ -60,11 +68,11 @@ class Camera:
         off_y = _outside(y - (self.y + height / 2), dead_zone[1])
         self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
 
-    def shake(self, trauma):
+    def shake(self, trauma: float) -> None:
         """Add trauma 0..1; the offset grows with its square, so small hits stay small."""
         self.trauma = min(1.0, self.trauma + trauma)
 
-    def view(self, alpha=1.0):
+    def view(self, alpha: float = 1.0) -> tuple[float, float]:
         """The drawn world top left (x, y); whole numbers at zoom 1."""
         x = self.previous_x + (self.x - self.previous_x) * alpha
         y = self.previous_y + (self.y - self.previous_y) * alpha
@@ -75,12 +83,12 @@ class Camera:
             y += reach * sin(self.clock * 47.0 + 1.3)
         return (whole(x), whole(y)) if self.zoom == 1.0 else (x, y)
 
-    def to_canvas(self, x, y, alpha=1.0):
+    def to_canvas(self, x: Number, y: Number, alpha: float = 1.0) -> tuple[Number, Number]:
         """Canvas position of world points; scalars or arrays."""
         left, top = self.view(alpha)
         return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
 
-    def to_world(self, x, y):
+    def to_world(self, x: float, y: float) -> tuple[float, float]:
         """World position of a canvas point, as last drawn without interpolation."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top

@@ -1,5 +1,7 @@
 """The shell's colours. Overlay hues are near the Okabe-Ito set; a player may ask for others (see toned)."""
 
+Color = tuple[int, ...]  # red, green, blue and perhaps alpha, 0..255
+
 INK = (20, 16, 32)  # text outlines, panel ground: the art's outline colour, never pure black
 NIGHT = (26, 22, 42)
 DUSK = (44, 38, 66)
@@ -43,8 +45,8 @@ BRIGHTER = 0.3  # towards white: what "contrast" does with a mixed colour
 BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
-def toned(color, palette):
-    """An overlay's colour as a palette of game.comfort.PALETTES has it; alpha, where there is one, is kept."""
+def toned(color: Color, palette: str) -> Color:
+    """An overlay's colour as a palette of game.files.accessibility.PALETTES has it; its alpha, if any, is kept."""
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:
@@ -52,6 +54,6 @@ def toned(color, palette):
     return (*found, *color[3:])
 
 
-def faded(color, amount):
+def faded(color: Color, amount: float) -> Color:
     """`color` mixed towards the night ground; amount 0 keeps it, 1 is the ground."""
     return tuple(round(c + (n - c) * amount) for c, n in zip(color[:3], NIGHT, strict=True))

@@ -9,8 +9,8 @@ from functools import cache, lru_cache
 
 import pygame
 
-from game.compat import blit_many
-from game.drawing.colors import INK
+from game.drawing.blit import blit_many
+from game.drawing.colors import INK, Color
 from game.errors import FileError
 from game.places import FONTS
 
@@ -22,7 +22,7 @@ UNKNOWN = "?"  # drawn for a character that the sheet lacks
 class Font:
     """One sheet of glyphs. `height` is a line's height in font pixels."""
 
-    def __init__(self, sheet, height, glyphs):
+    def __init__(self, sheet: pygame.Surface, height: int, glyphs: dict[str, dict[str, int]]) -> None:
         self.height = height
         self.advance = {c: g["w"] for c, g in glyphs.items()}
         self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
@@ -37,7 +37,9 @@ class Font:
         width = sum(self.advance.get(c, unknown) for c in text)
         return (max(width - 1, 0) * scale, self.height * scale)
 
-    def draw(self, surface, text, x, y, color, scale=1, outline=False):
+    def draw(
+        self, surface: pygame.Surface, text: str, x: int, y: int, color: Color, scale: int = 1, outline: bool = False
+    ) -> None:
         """Draw one line with its top left at whole pixels (x, y)."""
         edge = scale if outline else 0
         surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
@@ -82,7 +84,7 @@ class Font:
         return pygame.transform.scale(image, size), width * scale
 
 
-def tint(image, color):
+def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
     """A copy of a white image in one colour; its alpha is kept."""
     copy = image.copy()
     copy.fill((*color[:3], 255), special_flags=pygame.BLEND_RGBA_MULT)
@@ -90,7 +92,7 @@ def tint(image, color):
 
 
 @cache
-def load_font(name):
+def load_font(name: str) -> Font:
     """The font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
     path = FONTS / f"{name}.json"
     try:

@@ -1,15 +1,19 @@
 """Score, lives, bars and banners on the canvas. Each returns the rect it took."""
 
+from collections.abc import Sequence
+
 import pygame
 
-from game.drawing.colors import GOLD, INK, PAPER, SLATE
-from game.drawing.draw import TEXT
+from game.drawing.canvas import TEXT, Box, Canvas
+from game.drawing.colors import GOLD, INK, PAPER, SLATE, Color
 
 MARGIN = 6  # [canvas px] between the HUD and the edge of the picture
 BANNER_GROUND = (20, 16, 32, 150)
 
 
-def label(canvas, text, x, y, value="", align="left", color=PAPER):
+def label(
+    canvas: Canvas, text: str, x: float, y: float, value: str = "", align: str = "left", color: Color = PAPER
+) -> pygame.Rect:
     """A word and a number: the word grey-gold, the number bright. Returns the rect of both."""
     if align == "right":
         right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
@@ -20,7 +24,9 @@ def label(canvas, text, x, y, value="", align="left", color=PAPER):
     return left.union(right)
 
 
-def icons(canvas, image, count, x, y, gap=2, most=8):
+def icons(
+    canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
+) -> pygame.Rect:
     """A row of small pictures, as many as there are lives; more than `most` are written as a number."""
     width, height = image.get_size()
     shown = min(count, most)
@@ -34,7 +40,7 @@ def icons(canvas, image, count, x, y, gap=2, most=8):
     return rect
 
 
-def bar(canvas, rect, share, color, ground=INK):
+def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
     """A bar filled to `share` 0..1."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
@@ -46,7 +52,9 @@ def bar(canvas, rect, share, color, ground=INK):
     return rect
 
 
-def banner(canvas, title, lines=(), color=GOLD, y=None):
+def banner(
+    canvas: Canvas, title: str, lines: Sequence[str] = (), color: Color = GOLD, y: int | None = None
+) -> pygame.Rect:
     """A large title over a dark band in the middle of the picture, with small lines under it."""
     width, height = canvas.measure(title, TEXT, 3)
     total = height + 6 + 13 * len(lines)

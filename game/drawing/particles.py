@@ -3,6 +3,10 @@
 import numpy as np
 import pygame
 
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
+from game.drawing.colors import Color
+
 CAPACITY = 2048  # the oldest give way; a particle is decoration, and nothing else reads them
 COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 
@@ -10,39 +14,39 @@ COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 class Particles:
     """Squares of 1 to 3 canvas pixels that fly, slow down and cool along a ramp of colours."""
 
-    def __init__(self, seed=0):
+    def __init__(self, seed: int = 0) -> None:
         self.random = np.random.default_rng(seed)
         self.rows = np.zeros((len(COLUMNS), CAPACITY))
         self.ramps = np.zeros(CAPACITY, dtype=np.int64)
         self.colors = []  # ramps seen so far: tuples of colours
         self.clear()
 
-    def clear(self):
+    def clear(self) -> None:
         """Remove all."""
         self.rows[5] = 0.0  # life 0: not alive
         self.rows[4] = 1.0
         self.newest = 0
 
     @property
-    def count(self):
+    def count(self) -> int:
         """How many are alive."""
         return int(np.count_nonzero(self.rows[4] < self.rows[5]))
 
     def burst(
         self,
-        x,
-        y,
-        count,
-        ramp,
-        speed=(20, 120),
-        life=(0.2, 0.6),
-        angle=0.0,
-        spread=2 * np.pi,
-        size=(1, 2),
-        drag=2.0,
-        gravity=0.0,
-        carry=(0.0, 0.0),
-    ):
+        x: float,
+        y: float,
+        count: int,
+        ramp: tuple[Color, ...],
+        speed: tuple[float, float] = (20, 120),
+        life: tuple[float, float] = (0.2, 0.6),
+        angle: float = 0.0,
+        spread: float = 2 * np.pi,
+        size: tuple[int, int] = (1, 2),
+        drag: float = 2.0,
+        gravity: float = 0.0,
+        carry: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
         """Throw `count` particles from (x, y) [world px].
 
         ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges; angle and
@@ -68,7 +72,7 @@ class Particles:
         )
         self.ramps[rows] = self.colors.index(ramp)
 
-    def step(self, dt):
+    def step(self, dt: float) -> None:
         """Move all by dt [s]."""
         x, y, vx, vy, age, _, _, drag, gravity = self.rows
         slow = 1.0 / (1.0 + drag * dt)
@@ -79,7 +83,7 @@ class Particles:
         y += vy * dt
         age += dt
 
-    def draw(self, canvas, camera, alpha=1.0):
+    def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
         """Draw those in the picture: one array write per particle size, no loop over particles."""
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)

@@ -4,10 +4,12 @@ Our own presenter, since SCALED and OpenGL fail under SDL's dummy driver and SCA
 integer-scaled.
 """
 
+import numpy as np
 import pygame
 
+from game.drawing.canvas import CANVAS_SIZE, Box, Canvas, Number
 from game.drawing.colors import INK
-from game.drawing.draw import CANVAS_SIZE, Canvas
+from game.input.drag import View
 
 PANEL_SHARE = 1 / 3  # of the window's width, for the docked panel
 SCREENSHOT_SCALE = 3  # 1440 x 810
@@ -16,14 +18,14 @@ SCREENSHOT_SCALE = 3  # 1440 x 810
 class Lens:
     """World to frame for one view: X = x * scale + dx, Y = y * scale + dy; `clip` is the viewport."""
 
-    def __init__(self, scale, dx, dy, clip):
+    def __init__(self, scale: float, dx: float, dy: float, clip: pygame.Rect) -> None:
         self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
 
-    def points(self, x, y):
+    def points(self, x: Number, y: Number) -> tuple[Number, Number]:
         """Frame positions of world points (scalars or arrays)."""
         return x * self.scale + self.dx, y * self.scale + self.dy
 
-    def seen(self, rows):
+    def seen(self, rows: np.ndarray) -> np.ndarray:
         """Which (n, 4) world boxes reach into the view, as a bool array."""
         clip = self.clip
         left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
@@ -34,21 +36,21 @@ class Lens:
 class Frame(Canvas):
     """The presented picture at window resolution: a Canvas that knows where the game canvas lies on it."""
 
-    def __init__(self, surface):
+    def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
         self.scale = 1
         self.area = pygame.Rect((0, 0), CANVAS_SIZE)  # the game canvas on the frame
 
     @property
-    def text_scale(self):
+    def text_scale(self) -> int:
         """Whole-number scale at which small text can be read at this resolution."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
-    def scale_for(self, width):
+    def scale_for(self, width: int) -> int:
         """Whole-number scale at which something `width` text px wide fits over the game."""
         return max(1, min(self.text_scale, self.area.width // width))
 
-    def lens(self, camera):
+    def lens(self, camera: View) -> Lens:
         """World to frame for a camera, drawn at the last step's poses."""
         left, top = camera.view()
         scale = camera.zoom * self.scale
@@ -58,7 +60,7 @@ class Frame(Canvas):
         clip = pygame.Rect(corner_x, corner_y, view.width * self.scale, view.height * self.scale)
         return Lens(scale, corner_x - left * scale, corner_y - top * scale, clip)
 
-    def from_canvas(self, rect):
+    def from_canvas(self, rect: Box) -> pygame.Rect:
         """The frame rect of a canvas rect."""
         s, area = self.scale, self.area
         return pygame.Rect(area.x + rect[0] * s, area.y + rect[1] * s, rect[2] * s, rect[3] * s)
@@ -67,11 +69,11 @@ class Frame(Canvas):
 class Presenter:
     """Scales a canvas onto a frame. `docked` makes room for the panel on the right and graphs below."""
 
-    def __init__(self, surface):
+    def __init__(self, surface: pygame.Surface) -> None:
         self.frame = Frame(surface)
         self.docked = False
 
-    def place(self):
+    def place(self) -> None:
         """Choose the scale and the canvas's place for the surface's present size."""
         frame = self.frame
         width, height = frame.surface.get_size()
@@ -84,17 +86,17 @@ class Presenter:
             frame.area = pygame.Rect(((width - size[0]) // 2, (height - size[1]) // 2), size)
 
     @property
-    def crowded(self):
+    def crowded(self) -> bool:
         """True when canvas and panel do not fit side by side: the panel then takes the whole picture."""
         return self.frame.surface.get_width() - self.panel_width < CANVAS_SIZE[0]
 
     @property
-    def panel_width(self):
+    def panel_width(self) -> int:
         """Frame pixels kept for the docked panel."""
         return int(self.frame.surface.get_width() * PANEL_SHARE)
 
     @property
-    def panel_rect(self):
+    def panel_rect(self) -> pygame.Rect:
         """Where the docked panel goes."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
@@ -102,14 +104,14 @@ class Presenter:
         return pygame.Rect(width - self.panel_width, 0, self.panel_width, height)
 
     @property
-    def strip_rect(self):
+    def strip_rect(self) -> pygame.Rect:
         """The strip under the docked canvas; empty when there is none."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, 0, 0)
         return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
 
-    def present(self, canvas):
+    def present(self, canvas: Canvas) -> Frame:
         """Scale the canvas onto the frame and hand the frame on, its text boxes known."""
         self.place()
         frame = self.frame
@@ -125,7 +127,7 @@ class Presenter:
         frame.reserved.extend(frame.from_canvas(rect) for rect in canvas.reserved)
         return frame
 
-    def to_canvas(self, position):
+    def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:
         """Canvas pixel under a window position; may lie outside the canvas."""
         area = self.frame.area
         return (position[0] - area.x) // self.frame.scale, (position[1] - area.y) // self.frame.scale

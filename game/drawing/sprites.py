@@ -4,10 +4,14 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from math import floor
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pygame
 
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
 from game.errors import FileError
 from game.places import IMAGES
 from physics import PixelMask
@@ -21,17 +25,17 @@ class Animation:
     names: tuple
     fps: float
 
-    def index_at(self, seconds, loop=True):
+    def index_at(self, seconds: float, loop: bool = True) -> int:
         """Which frame is shown after so many seconds. Without loop the last one stays."""
         number = int(seconds * self.fps)
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
-    def at(self, seconds, loop=True):
+    def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
         """The image shown after so many seconds."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
-    def seconds(self):
+    def seconds(self) -> float:
         """How long one round lasts."""
         return len(self.images) / self.fps
 
@@ -39,7 +43,7 @@ class Animation:
 class Atlas:
     """One sheet: images by name, animations by name, and a PixelMask per image, made once."""
 
-    def __init__(self, path, images, animations):
+    def __init__(self, path: Path, images: dict[str, pygame.Surface], animations: dict[str, Animation]) -> None:
         self.path, self.images, self.animations = path, images, animations
         self.masks = {}
 
@@ -49,20 +53,20 @@ class Atlas:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
-    def animation(self, name):
+    def animation(self, name: str) -> Animation:
         """An animation. Raises ValueError naming the sheet for an unknown one."""
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]
 
-    def mask(self, name):
+    def mask(self, name: str) -> PixelMask:
         """The pixels of a frame as a PixelMask about its centre."""
         if name not in self.masks:
             self.masks[name] = PixelMask.from_surface(self[name])
         return self.masks[name]
 
 
-def load_image(path):
+def load_image(path: Path) -> pygame.Surface:
     """A picture, converted for fast blits when there is a display. Raises FileError."""
     try:
         image = pygame.image.load(str(path))
@@ -72,13 +76,13 @@ def load_image(path):
 
 
 @cache
-def load_backdrop(name):
+def load_backdrop(name: str) -> pygame.Surface:
     """assets/images/<name>.png as one picture."""
     return load_image(IMAGES / f"{name}.png")
 
 
 @cache
-def load_atlas(name):
+def load_atlas(name: str) -> Atlas:
     """The sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
@@ -97,10 +101,10 @@ def load_atlas(name):
     return Atlas(path, images, animations)
 
 
-class TurnedSprites:
+class RotatedSprites:
     """A sprite at any angle, drawn from exactly the pixels its mask tests: no fringe that does not hit."""
 
-    def __init__(self, image, mask):
+    def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         self.image, self.mask = image, mask
         self.cache = {}
 
@@ -108,7 +112,7 @@ class TurnedSprites:
         """A copy of a scene draws with the same pictures."""
         return self
 
-    def draw(self, canvas, camera, x, y, angle, alpha=1.0):
+    def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
         """Draw with the mask's origin at world (x, y), as the physics places it on the pixel grid."""
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
@@ -116,7 +120,7 @@ class TurnedSprites:
         place_y = floor(y - origin[1] + 0.5) - top + camera.viewport.y
         canvas.surface.blit(image, (place_x, place_y))
 
-    def at(self, angle):
+    def at(self, angle: float) -> tuple[pygame.Surface, tuple[float, float]]:
         """(image, origin in it) at the angle bucket nearest to `angle` [rad]."""
         turned = self.mask.turned(angle)
         if id(turned) not in self.cache:
@@ -125,7 +129,7 @@ class TurnedSprites:
         return self.cache[id(turned)]
 
 
-def pick_pixels(image, turned):
+def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
     """A surface of the turned mask's size with each solid pixel taken from its source pixel."""
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
@@ -141,7 +145,7 @@ def pick_pixels(image, turned):
     return out
 
 
-def lit(image, amount=110):
+def lit(image: pygame.Surface, amount: int = 110) -> pygame.Surface:
     """A copy made brighter by `amount` 0..255: the flash of a thing that was hit."""
     copy = image.copy()
     copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)

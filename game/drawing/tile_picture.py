@@ -2,8 +2,10 @@
 
 import pygame
 
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
 from game.drawing.sprites import load_image
-from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y
+from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y, TileMap
 from game.errors import FileError
 
 CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are on the screen
@@ -12,12 +14,12 @@ CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are
 class TilePicture:
     """draw() paints one layer of a TileMap through a camera."""
 
-    def __init__(self, tilemap, layer, tiles=None):
+    def __init__(self, tilemap: TileMap, layer: str, tiles: pygame.Surface | None = None) -> None:
         self.map, self.layer = tilemap, layer
         self.sheet = tiles if tiles is not None else _sheet(tilemap)
         self.chunks = {}
 
-    def draw(self, canvas, camera, alpha=1.0):
+    def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
         """Blit the chunks in view."""
         left, top = camera.view(alpha)
         size = CHUNK * self.map.tile_size

@@ -8,6 +8,7 @@ import base64
 import gzip
 import zlib
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class Thing:
 class TileMap:
     """A level. `layers[name]`: (rows, columns) tile numbers, -1 empty. `tiles[number]`: properties."""
 
-    path: object
+    path: Path
     columns: int
     rows: int
     tile_size: int
@@ -52,15 +53,15 @@ class TileMap:
     properties: dict
 
     @property
-    def size(self):
+    def size(self) -> tuple[int, int]:
         """Width and height in world pixels."""
         return self.columns * self.tile_size, self.rows * self.tile_size
 
-    def kind_of(self, number):
+    def kind_of(self, number: int) -> str:
         """What a tile is: one of KINDS; a tile without the property is decor."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
-    def grid(self, layer="solid"):
+    def grid(self, layer: str = "solid") -> TileGrid:
         """The layer as a physics.TileGrid with its one-way tiles and slopes."""
         numbers = self._layer(layer)
         solid, one_way = np.zeros(numbers.shape, bool), np.zeros(numbers.shape, bool)
@@ -79,17 +80,17 @@ class TileMap:
                 self._refuse_turned(layer, here & (flips & (FLIP_Y | FLIP_DIAGONAL) > 0))
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
-    def cells(self, kind, layer="solid"):
+    def cells(self, kind: str, layer: str = "solid") -> list[tuple[int, int]]:
         """(column, row) of every tile of a kind, for what is no solid (spikes)."""
         numbers = self._layer(layer)
         matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
         return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
 
-    def things_of(self, kind):
+    def things_of(self, kind: str) -> list[Thing]:
         """The objects of a kind, in the file's order."""
         return [thing for thing in self.things if thing.kind == kind]
 
-    def one(self, kind):
+    def one(self, kind: str) -> Thing:
         """The only object of a kind. Raises FileError when there is none or more than one."""
         found = self.things_of(kind)
         if len(found) != 1:
@@ -114,7 +115,7 @@ class TileMap:
         return self.layers[name]
 
 
-def load_tilemap(path):
+def load_tilemap(path: Path) -> TileMap:
     """Read a .tmj file. Raises FileError naming file, place and reason."""
     data = read_json(path)
     reader = _Reader(path)
@@ -260,6 +261,7 @@ class _Reader:
             if not isinstance(entry, dict):
                 self.fail(here, "is not an object")
             kind = entry.get("type") or entry.get("class") or ""
-            numbers = [self.number(entry, here, name) for name in ("x", "y", "width", "height")]
-            found.append(Thing(str(kind), str(entry.get("name", "")), *numbers, self.properties(entry, here), here))
+            x, y, width, height = (self.number(entry, here, name) for name in ("x", "y", "width", "height"))
+            name, properties = str(entry.get("name", "")), self.properties(entry, here)
+            found.append(Thing(str(kind), name, x, y, width, height, properties, here))
         return found

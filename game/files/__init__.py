@@ -1,1 +1,1 @@
-"""What a player keeps: settings, scores, recordings and best runs, and the folder they are in."""
+"""What a player keeps: settings, scores, ghosts, levels of their own, and the folder that all of it is in."""

@@ -5,6 +5,8 @@ never stops a game.
 """
 
 import json
+from collections.abc import Sequence
+from pathlib import Path
 
 from game.errors import FileError
 from game.files.data_folder import data_folder, is_there, refusal, write_atomically
@@ -15,12 +17,12 @@ LONGEST = 60 * 60 * 60  # rows: an hour
 FARTHEST = 1e7  # [px] from the origin; drawing turns places into whole numbers
 
 
-def ghost_path(table):
+def ghost_path(table: str) -> Path:
     """The file of a table's ghost (see records.table_of)."""
     return data_folder() / "ghosts" / f"{table.replace('/', '-')}.json"
 
 
-def load_ghost(table):
+def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
     """(rows or None, seconds or None, message) of the best run so far."""
     path = ghost_path(table)
     if not is_there(path):
@@ -34,7 +36,7 @@ def load_ghost(table):
     return [tuple(row) for row in data["rows"]], data["seconds"], ""
 
 
-def keep_ghost(table, trail, seconds):
+def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
     """Save a trail if it is the fastest; returns True if it is. Raises OSError when it cannot be written."""
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):

@@ -3,6 +3,7 @@
 import errno
 import os
 import sys
+from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
 from time import strftime
@@ -12,7 +13,7 @@ from game.errors import UsageError
 OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player who keeps the game on a stick
 
 
-def data_folder(environment=None, platform=None):
+def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
     """The folder for this user's files; not created here (see write_atomically)."""
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
@@ -34,7 +35,7 @@ def _home():
         raise UsageError(f"this user has no home folder; name one for the game's files in {OVERRIDE}") from error
 
 
-def is_there(path):
+def is_there(path: Path) -> bool:
     """False where there is no such file; True also where nobody may look: reading it then says why not."""
     try:
         path.stat()
@@ -45,7 +46,7 @@ def is_there(path):
     return True
 
 
-def free_name(folder, scene_name, suffix=".json"):
+def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
     """A path that no file has yet: the scene and the time."""
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
@@ -54,11 +55,11 @@ def free_name(folder, scene_name, suffix=".json"):
     return path
 
 
-def write_atomically(path, content, makes_folder=True):
+def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError when the
-    folder cannot be written; the old file is then untouched.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError
+    when the folder cannot be written; the old file is then untouched.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -79,7 +80,7 @@ def write_atomically(path, content, makes_folder=True):
         beside.unlink(missing_ok=True)
 
 
-def keep_beside(path, why="damaged"):
+def keep_beside(path: str | Path, why: str = "damaged") -> Path:
     """Copy a file that cannot be used to the first free `name.damaged-N` (or another word), and return that path.
 
     The name is claimed with exclusive creation, so an earlier kept file is never overwritten; one that already holds
@@ -92,7 +93,8 @@ def keep_beside(path, why="damaged"):
         content = path.read_bytes()
     except OSError:
         return path.rename(next(kept for kept in names if not kept.exists()))
-    for kept in names:
+    while True:
+        kept = next(names)
         try:
             with open(kept, "xb") as file:
                 file.write(content)
@@ -102,7 +104,7 @@ def keep_beside(path, why="damaged"):
                 return kept
 
 
-def refusal(path, place, reason, instead, why="damaged"):
+def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
     """Keep a file that cannot be used, and say in one line what is wrong, what is used instead and where it is kept."""
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"

@@ -1,11 +1,13 @@
 """Reads a JSON file, or says which file cannot be used, where and why."""
 
 import json
+from pathlib import Path
+from typing import Any
 
 from game.errors import FileError
 
 
-def read_json(path):
+def read_json(path: str | Path) -> Any:
     """The content of a JSON file. Raises FileError naming file, place and reason, also for nesting without end."""
     try:
         with open(path, encoding="utf-8") as file:

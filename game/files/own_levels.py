@@ -1,31 +1,27 @@
 """Levels of the player's own: files in the data folder's levels/, listed under the game that can play them."""
 
+from collections.abc import Sequence
 from hashlib import blake2b
 from pathlib import Path
 
 from game.errors import FileError
 from game.files.data_folder import data_folder
 
-SUFFIXES = (".tmj", ".json")
 
-
-def levels_folder():
+def levels_folder() -> Path:
     """Where this user's levels are looked for."""
     return data_folder() / "levels"
 
 
-def own_levels(scene_class):
-    """Paths of the files that a scene could play, by name; () where it takes none or there is no such folder."""
-    if not scene_class.takes_level:
-        return ()
-    suffixes = (scene_class.level_suffix,) if scene_class.level_suffix else SUFFIXES
+def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
+    """Paths of the files with one of these suffixes, by name (see Scene.level_suffixes); () without such a folder."""
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
     except OSError:  # there is no such folder, or nobody may look into it
         return ()
 
 
-def level_digest(path):
+def level_digest(path: str | Path) -> str:
     """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
     try:
         return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()

@@ -5,6 +5,7 @@ A damaged entry is left out and the file kept beside; a file of a newer program 
 
 import json
 from dataclasses import asdict, dataclass, fields
+from pathlib import Path
 
 from game.errors import FileError
 from game.files.data_folder import data_folder, is_there, refusal, write_atomically
@@ -32,26 +33,26 @@ class Entry:
 class Records:
     """`tables`: key of a scene (see table_of) -> entries, best first."""
 
-    def __init__(self, path=None):
+    def __init__(self, path: Path | None = None) -> None:
         self.path = path or records_path()
         self.tables = {}
         self.ranking = {}  # key -> ranked_by, of the tables that something was added to here
 
-    def entries(self, key):
+    def entries(self, key: str | None) -> list[Entry]:
         """The entries of a table, best first."""
         return self.tables.get(key, [])
 
-    def best(self, key):
+    def best(self, key: str | None) -> Entry | None:
         """The first entry of a table, or None."""
         found = self.entries(key)
         return found[0] if found else None
 
-    def place(self, key, ranked_by, entry):
+    def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
         """The place 1..10 that an entry would take, or None. Who came first keeps a shared place's upper half."""
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 
-    def add(self, key, ranked_by, entry):
+    def add(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
         """Put an entry in its place; what falls off the end is gone. Returns the place or None."""
         place = self.place(key, ranked_by, entry)
         if place is not None:
@@ -61,8 +62,8 @@ class Records:
             self.ranking[key] = ranked_by
         return place
 
-    def save(self):
-        """Write the file, with what another window of the game has put into it; raises OSError when that is not possible.
+    def save(self) -> str:
+        """Write the file, with what another window of the game has put into it. Raises OSError where it cannot.
 
         Returns "" or a message about the file that was there, as load_records does.
         """
@@ -79,31 +80,24 @@ class Records:
         return message
 
 
-def order(entry, ranked_by):
+def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
     """Sorts entries: most points first, then least time; or least time first, then most points."""
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
     return -entry.points, entry.seconds
 
 
-def ranks(result, ranked_by):
-    """True if a run that ended so belongs into a table at all."""
-    if ranked_by == "seconds":
-        return result.won
-    return ranked_by == "points" and result.points > 0
-
-
-def table_of(scene_name, level=None):
+def table_of(scene_name: str, level: Path | None = None) -> str:
     """The key of a scene's table. A level of the player's own has one of its own, by its content."""
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 
-def records_path():
+def records_path() -> Path:
     """Where this user's high scores are."""
     return data_folder() / FILE
 
 
-def load_records(path=None):
+def load_records(path: Path | None = None) -> tuple[Records, str]:
     """(records, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
     path = path or records_path()
     records = Records(path)

@@ -6,13 +6,14 @@ another name, and one line says where and why. The file of a newer program is no
 
 import json
 from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
 
-from game.bindings import REBOUND, button_actions, key_codes
-from game.comfort import PALETTES, Comfort
 from game.errors import FileError
+from game.files.accessibility import PALETTES, Accessibility
 from game.files.data_folder import data_folder, is_there, refusal, write_atomically
 from game.files.json_file import read_json
-from game.rebinding import FIXED, clash, completed, default_table
+from game.input.bindings import REBOUND, button_actions, key_codes
+from game.input.rebinding import FIXED, clash, completed, default_table
 
 VERSION = 2
 FILE = "settings.json"
@@ -47,21 +48,21 @@ class Settings:
     keys: dict = field(default_factory=lambda: default_table("keys"))
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
 
-    def comfort(self):
+    def accessibility(self) -> Accessibility:
         """What a scene's drawing is told."""
-        return Comfort(self.shake, not self.reduced_flashing, self.palette)
+        return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
-    def assists(self):
+    def assists(self) -> dict[str, bool]:
         """What a scene's rules are told, by the names of game.scene.ASSISTS."""
         return {"invincible": self.invincible, "hit_stop": self.hit_stop}
 
 
-def settings_path():
+def settings_path() -> Path:
     """Where this user's settings are."""
     return data_folder() / FILE
 
 
-def load_settings(path=None):
+def load_settings(path: Path | None = None) -> tuple[Settings, str]:
     """(settings, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
     path = path or settings_path()
     if not is_there(path):
@@ -83,7 +84,7 @@ def load_settings(path=None):
     return settings, refusal(path, *problem, "the default is used") if problem else ""
 
 
-def save_settings(settings, path=None):
+def save_settings(settings: Settings, path: Path | None = None) -> None:
     """Write the settings; raises OSError when that is not possible."""
     data = {"version": VERSION, **asdict(settings)}
     write_atomically(path or settings_path(), json.dumps(data, indent=2) + "\n")

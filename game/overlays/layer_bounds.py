@@ -1,13 +1,16 @@
 """AABBs and bounding motion rectangles: what the broad phase looks at."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
 import pygame
 
-from game.compat import blit_many
-from game.drawing.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, faded
-from physics import debug
+from game.drawing.blit import blit_many
+from game.drawing.colors import FOG, GREEN, ORANGE, PINK, RED, SKY, Color, faded
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
+from physics import World, debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4
 COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)  # by state
@@ -15,7 +18,7 @@ STAMPED = 48  # [frame px] boxes up to this size are stamped
 BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
-def draw_boxes(frame, lens, rows, palette, colors):
+def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Color], colors: np.ndarray) -> None:
     """Outline (n, 4) world boxes, each in the palette's colour of its number, small ones on top.
 
     colors: (n,) whole numbers into palette.
@@ -37,14 +40,12 @@ def draw_boxes(frame, lens, rows, palette, colors):
     small = np.flatnonzero(~large)
     kinds, which = np.unique((colors[small] << 16) | (wide[small] << 8) | high[small], return_inverse=True)
     images = [outline(tones[kind >> 16], kind >> 8 & 255, kind & 255) for kind in kinds.tolist()]
-    blit_many(
-        frame.surface,
-        list(zip(map(images.__getitem__, which.tolist()), zip(left[small].tolist(), top[small].tolist()))),
-    )
+    places = zip(left[small].tolist(), top[small].tolist(), strict=True)
+    blit_many(frame.surface, [(images[i], place) for i, place in zip(which.tolist(), places, strict=True)])
 
 
 @lru_cache(maxsize=2048)
-def outline(color, width, height):
+def outline(color: Color, width: int, height: int) -> pygame.Surface:
     """The picture of a small box's outline: a swarm of equal boxes is one call."""
     image = pygame.Surface((width, height))
     clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
@@ -54,17 +55,17 @@ def outline(color, width, height):
     return image
 
 
-class Bounds:
+class Bounds(Layer):
     """The tight AABB of every shape: green alone, orange in a candidate pair, red in contact, grey static."""
 
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.bounds(world)
         self.total += len(rows)
@@ -76,7 +77,7 @@ class Bounds:
         order = np.argsort(state, kind="stable")  # red last, over its neighbours
         draw_boxes(frame, lens, rows[seen][order], COLORS, state[order])
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [(self.color, f"boxes {self.drawn} of {self.total}"), (ORANGE, "boxes meet"), (RED, "touch")]
 
@@ -93,17 +94,17 @@ def _states(world, shapes):
     return state
 
 
-class Motion:
+class Motion(Layer):
     """The bounding motion rectangle of every moving body: where it is, was and will be in one step."""
 
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.motion(world)
         self.total += len(rows)
@@ -113,6 +114,6 @@ class Motion:
         self.drawn += len(seen)
         draw_boxes(frame, lens, rows[seen], (self.color,), np.zeros(len(seen), int))
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [(self.color, f"motion {self.drawn} of {self.total}")]

@@ -4,8 +4,11 @@ import numpy as np
 import pygame
 
 from game.drawing.colors import FOG, GOLD, INK, PAPER
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import arrow
+from physics import World
 from physics.tables.body import DYNAMIC
 
 CENTER_BUDGET = 600  # bodies per picture; the note says how many there are
@@ -13,17 +16,17 @@ SECONDS = 0.1  # the arrow shows the way of this time
 APART = 1.0  # [px] an origin nearer than this is not drawn beside the centre
 
 
-class Centers:
+class Centers(Layer):
     """The tester's mark at each dynamic body's centre of mass, its way in a tenth of a second, a line to its origin."""
 
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         bodies = world.bodies
         bodies = bodies[(bodies["kind"] == DYNAMIC) & ~bodies["quarantined"]]
@@ -44,12 +47,12 @@ class Centers:
             arrow(frame, x, y, wx, wy, GOLD)
             mark(frame.surface, x, y, angle, 2.0 * frame.scale)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [(self.color, f"centres {self.drawn} of {self.total}, arrow: 0.1 s"), (FOG, "origin, where elsewhere")]
 
 
-def mark(surface, x, y, angle, radius):
+def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
     """The crash tester's disc: two dark and two light quarters, turned with the body."""
     pygame.draw.circle(surface, PAPER, (x, y), radius)
     cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius

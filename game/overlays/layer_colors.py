@@ -3,23 +3,25 @@
 import numpy as np
 import pygame
 
-from game.drawing.colors import FOG, PINK, SERIES, WHITE
-from game.drawing.draw import SMALL
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, PINK, SERIES, WHITE, Color
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_contacts import seen_points
 from game.overlays.layer_impulses import can_move
-from physics import debug
+from physics import World, debug
 
 COLOR_BUDGET = 800  # contacts per picture; the note says how many there are
 LABEL_BUDGET = 150  # numbers written out per picture
 LISTED = 8  # colours counted one by one in the legend
 
 
-class Colors:
+class Colors(Layer):
     """Each contact joined to the centres of the bodies it moves, in its graph colour; white: in none, solved first."""
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
@@ -27,7 +29,7 @@ class Colors:
         self.room = COLOR_BUDGET // views
         self.labels = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.contact_points(world)
         rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
@@ -46,11 +48,13 @@ class Colors:
             cx, cy = lens.points(bodies["center_x"][owner], bodies["center_y"][owner])
             for i in np.flatnonzero(moves).tolist():
                 color = frame.tone(color_of(int(rows["color"][seen[i]])))
-                pygame.draw.line(frame.surface, color, (x[seen[i]], y[seen[i]]), (cx[i], cy[i]))
+                pygame.draw.line(
+                    frame.surface, color, (float(x[seen[i]]), float(y[seen[i]])), (float(cx[i]), float(cy[i]))
+                )
         for i in seen.tolist():
             color = int(rows["color"][i])
             tone = frame.tone(color_of(color))
-            pygame.draw.circle(frame.surface, tone, (x[i], y[i]), 2 * frame.scale)
+            pygame.draw.circle(frame.surface, tone, (float(x[i]), float(y[i])), 2 * frame.scale)
             if len(self.labels) < LABEL_BUDGET:
                 self.labels.append((f"{color}" if color >= 0 else "-", float(x[i]), float(y[i]), tone))
 
@@ -60,13 +64,13 @@ class Colors:
         found[: len(self.counts)] += self.counts
         self.counts = found
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Write the colours' numbers where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x + 3 * scale, y - 6 * scale, color, SMALL, scale, "left", True)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         used = np.flatnonzero(self.counts).tolist()
         lines = [(self.color, f"coloured {self.drawn} of {self.total} contacts, {len(used)} colours")]
@@ -78,6 +82,6 @@ class Colors:
         return lines
 
 
-def color_of(number):
+def color_of(number: int) -> Color:
     """The picture's colour of a graph colour; white for none."""
     return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

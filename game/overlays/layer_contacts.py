@@ -3,9 +3,11 @@
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PINK, SKY, SLATE
-from game.drawing.draw import SMALL
-from physics import debug
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
+from physics import World, debug
 
 NORMAL_LENGTH = 9.0  # [canvas px] drawn length of a normal, before the depth is added
 CONTACT_BUDGET = 800  # contacts per picture; the note says how many there are
@@ -16,19 +18,19 @@ STATES = ("speculative", "new", "persisted", "sensor", "asleep")
 COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
-class Contacts:
+class Contacts(Layer):
     """A dot per contact point in the colour of its state, its normal from A to B, and the depth in pixels."""
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
         self.labels = []  # (text, x, y, align), drawn when all fixed text has its place
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.contact_points(world)
         self.total += len(rows)
@@ -61,18 +63,18 @@ class Contacts:
         if depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right"))
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Write the depths where there is room."""
         for text, x, y, align in self.labels:
             frame.text_if_free(text, x, y, GOLD, SMALL, frame.text_scale, align, True)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         states = [(COLORS[i], f"{count} {STATES[i]}") for i, count in enumerate(self.states.tolist()) if count]
         return [(self.color, f"contacts {self.drawn} of {self.total}, px deep where room"), *states]
 
 
-def seen_points(lens, x, y):
+def seen_points(lens: Lens, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Which frame points lie in the view, as row numbers."""
     clip = lens.clip
     return np.flatnonzero((x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom))

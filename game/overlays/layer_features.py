@@ -2,40 +2,43 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import PAPER, SERIES
-from game.drawing.draw import SMALL
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_contacts import seen_points
-from physics import debug
+from physics import World, debug
 
 FEATURE_BUDGET = 150  # contacts per picture
 PER_LINK = 4096  # a chain's or grid's feature: number of the link or run, then the corner on it
 
 
-class Features:
+class Features(Layer):
     """Each contact point's number, in its colour: while a body slides, number and colour stay."""
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
             return
-        x, y = lens.points(rows["point_x"], rows["point_y"])
-        seen = seen_points(lens, x, y)[: self.room]
-        for x, y, feature in zip(x[seen].tolist(), y[seen].tolist(), rows["feature"][seen].tolist(), strict=True):
+        across, down = lens.points(rows["point_x"], rows["point_y"])
+        seen = seen_points(lens, across, down)[: self.room]
+        features = rows["feature"][seen].tolist()
+        for x, y, feature in zip(across[seen].tolist(), down[seen].tolist(), features, strict=True):
             color = frame.tone(SERIES[feature % len(SERIES)])
             pygame.draw.circle(frame.surface, color, (x, y), frame.scale)
             self.labels.append((text_of(feature), x, y, color))
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Write the numbers above, below or beside their points, where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
@@ -44,12 +47,12 @@ class Features:
                     self.drawn += 1
                     break
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend. The labels come after the legend: it counts points, not texts."""
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 
-def text_of(feature):
+def text_of(feature: int) -> str:
     """A feature as text: link:corner on chains and tiles."""
     link, corner = divmod(int(feature), PER_LINK)
     return f"{link}:{corner}" if link else f"{corner}"

@@ -3,24 +3,26 @@
 import numpy as np
 
 from game.drawing.colors import FOG, PINK, SERIES
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
-from physics import debug
+from physics import World, debug
 
 KINDS_LISTED = 6  # lines in the legend; a further line counts the rest
 
 
-class Filters:
+class Filters(Layer):
     """Each shape's box, inset, in the colour of its filter. Two kinds meet if each is in the other's mask."""
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows, shapes = debug.bounds(world), debug.shape_rows(world)
         self.total += len(rows)
@@ -41,9 +43,9 @@ class Filters:
         inner[:, 2:] = np.maximum(inner[:, 2:], inner[:, :2])
         draw_boxes(frame, lens, inner, colors, which[seen])
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
-        lines = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
+        lines: list[LegendLine] = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
         listed = list(self.kinds.items())
         for (membership, mask), (color, count) in listed[:KINDS_LISTED]:
             lines.append((color, f"{count} x {_bits(membership)} meets {_bits(mask)}"))

@@ -3,31 +3,33 @@
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, SKY, WHITE, faded
-from game.drawing.draw import SMALL
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.outlines import draw_outline, moved
-from physics import debug
+from physics import World, debug
 
 GHOST_BUDGET = 200  # bodies per picture; the note says how many there are
 KEPT = 45  # pictures a ghost stays, fading
 
 
-class Ghosts:
+class Ghosts(Layer):
     """White: a body at its time of impact, with the share of the step at which that was. Blue: where it was going."""
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.kept = {}  # id of a world -> ([[age, outlines, fraction, place, where it was going], ...], events, world)
         self.begin()
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         kept = self._note(world)
         self.total += sum(1 for ghost in kept if ghost[0] == 0)
@@ -77,12 +79,12 @@ class Ghosts:
             found.append([0, pairs, float(ghost["fraction"]), now[:2], then[:2]])
         return found
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Write the shares of the step where there is room."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y - 4 * frame.text_scale, color, SMALL, frame.text_scale, "left", True)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [
             (self.color, f"impacts {self.drawn} of {self.total} in this step"),

@@ -5,9 +5,11 @@ from math import hypot, log10
 import numpy as np
 import pygame
 
-from game.drawing.colors import RED, YELLOW
+from game.drawing.colors import RED, YELLOW, Color
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_contacts import seen_points
-from physics import debug
+from physics import World, debug
 
 IMPULSE_BUDGET = 800  # contacts per picture; the note says how many there are
 LONGEST = 26.0  # [canvas px] an arrow is drawn at most this long …
@@ -16,23 +18,23 @@ TYPICAL = 0.9  # the share of contacts that push less than the one the scale is 
 FADE = 0.95  # a step: how slowly the scale comes down after a blow
 
 
-class Impulses:
-    """Red: the push along the normal, on B or on the one that can move. Yellow: friction. One scale, named in the legend."""
+class Impulses(Layer):
+    """Red: the push along the normal, on B or on what can move. Yellow: friction. The legend names the scale."""
 
     name, title, key, color = "impulses", "Impulses", "9", RED
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.level = 0.0  # the impulse that is typical now
         self.begin()
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
         self.level *= FADE
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.contact_points(world)
         rows = rows[(rows["normal_impulse"] != 0.0) | (rows["tangent_impulse"] != 0.0)]
@@ -46,33 +48,27 @@ class Impulses:
         self.drawn += len(seen)
         scale = REFERENCE * frame.scale / self.unit if self.unit else 0.0
         scale = scale * np.where(can_move(world.bodies, rows["body_b"][seen]), 1.0, -1.0)
-        nx, ny, push, rub = (rows[name][seen] for name in ("normal_x", "normal_y", "normal_impulse", "tangent_impulse"))
-        for x, y, nx, ny, push, rub in zip(
-            x[seen].tolist(),
-            y[seen].tolist(),
-            nx.tolist(),
-            ny.tolist(),
-            (push * scale).tolist(),
-            (rub * scale).tolist(),
-            strict=True,
-        ):
-            arrow(frame, x, y, nx * push, ny * push, RED)
-            arrow(frame, x, y, -ny * rub, nx * rub, YELLOW)
+        shown = rows[seen]
+        push, rub = shown["normal_impulse"] * scale, shown["tangent_impulse"] * scale
+        columns = (x[seen], y[seen], shown["normal_x"], shown["normal_y"], push, rub)
+        for at_x, at_y, nx, ny, along, across in zip(*(column.tolist() for column in columns), strict=True):
+            arrow(frame, at_x, at_y, nx * along, ny * along, RED)
+            arrow(frame, at_x, at_y, -ny * across, nx * across, YELLOW)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         scale = f", {REFERENCE:.0f} px is {short(self.unit)}" if self.unit else ""
         return [(self.color, f"impulses {self.drawn} of {self.total}{scale}"), (YELLOW, "friction")]
 
 
-def can_move(bodies, ids):
+def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
     """Which of the bodies with these ids an impulse moves, as a bool array."""
     known = np.ascontiguousarray(bodies["id"])
     rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
     return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
 
 
-def arrow(frame, x, y, dx, dy, color):
+def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
     """An arrow from (x, y) by (dx, dy) [frame px], cut at LONGEST; under a canvas pixel nothing is drawn."""
     length = hypot(dx, dy)
     if length < frame.scale:
@@ -89,7 +85,7 @@ def arrow(frame, x, y, dx, dy, color):
         pygame.draw.line(frame.surface, color, end, back, width)
 
 
-def step_of(value):
+def step_of(value: float) -> float:
     """The next of 1, 2, 5, 10, ... at or above a positive value: a scale that changes seldom. 0 for 0."""
     if not 0.0 < value < float("inf"):
         return 0.0
@@ -97,7 +93,7 @@ def step_of(value):
     return next(digit * power for digit in (1, 2, 5, 10) if digit * power >= value * 0.999999)
 
 
-def short(value):
+def short(value: float) -> str:
     """A number of the form 1, 2 or 5 times a power of ten as short text."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:

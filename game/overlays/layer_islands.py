@@ -1,14 +1,17 @@
 """Islands: bodies that push on each other, solved together, and put to sleep together when all have come to rest."""
 
+from collections.abc import Sequence
 from math import ceil, floor
 
 import numpy as np
 import pygame
 
-from game.drawing.colors import FOG, PAPER, SERIES, SLATE, faded
-from game.drawing.draw import SMALL
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, PAPER, SERIES, SLATE, Color, faded
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.outlines import draw_outline
-from physics import debug
+from physics import World, debug
 
 BODY_BUDGET = 700  # shapes outlined per picture; the note says how many bodies there are
 ISLAND_BUDGET = 120  # hulls drawn per picture
@@ -16,20 +19,20 @@ DIRECTIONS = 32  # a hull is drawn by its farthest points this many ways
 FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
-class Islands:
+class Islands(Layer):
     """Each island's hull and shapes in a colour of its own; asleep: grey, with a z."""
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
     under = True  # drawn before the other layers, since it fills areas
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
         self.found = False  # some world looks for islands
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         self.found |= world.effects.sleeping
         islands, bodies = debug.islands(world), world.bodies
@@ -69,12 +72,12 @@ class Islands:
             color = frame.tone(SLATE if sleeping else color_of(int(islands[group[0]])))
             draw_hull(frame.surface, lens.clip, hull, color, ASLEEP_FILL if sleeping else FILL, max(1, frame.scale - 1))
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """A z on what sleeps, where there is room."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, "center", True)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         if not self.found:
             return [(FOG, "no islands: sleeping is not declared")]
@@ -84,14 +87,16 @@ class Islands:
         ]
 
 
-def hull_of(points):
+def hull_of(points: np.ndarray) -> list[list[float]]:
     """Corners around (n, 2) points: the farthest one each way, so that thousands cost what few do."""
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
     return points[np.argmax(points @ ways.T, axis=0)].tolist()
 
 
-def draw_hull(surface, clip, hull, color, fill, width):
+def draw_hull(
+    surface: pygame.Surface, clip: pygame.Rect, hull: Sequence[Sequence[float]], color: Color, fill: int, width: int
+) -> None:
     """A polygon filled with so much of a colour, 0..255, and its edge; only what lies in the clip takes time."""
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
@@ -105,6 +110,6 @@ def draw_hull(surface, clip, hull, color, fill, width):
     surface.blit(sheet, place)
 
 
-def color_of(island):
+def color_of(island: int) -> Color:
     """A colour that neighbouring numbers do not share."""
     return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -9,9 +9,12 @@ from collections import OrderedDict
 import numpy as np
 import pygame
 
-from game.compat import blit_many
+from game.drawing.blit import blit_many
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
 from game.drawing.colors import BLUE, YELLOW, toned
-from physics import debug
+from game.overlays.layer import Layer, LegendLine
+from physics import World, debug
 
 FILL = 96  # opacity of 255 of a mask's inside
 EDGE = (150, 210, 255, 255)
@@ -19,21 +22,21 @@ HIT = (255, 250, 150, 255)
 CACHE_SIZE = 512  # tinted masks kept; a turning sprite has one per angle bucket
 
 
-class Masks:
+class Masks(Layer):
     """Every mask in blue with a light edge; pixels that two masks share in yellow."""
 
     name, title, key, color = "masks", "Masks, shared pixels", "5", BLUE
     on_canvas = True
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.tinted = OrderedDict()
         self.begin()
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views."""
         self.drawn = self.total = self.lit = 0
 
-    def draw(self, canvas, camera, world):
+    def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
         """Draw one world on the canvas. A zoomed-out view is left out: its pixels are not the mask's."""
         if camera.zoom != 1.0:
             return
@@ -48,7 +51,8 @@ class Masks:
         )
         self.total += len(x)
         self.drawn += len(seen)
-        pairs = list(zip(map(images.__getitem__, found.which[seen].tolist()), zip(x[seen].tolist(), y[seen].tolist())))
+        places = zip(x[seen].tolist(), y[seen].tolist(), strict=True)
+        pairs = [(images[i], place) for i, place in zip(found.which[seen].tolist(), places, strict=True)]
         canvas.surface.set_clip(view)
         blit_many(canvas.surface, pairs)
         canvas.surface.set_clip(None)
@@ -79,12 +83,12 @@ class Masks:
             self.tinted.move_to_end((id(solid), palette))
         return image
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
 
 
-def mask_image(solid, palette="standard"):
+def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:
     """A translucent image of a (h, w) bool mask with its edge pixels light."""
     fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)

@@ -1,28 +1,35 @@
 """Outlines: the exact shapes that collide, whatever is drawn over them. Masks have a layer of their own."""
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 import pygame
 
 from game.drawing.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.outlines import draw_outline
-from physics import TileGrid, debug
+from physics import TileGrid, World, debug
 from physics.tables.shape import MASK
 
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
 
+Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, open from below
 
-class Outlines:
-    """Every shape's own outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
+
+class Outlines(Layer):
+    """Every shape's outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         boxes = debug.bounds(world)
         self.total += len(boxes)
@@ -54,7 +61,7 @@ class Outlines:
         for start, end, one_way in edges_of(grid, lens, x, y):
             pygame.draw.line(frame.surface, from_below if one_way else color, start, end, width)
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [
             (self.color, f"shapes {self.drawn} of {self.total}"),
@@ -64,7 +71,7 @@ class Outlines:
         ]
 
 
-def edges_of(grid, lens, x, y):
+def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
     """Frame lines around the cells in view of a TileGrid at (x, y): (start, end, one way) each."""
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip

@@ -4,23 +4,25 @@ import numpy as np
 import pygame
 
 from game.drawing.colors import RED
-from physics import debug
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
+from physics import World, debug
 
 PAIR_BUDGET = 1500  # lines per picture; the note says how many pairs there are
 MISS = (150, 140, 190)
 
 
-class Pairs:
+class Pairs(Layer):
     """A line per candidate pair: red where the narrow phase found a hit, grey where it did not."""
 
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         rows = debug.pairs(world)
         self.total += len(rows)
@@ -46,6 +48,6 @@ class Pairs:
         for i in reversed(range(len(seen))):  # hits last, on top
             line(surface, hit if rows[seen[i], 4] else miss, starts[i], ends[i])
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         return [(self.color, f"pairs {self.drawn} of {self.total}, {self.hits} hit")]

@@ -1,10 +1,14 @@
 """The broad phase's own structure: cells of the hash, boxes of the tree by depth, intervals of the sweep."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from game.drawing.colors import BLUE, FOG, GREEN, PINK, SKY, YELLOW, faded
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_bounds import draw_boxes
-from physics import debug
+from physics import World, debug
 
 RECT_BUDGET = 2500  # cells or tree boxes per picture; the note says how many there are
 INTERVAL_BUDGET = 1200  # intervals per picture
@@ -12,18 +16,18 @@ LANES = 8  # intervals of one axis are drawn in this many lanes, so that neighbo
 DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE) for amount in (0.0, 0.25))
 
 
-class Structure:
+class Structure(Layer):
     """What each strategy keeps. Brute force keeps nothing, and says so."""
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
-    def begin(self, views=1):
+    def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
 
-    def draw(self, frame, lens, world):
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
         found = debug.structure(world)
         self.kinds.append(found.kind)
@@ -64,7 +68,7 @@ class Structure:
             else:
                 frame.surface.fill(pink, (clip.left + across, clip.top + first, thick, last - first))
 
-    def notes(self):
+    def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         kinds = "/".join(dict.fromkeys(self.kinds))
         if self.total == 0:
@@ -74,7 +78,9 @@ class Structure:
         return [(self.color, f"{kinds}: {self.drawn} of {self.total} {what}")]
 
 
-def covered(low, high, lanes, count, length):
+def covered(
+    low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
+) -> Iterable[tuple[int, int, int]]:
     """(lane, first, last) of the stretches that each lane's intervals cover together: bars that overlap are one bar.
 
     low, high: whole numbers 0..length; lanes: whole numbers below count.
@@ -87,7 +93,7 @@ def covered(low, high, lanes, count, length):
     return zip(lane[::2].tolist(), place[::2].tolist(), place[1::2].tolist(), strict=True)
 
 
-def thinned(rows, room):
+def thinned(rows: np.ndarray, room: int) -> np.ndarray:
     """At most `room` of the rows, evenly spread over all."""
     if len(rows) <= room:
         return rows

@@ -2,8 +2,11 @@
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded, toned
-from game.drawing.draw import SMALL
+from game.drawing.presenter import Frame
+from game.overlays.layer import Layer
+from game.scene import Scene
 
 HISTORY = 240  # steps kept: four seconds
 SMOOTHING = 0.06  # share of the newest step in the figures written out; raw ones cannot be read
@@ -28,24 +31,24 @@ LEAST_TOP = 0.5  # [ms] top of the graph when everything is fast
 FRAME_BUDGET = 1000 / 60  # [ms] a frame at 60 Hz
 
 
-class Times:
+class Times(Layer):
     """note(scene) once per step; draw() paints graph and tables into a rect."""
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.clear()
 
-    def clear(self):
+    def clear(self) -> None:
         """Forget the history (another scene)."""
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] of the same steps
         self.mean = {}
         self.counters = {}
         self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
-        self.sheet, self.sheet_for = None, None
+        self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
 
-    def note(self, scene):
+    def note(self, scene: Scene) -> None:
         """Take the measurements of the last step."""
         step, counters = {}, {}
         for world in scene.worlds:
@@ -63,7 +66,7 @@ class Times:
             for name, spent in step.items()
         }
 
-    def draw(self, frame, rect):
+    def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
         """Paint into a frame rect: graph on the left, stages in the middle, counters on the right."""
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -151,7 +154,7 @@ class Times:
             frame.text(f"and {len(rows) - len(shown)} more", x + 4 * scale, y + height, FOG, SMALL, scale)
 
 
-def round_up(value):
+def round_up(value: float) -> float:
     """The next of 0.5, 1, 2, 5, 10, 20, ...: a scale that changes seldom and is easily read."""
     power = 0.1
     while True:

@@ -1,16 +1,25 @@
 """Thin lines around shapes of every kind, as physics.debug hands them out: what overlays and labs draw with."""
 
+from collections.abc import Sequence
+from itertools import pairwise
 from math import atan2, ceil, cos, hypot, pi, sin
 
 import numpy as np
 import pygame
+from numpy.typing import ArrayLike
+
+from game.drawing.colors import Color
+from game.drawing.presenter import Lens
+
+Point = tuple[float, float]
+Pose = tuple[float, float, float]
 
 ARC_STEP = 2.5  # [frame px] of an arc that one line stands for
 TICK_GAP, TICK_LENGTH = 7.0, 4.0  # [canvas px] hatching on the solid side of a chain
 TICK_BUDGET = 400  # ticks of one chain
 
 
-def ring(points, radius, scale):
+def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
     """Corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
 
     scale [frame px per px] says how fine the arcs have to be.
@@ -21,7 +30,7 @@ def ring(points, radius, scale):
         steps = _steps(2 * pi, radius, scale)
         return [(x + radius * cos(2 * pi * i / steps), y + radius * sin(2 * pi * i / steps)) for i in range(steps)]
     if radius <= 0.0:
-        return [tuple(point) for point in points]
+        return [(x, y) for x, y in points]
     facing = []
     for i in range(count):
         (ax, ay), (bx, by) = points[i], points[(i + 1) % count]
@@ -42,7 +51,7 @@ def _steps(turn, radius, scale):
     return max(1 if turn < pi else 6, min(96, ceil(turn * radius * scale / ARC_STEP)))
 
 
-def corners_of(outline, scale=1.0):
+def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
     """World corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
     kind = outline[0]
     if kind == "circle":
@@ -59,7 +68,7 @@ def corners_of(outline, scale=1.0):
     return None
 
 
-def clockwise(points):
+def clockwise(points: ArrayLike) -> list[list[float]]:
     """The corners as a list, clockwise on the screen."""
     points = np.asarray(points, float)
     x, y = points[:, 0], points[:, 1]
@@ -67,7 +76,7 @@ def clockwise(points):
     return (points if area >= 0.0 else points[::-1]).tolist()
 
 
-def moved(outline, start, end):
+def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
     """The outline as it is when its body goes from pose to pose (x, y, angle)."""
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
@@ -87,7 +96,9 @@ def moved(outline, start, end):
     return outline
 
 
-def draw_outline(surface, lens, outline, color, width=1, scale=1):
+def draw_outline(
+    surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
+) -> None:
     """Draw one outline through a lens; a chain with ticks on its solid side. scale: frame px per canvas px."""
     kind = outline[0]
     if kind == "circle":
@@ -109,7 +120,7 @@ def _draw_ticks(surface, clip, points, color, scale):
     """Hatching below a chain: it is solid on the side its normal does not show to."""
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
-    for (ax, ay), (bx, by) in zip(points, points[1:]):
+    for (ax, ay), (bx, by) in pairwise(points):
         length = hypot(bx - ax, by - ay)
         if length == 0.0 or not room.clipline((ax, ay), (bx, by)):
             continue

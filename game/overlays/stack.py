@@ -1,9 +1,13 @@
 """The stack of overlay layers over one scene: which are on, drawing them, and their legend."""
 
+from collections.abc import Iterable, Sequence
+
 import pygame
 
+from game.drawing.canvas import SMALL, Canvas
 from game.drawing.colors import FOG, NIGHT, PAPER, faded
-from game.drawing.draw import SMALL
+from game.drawing.presenter import Frame
+from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_bounds import Bounds, Motion
 from game.overlays.layer_centers import Centers
 from game.overlays.layer_colors import Colors
@@ -18,6 +22,7 @@ from game.overlays.layer_outlines import Outlines
 from game.overlays.layer_pairs import Pairs
 from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
+from game.scene import Scene
 
 SHORTER = (24, 16, 10, 5)  # lines of a legend that does not fit in full
 TIMES_SIZE = (250, 62)  # of the floating graph, in text pixels (frame pixels / text scale)
@@ -26,8 +31,9 @@ TIMES_SIZE = (250, 62)  # of the floating graph, in text pixels (frame pixels / 
 class Overlays:
     """`on` is the set of layer names switched on."""
 
-    def __init__(self, on=()):
-        self.layers = (
+    def __init__(self, on: Iterable[str] = ()) -> None:
+        self.times = Times()  # keeps a history, to be told of every step
+        self.layers: tuple[Layer, ...] = (
             Bounds(),
             Motion(),
             Structure(),
@@ -35,7 +41,7 @@ class Overlays:
             Masks(),
             Contacts(),
             Filters(),
-            Times(),
+            self.times,
             Impulses(),
             Features(),
             Islands(),
@@ -46,31 +52,26 @@ class Overlays:
         )
         self.on = set(on)
 
-    @property
-    def times(self):
-        """The layer that keeps a history, to be told of every step."""
-        return next(layer for layer in self.layers if layer.name == "times")
-
-    def toggle(self, name):
+    def toggle(self, name: str) -> None:
         """Switch a layer."""
         self.on ^= {name}
 
-    def toggle_all(self):
+    def toggle_all(self) -> None:
         """All off if any is on, else all on."""
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
-    def shows_geometry(self):
+    def shows_geometry(self) -> bool:
         """True if a layer lies on the world: sprites are then drawn at the exact poses it shows."""
         return bool(self.on - {"times"})
 
-    def draw_on_canvas(self, canvas, scene):
+    def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
         """Layers that are exact to the canvas pixel; before the canvas is scaled."""
         for layer in self._active(on_canvas=True):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
-                layer.draw(canvas, camera, world)
+                layer.draw_on_canvas(canvas, camera, world)
 
-    def draw_on_frame(self, frame, scene):
+    def draw_on_frame(self, frame: Frame, scene: Scene) -> None:
         """Layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
         for layer in self._active(on_canvas=False):
@@ -81,19 +82,16 @@ class Overlays:
                 layer.draw(frame, lens, world)
             surface.set_clip(None)
 
-    def draw_labels(self, frame):
+    def draw_labels(self, frame: Frame) -> None:
         """Text that follows things, last: it takes only the places that are left."""
         for layer in self._active(on_canvas=False):
-            if hasattr(layer, "draw_labels"):
-                layer.draw_labels(frame)
+            layer.draw_labels(frame)
 
-    def legend(self):
+    def legend(self) -> list[LegendLine]:
         """(color, text) lines of all active layers, in the order of their keys."""
-        return [
-            line for layer in self.layers if layer.name in self.on and layer.name != "times" for line in layer.notes()
-        ]
+        return [line for layer in self.layers if layer.name in self.on for line in layer.notes()]
 
-    def draw_floating(self, frame, legend_at=None):
+    def draw_floating(self, frame: Frame, legend_at: tuple[int, int] | None = None) -> None:
         """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
@@ -102,7 +100,7 @@ class Overlays:
             place = frame.free_place(size, _corners(area, size, 4 * scale))
             if place is not None:
                 rect = pygame.Rect(place, size)
-                self.times.draw(frame, rect)
+                self.times.draw_graph(frame, rect)
                 frame.reserve(rect)
         self._draw_legend(frame, area, legend_at, scale)
 
@@ -124,26 +122,24 @@ class Overlays:
                 shade = pygame.Surface(size, pygame.SRCALPHA)
                 shade.fill((*faded(NIGHT, 0.5), 190))
                 frame.surface.blit(shade, place)
-                draw_legend(frame, shown, *place, scale)
+                draw_legend(frame, shown, place[0], place[1], scale)
                 return
 
     def _active(self, on_canvas):
         """Layers to draw, those that fill areas first."""
-        active = [
-            layer
-            for layer in self.layers
-            if layer.name in self.on and layer.name != "times" and getattr(layer, "on_canvas", False) == on_canvas
-        ]
-        return sorted(active, key=lambda layer: not getattr(layer, "under", False))
+        active = [layer for layer in self.layers if layer.name in self.on and layer.on_canvas == on_canvas]
+        return sorted(active, key=lambda layer: not layer.under)
 
 
-def legend_size(frame, lines, scale):
+def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[int, int]:
     """Width and height of the legend with its margin."""
     widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
     return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
 
 
-def legend_columns(frame, lines, width, height, scale):
+def legend_columns(
+    frame: Frame, lines: list[LegendLine], width: int, height: int, scale: int
+) -> list[list[LegendLine]]:
     """The lines in columns that fit into width x height; what does not fit is counted in the last line."""
     rows = max(1, (height - 5 * scale) // (7 * scale))
     for shown in range(len(lines), 0, -1):
@@ -154,7 +150,7 @@ def legend_columns(frame, lines, width, height, scale):
     return []
 
 
-def draw_legend(frame, lines, x, y, scale):
+def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale: int) -> None:
     """A swatch and a text per line, from the top left (x, y)."""
     for index, (color, text) in enumerate(lines):
         top = y + 3 * scale + index * 7 * scale

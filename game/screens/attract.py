@@ -1,11 +1,18 @@
 """What the title shows when nobody is there: the games and two labs, played by their bots. Any key ends it."""
 
+from collections.abc import Callable, Sequence
+
 import pygame
 
 from game.drawing.colors import GOLD
+from game.drawing.presenter import Frame
 from game.errors import UsageError
-from game.screens.demo import Demo
-from game.screens.status_line import draw_line
+from game.files.accessibility import Accessibility
+from game.run.picture import Picture
+from game.scene import Scene
+from game.screens.parts.demo import Demo
+from game.screens.parts.status_line import draw_line
+from game.screens.screen import SceneScreen
 
 SCENES = ("shooter", "platformer", "lab/pyramid", "lab/masks")
 SECONDS = 25  # of each
@@ -15,7 +22,7 @@ LINE = "DEMO - press any key"
 ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
 
 
-class Attract:
+class Attract(SceneScreen):
     """`make(name)` builds a scene, or returns None when a person came back while it was being prepared.
 
     `outcome` becomes ("back",). `quiet` tells the app to play the music low.
@@ -24,28 +31,28 @@ class Attract:
     shows_pointer = False
     quiet = True
 
-    def __init__(self, make, names, comfort):
-        self.make, self.comfort = make, comfort
+    def __init__(self, make: Callable[[str], Scene | None], names: Sequence[str], accessibility: Accessibility) -> None:
+        super().__init__()
+        self.make, self.accessibility = make, accessibility
         self.names = [name for name in SCENES if name in names] or list(names[:1])
         self.at = 0
         self.steps = 0
         self.ended = False  # the bot's game is over
         self.demo = None
-        self.outcome = None
 
     @property
-    def tune(self):
+    def tune(self) -> str | None:
         """The music of the scene that is shown."""
         return self.demo.scene.music if self.demo else "title"
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Any key, button or click ends it."""
         if event.type in ENDS_IT:
             self.outcome = ("back",)
             return True
         return False
 
-    def advance(self, now):
+    def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]; the next scene when one has had its time."""
         if self.demo is None:
             self._begin()
@@ -71,9 +78,9 @@ class Attract:
         if scene is None:
             self.outcome = ("back",)
         else:
-            self.demo = Demo(scene, self.comfort)
+            self.demo = Demo(scene, self.accessibility)
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene, and that it is a demonstration."""
         if self.demo is None:
             return picture.presenter.frame

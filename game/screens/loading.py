@@ -2,11 +2,12 @@
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
-from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
-from game.screens.ground import DuskGround
+from game.run.picture import Picture
+from game.screens.parts.background import DuskBackground
 
 BAR_WIDTH, BAR_HEIGHT = 260, 8
 ANYBODY = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
@@ -22,15 +23,15 @@ class Loading:
     stops_for_anybody: any key stops it, not only the closing of the window.
     """
 
-    def __init__(self, title, stops_for_anybody=False):
+    def __init__(self, title: str, stops_for_anybody: bool = False) -> None:
         self.title = title
         self.stops_for = (pygame.QUIT, *ANYBODY) if stops_for_anybody else (pygame.QUIT,)
-        self.ground = DuskGround()
+        self.ground = DuskBackground()
         self.logo = load_atlas("ui")["logo"]
         self.share = 0.0
         self.what = ""
 
-    def show(self, picture, share, what):
+    def show(self, picture: Picture, share: float, what: str) -> None:
         """Paint the bar at `share` 0..1 and hand it to the window; keeps the window answering.
 
         Raises LoadingStopped; the event stays in the queue.
@@ -42,7 +43,7 @@ class Loading:
         if pygame.event.peek(self.stops_for, pump=False):
             raise LoadingStopped
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, 0.0)
         middle = canvas.rect.centerx

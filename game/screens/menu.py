@@ -2,16 +2,19 @@
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten, wrap
 from game.drawing.colors import FOG, GOLD, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten, wrap
-from game.drawing.figures import clock, points_text
-from game.drawing.pictures import SIZE, draw_picture
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text
+from game.drawing.thumbnails import SIZE, draw_picture
 from game.errors import FileError
 from game.files.own_levels import own_levels
-from game.files.records import table_of
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import Row, RowList
+from game.files.records import Records, table_of
+from game.input.inputs import InputState
+from game.registry import Registry
+from game.screens.parts.background import MARGIN, DuskBackground, draw_page
+from game.screens.parts.rows import Row, RowList
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
 ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
@@ -19,16 +22,15 @@ GROUPS = {"": "GAMES", "lab": "LAB"}  # by the part of a scene's name before the
 FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
-class Menu:
+class Menu(CanvasScreen):
     """Chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
 
-    shows_pointer = True
     tune = "title"
 
-    def __init__(self, registry, records=None, chosen=None):
+    def __init__(self, registry: Registry, records: Records | None = None, chosen: str | None = None) -> None:
+        super().__init__()
         self.registry, self.records = registry, records
-        self.ground = DuskGround()
-        self.cues = []
+        self.ground = DuskBackground()
         self.tables = {}  # (scene class, level file) -> its table, asked once: the file is read
         self.entries = self._entries()  # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
@@ -38,7 +40,6 @@ class Menu:
             self.list.mark = names.index(chosen)
         self.list.show_marked()
         self.time = 0.0
-        self.outcome = None
 
     def _entries(self):
         """One entry per row, built together with the rows."""
@@ -49,7 +50,7 @@ class Menu:
                 self._put(entries, Row(GROUPS[own], head=True), None, None)
             group = own
             self._put(entries, Row(scene_class.title, press=self._play), scene_class, None)
-            for path in own_levels(scene_class):
+            for path in own_levels(scene_class.level_suffixes()):
                 self._put(entries, Row(f"  {path.stem}", press=self._play, color=SKY), scene_class, path)
         self._put(entries, Row("Back", press=self._back), None, None)
         return entries
@@ -65,7 +66,7 @@ class Menu:
     def _back(self):
         self.outcome = ("back",)
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again: levels may have been put into the folder meanwhile."""
         mark = self.list.mark
         self.tables.clear()
@@ -73,7 +74,7 @@ class Menu:
         self.list.mark = min(mark, len(self.entries) - 1)
         self.list.show_marked()
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if inputs.pressed("cancel"):
@@ -81,7 +82,7 @@ class Menu:
             self.outcome = ("back",)
         self.list.step(inputs, dt)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Play", FOOT)

@@ -1,36 +1,36 @@
 """One thing to be told: a file that cannot be used, with its place and the reason. Any yes or no goes back."""
 
+from collections.abc import Sequence
+
+from game.drawing.canvas import SMALL, TEXT, Canvas, wrap
 from game.drawing.colors import GOLD, PAPER, RED
-from game.drawing.draw import SMALL, TEXT, wrap
-from game.errors import FileError
-from game.screens.ground import DuskGround, draw_page
-from game.screens.rows import confirmed
+from game.errors import UsageError
+from game.input.inputs import InputState
+from game.screens.parts.background import Background, DuskBackground, draw_page
+from game.screens.parts.rows import confirmed
+from game.screens.screen import CanvasScreen
 
 WIDTH = 400
 MOST_LINES = 6  # of one part; a longer one is cut where it ends
 
 
-class MessageScreen:
+class MessageScreen(CanvasScreen):
     """`parts`: (label, text) pairs. `outcome` becomes ("back",)."""
 
-    shows_pointer = True
-    tune = None
-
-    def __init__(self, title, parts, ground=None):
+    def __init__(self, title: str, parts: Sequence[tuple[str, str]], ground: Background | None = None) -> None:
+        super().__init__()
         self.title, self.parts = title, parts
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.time = 0.0
-        self.outcome = None
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if confirmed(inputs) or inputs.pressed("cancel") or inputs.pointer_pressed:
             self.cues.append("back")
             self.outcome = ("back",)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         lines = []
@@ -60,9 +60,6 @@ def _broken(canvas, line, width):
     yield line
 
 
-def file_message(error, ground=None):
+def error_message(error: UsageError, ground: Background | None = None) -> MessageScreen:
     """The screen for a UsageError: a FileError in its three parts."""
-    if isinstance(error, FileError):
-        parts = (("file", str(error.path)), ("place", str(error.place)), ("reason", str(error.reason)))
-        return MessageScreen("This file cannot be used", parts, ground)
-    return MessageScreen("That does not work", (("reason", str(error)),), ground)
+    return MessageScreen(error.headline, error.parts, ground)

@@ -1,31 +1,36 @@
 """The pause menu over the darkened game."""
 
-from game.drawing.boxes import draw_box
+from collections.abc import Sequence
+
+from game.drawing.canvas import SMALL, TEXT, Canvas, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
-from game.drawing.draw import SMALL, TEXT, wrap
-from game.screens.ground import SceneGround
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.input.inputs import InputState
+from game.scene import Scene
+from game.screens.parts.background import SceneBackground
+from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 WIDTH = 192
 
 
-class PauseMenu:
+class PauseMenu(CanvasScreen):
     """`outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
 
     can_save: a replay of this run can be saved. message: why the game stopped by itself, or "".
     pairs: (key, what it does) of the game.
     """
 
-    shows_pointer = True
-    tune = None
+    holds_music = True
 
-    def __init__(self, scene, can_save=True, message="", pairs=()):
+    def __init__(
+        self, scene: Scene, can_save: bool = True, message: str = "", pairs: Sequence[tuple[str, str]] = ()
+    ) -> None:
+        super().__init__()
         self.scene, self.can_save, self.message, self.pairs = scene, can_save, message, pairs
-        self.ground = SceneGround(scene)
-        self.cues = []
+        self.ground = SceneBackground(scene)
         self.list = RowList(self._rows, self._place(), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     def _rows(self):
         entries = [
@@ -50,7 +55,11 @@ class PauseMenu:
         high = len(self._rows()) * LINE
         return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
 
-    def step(self, inputs, dt):
+    def tell(self, message: str) -> None:
+        """Say it under the menu."""
+        self.message = message
+
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if inputs.pressed("cancel") or inputs.pressed("pause"):
@@ -58,7 +67,7 @@ class PauseMenu:
             self.outcome = ("back",)
         self.list.step(inputs, dt)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         lines = wrap(self.message, WIDTH - 24, TEXT)

@@ -1,19 +1,29 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
+from collections.abc import Iterable
+from time import perf_counter
+from typing import Any
+
 import pygame
 
+from game.audio.sound import Sounds
+from game.drawing.presenter import Frame
 from game.files.records import table_of
-from game.files.replay import KEPT_EVERY, Recorder
-from game.inputs import BotSource
-from game.loop import FixedStep
+from game.files.settings import Settings
+from game.input.devices import DeviceSource
 from game.overlays.stack import Overlays
-from game.run_report import solver_name
-from game.scene import ASSISTS
-from game.screens.first_hint import HintCard
-from game.screens.panel import Panel
-from game.screens.panel_rows import following, play_rows
-from game.screens.status_line import RESULT_WAIT, draw_status
-from game.session import Session
+from game.run.loop import FixedStep
+from game.run.outcome import solver_name
+from game.run.picture import Picture
+from game.run.replay import KEPT_EVERY, Recorder, Replay
+from game.run.session import Session
+from game.run.sources import BotSource
+from game.scene import ASSISTS, Scene
+from game.screens.parts.first_hint import HintCard
+from game.screens.parts.panel import Panel
+from game.screens.parts.panel_rows import following, play_rows
+from game.screens.parts.status_line import RESULT_WAIT, draw_status
+from game.screens.screen import SceneScreen
 from physics import BROADPHASES
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
@@ -29,14 +39,28 @@ EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assi
 KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
-class Play:
+class Play(SceneScreen):
     """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
 
     settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
     """
 
-    def __init__(self, scene, devices, sounds, bot=False, recording=None, records=False, overlays=None, settings=None):
+    takes_game_input = True
+
+    def __init__(
+        self,
+        scene: Scene,
+        devices: DeviceSource,
+        sounds: Sounds,
+        bot: bool = False,
+        recording: Replay | None = None,
+        records: bool = False,
+        overlays: Iterable[str] | None = None,
+        settings: Settings | None = None,
+    ) -> None:
+        super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
+        self.last_frame: int | None = None  # the step that the run ends with, None for no end
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records  # each attempt is a recording of its own
@@ -47,8 +71,6 @@ class Play:
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
-        self.outcome = None
-        self.wants_screenshot = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -58,28 +80,28 @@ class Play:
         self.apply_settings()
 
     @property
-    def tune(self):
+    def tune(self) -> str | None:
         """The music for this moment."""
         return self.scene.music
 
     @property
-    def open_panel(self):
+    def open_panel(self) -> Panel | None:
         """The panel while it is open, else None."""
         return self.panel if self.panel_open else None
 
     @property
-    def shows_pointer(self):
+    def shows_pointer(self) -> bool:
         """True while the mouse has something to do."""
         scene = self.scene
         return (
             self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused or self.hint is not None
         )
 
-    def apply_settings(self):
+    def apply_settings(self) -> None:
         """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
         if self.settings is None:
             return
-        self.scene.set_comfort(self.settings.comfort())
+        self.scene.set_accessibility(self.settings.accessibility())
         if not self.person:
             return
         self.clock.pace = self.settings.speed
@@ -88,13 +110,23 @@ class Play:
             if name in self.scene.assist and pending.get(f"assist:{name}", self.scene.assist[name]) != value:
                 self.devices.change(f"assist:{name}", value)
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again."""
         self.clock.rest()
         self.apply_settings()
 
-    def advance(self, now, limit=None):
-        """Make the steps that are due at `now` [s]; at most `limit` in all of this run."""
+    @property
+    def finished(self) -> bool:
+        """True when the last step of a run of given length is made."""
+        return self.last_frame is not None and self.session.report.steps >= self.last_frame
+
+    def lose_focus(self) -> None:
+        """Whoever plays is busy elsewhere: the pause menu waits."""
+        if self.person:
+            self.outcome = self.outcome or ("pause", "")
+
+    def advance(self, now: float) -> None:
+        """Make the steps that are due at `now` [s], up to the last one of the run."""
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
@@ -104,13 +136,13 @@ class Play:
         elif self.clock.paused and self.devices.changes and not self.clock.requested:
             self.clock.request_step()  # a change while paused costs one step, so that its effect is seen
         for _ in range(self.clock.advance(now)):
-            if limit is not None and self.session.report.steps >= limit:
+            if self.finished:
                 return
             self.step()
             if self.outcome is not None:
                 return
 
-    def step(self):
+    def step(self) -> None:
         """One fixed step, its sounds and its measurements."""
         self.session.step()
         self.overlays.times.note(self.scene)
@@ -148,13 +180,13 @@ class Play:
         if self.since_result > RESULT_WAIT and (goes_on or inputs.pointer_pressed):
             self.outcome = ("result",)
 
-    def end_run(self):
+    def end_run(self) -> None:
         """The run is over: hand its recording on, once."""
         if self.renews and self.recorder is not None:
             self.run_ended(self.recorder, self.scene.result)
             self.recorder = self.session.recorder = None
 
-    def restart(self):
+    def restart(self) -> None:
         """From the first frame. A person's attempt is a run of its own: its recording begins here.
 
         Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
@@ -169,33 +201,34 @@ class Play:
         self.since_result = 0
         self.devices.change("restart", True)
 
-    def wish_restart(self):
+    def wish_restart(self) -> None:
         """Restart; from a game that has ended to its result first: no score is lost by a hasty key."""
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)
         else:
             self.restart()
 
-    def switch_solver(self, way):
+    def switch_solver(self, way: int) -> None:
         """The next solver, or the one before; its kernels are compiled first, behind a bar."""
         name = following(self.scene.solver_choices(), solver_name(self.scene), way)
         self.prepare(name)
         self.devices.change("solver", name)
 
-    def toggle_pause(self):
+    def toggle_pause(self) -> None:
         """Stop or go on."""
         self.clock.paused = not self.clock.paused
 
-    def single_step(self):
+    def single_step(self) -> None:
         """Pause, and make one step."""
         self.clock.paused = True
         self.clock.request_step()
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event before the game does; True if it is used up."""
         if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
             self.hint = None
-            self.settings.hint_seen = True
+            if self.settings is not None:
+                self.settings.hint_seen = True
             self.settings_changed()
             if event.type == pygame.MOUSEBUTTONDOWN:
                 return True
@@ -270,16 +303,18 @@ class Play:
             return False
         return True
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
+        started = perf_counter()
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)
         if self.hint is not None and not self.panel_open:
             self.hint.draw(frame)
         draw_status(frame, self)
+        self.session.report.note_drawing(perf_counter() - started)
         return frame
 
 
-def chosen_before(scene):
+def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
     """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
     changes = [(f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start]
     if scene.narrowphase != scene.effects.narrowphase:

@@ -1,14 +1,21 @@
 """The replays of this user: what each is, and watching, keeping and finding it."""
 
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten, wrap
 from game.drawing.colors import FOG, GOLD, ORANGE, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten, wrap
-from game.drawing.figures import clock, points_text, short_clock
-from game.files.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text, short_clock
+from game.input.inputs import InputState
+from game.registry import Registry
+from game.run.replay_shelf import keep, read_shelf_entry, replays_folder, shelf
+from game.screens.parts.background import MARGIN, Background, DuskBackground, draw_page
+from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 232, 254)
 CARD = pygame.Rect(LIST.right + MARGIN, MARGIN, 224, 254)
@@ -16,16 +23,17 @@ FOOT = "Enter opens   Esc back"
 MISSING = object()  # not read yet
 
 
-class ReplaysScreen:
+class ReplaysScreen(CanvasScreen):
     """`outcome` becomes ("watch", path) or ("back",). `copy(text)` puts text on the clipboard, True if that worked."""
 
-    shows_pointer = True
     tune = "title"
 
-    def __init__(self, registry, copy=lambda text: False, ground=None):
+    def __init__(
+        self, registry: Registry, copy: Callable[[str], bool] = lambda text: False, ground: Background | None = None
+    ) -> None:
+        super().__init__()
         self.registry, self.copy = registry, copy
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.message = ""
         self.inside = False  # the keys work the card, not the list
         self.entries = shelf()  # (path, kept on purpose) each
@@ -35,10 +43,9 @@ class ReplaysScreen:
             self._card_rows, (CARD.x + 16, CARD.bottom - 20 - 4 * LINE, CARD.width - 32, 4 * LINE), self.cues
         )
         self.time = 0.0
-        self.outcome = None
 
     @property
-    def chosen(self):
+    def chosen(self) -> tuple[Path, bool] | None:
         """(path, kept on purpose) of the marked replay, or None."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
@@ -64,8 +71,12 @@ class ReplaysScreen:
         if self.read.get(path, (None, ""))[0] is not None:
             rows.append(Row("Watch", press=lambda: self._go(("watch", path))))
             if not kept:
-                rows.append(Row("Keep", press=self._keep))
-        return [*rows, Row("Copy the path", press=self._copy), Row("Back to the list", press=self._close)]
+                rows.append(Row("Keep", press=partial(self._keep, path)))
+        return [
+            *rows,
+            Row("Copy the path", press=partial(self._copy, path)),
+            Row("Back to the list", press=self._close),
+        ]
 
     def _leave(self):
         self.outcome = ("back",)
@@ -79,20 +90,20 @@ class ReplaysScreen:
     def _close(self):
         self.inside = False
 
-    def _keep(self):
+    def _keep(self, chosen):
         try:
-            path = keep(self.chosen[0])
+            path = keep(chosen)
             self.message = f"Kept as {path.name}: it stays until you delete it."
         except OSError as error:
             self.message = f"It could not be kept: {error.strerror or error}"
         self.resume()
 
-    def _copy(self):
-        path = str(self.chosen[0])
+    def _copy(self, chosen):
+        path = str(chosen)
         copied = self.copy(path)
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again: there may be other files now."""
         before = self.chosen
         self.entries = shelf()
@@ -101,7 +112,7 @@ class ReplaysScreen:
         self.list.show_marked()
         self.inside = False
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         unread = next((path for path, _ in self.entries if path not in self.read), None)
@@ -128,7 +139,7 @@ class ReplaysScreen:
             if mark != self.list.mark:
                 self.message, self.card.mark = "", 0
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Replays", FOOT)
@@ -144,15 +155,15 @@ class ReplaysScreen:
                 canvas.text(shorten(line, width, SMALL), x, y, FOG, SMALL)
                 y += 9
             return
-        for text, color, font, height in self._about(width):
+        for text, color, font, height in self._about(self.chosen, width):
             if text:
                 canvas.text(text, x, y, color, font)
             y += height
         self.card.draw(canvas, self.inside)
 
-    def _about(self, width):
+    def _about(self, chosen, width):
         """(text, color, font, height) lines about the chosen replay."""
-        path, kept = self.chosen
+        path, kept = chosen
         replay, reason = self.read.get(path, (MISSING, ""))
         if replay is MISSING:
             return [("reading ..", FOG, TEXT, 12)]

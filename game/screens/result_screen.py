@@ -1,42 +1,62 @@
 """After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
 
-from game.drawing.boxes import draw_box
+from collections.abc import Callable, Iterable
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
-from game.drawing.draw import SMALL, TEXT, shorten
-from game.drawing.figures import clock, points_text
-from game.screens.ground import SceneGround
-from game.screens.initials import Initials
-from game.screens.rows import LINE, Row, RowList
+from game.drawing.nine_slice import draw_box
+from game.drawing.number_text import clock, points_text
+from game.input.inputs import InputState
+from game.scene import Result, Scene
+from game.screens.parts.background import SceneBackground
+from game.screens.parts.initials import Initials
+from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 PAGE = (104, 8, 272, 254)
 COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
-class ResultScreen:
+class ResultScreen(CanvasScreen):
     """`place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
 
     `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
 
-    shows_pointer = True
+    shows_result = True
 
-    def __init__(self, scene, result, place, initials, enter, can_save=True, notes=(), assisted=False):
+    def __init__(
+        self,
+        scene: Scene,
+        result: Result,
+        place: int | None,
+        initials: str,
+        enter: Callable[[str], None],
+        can_save: bool = True,
+        notes: Iterable[str] = (),
+        assisted: bool = False,
+    ) -> None:
+        super().__init__()
         self.scene, self.result, self.place, self.enter = scene, result, place, enter
         self.can_save, self.assisted = can_save, assisted
         self.notes = list(notes)  # what else is to be said: a ghost kept, a file that cannot be written
-        self.ground = SceneGround(scene)
-        self.tune = None
-        self.cues = []
+        self.ground = SceneBackground(scene)
         x = PAGE[0] + (PAGE[2] - 152) // 2
         self.initials = Initials(initials, x, 146, self.cues) if place is not None else None
         self.list = RowList(self._rows, (PAGE[0] + 56, 154, PAGE[2] - 112, 4 * LINE), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     @property
-    def entering(self):
+    def asked(self) -> Initials | None:
+        """The initials while they are asked for."""
+        return self.initials if self.initials is not None and not self.initials.done else None
+
+    @property
+    def entering(self) -> bool:
         """True while initials are asked for."""
-        return self.initials is not None and not self.initials.done
+        return self.asked is not None
 
     def _rows(self):
         rows = [Row("Again", press=lambda: self._leave(("again",)))]
@@ -49,17 +69,18 @@ class ResultScreen:
     def _leave(self, outcome):
         self.outcome = outcome
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Typed letters of the initials; True if the event is used up."""
-        return self.entering and self.initials.feed(event)
+        return self.asked is not None and self.asked.feed(event)
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
-        if self.entering:
-            self.initials.step(inputs, dt)
-            if self.initials.done:
-                self.enter(self.initials.text)
+        asked = self.asked
+        if asked is not None:
+            asked.step(inputs, dt)
+            if asked.done:
+                self.enter(asked.text)
             elif inputs.pressed("cancel"):
                 self.accept()
             return
@@ -68,13 +89,18 @@ class ResultScreen:
             self.outcome = ("menu",)
         self.list.step(inputs, dt)
 
-    def accept(self):
-        """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
-        if self.entering:
-            self.initials.done = True
-            self.enter(self.initials.text)
+    def tell(self, message: str) -> None:
+        """Say it under the list, in place of what was said before."""
+        self.notes[:] = [message]
 
-    def draw(self, canvas, alpha):
+    def accept(self) -> None:
+        """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
+        asked = self.asked
+        if asked is not None:
+            asked.done = True
+            self.enter(asked.text)
+
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_box(canvas, PAGE)
@@ -90,10 +116,10 @@ class ResultScreen:
         for number, line in enumerate(lines[:3]):
             text = shorten(str(line), PAGE[2] - 32, SMALL)
             canvas.text(text, x, y + 72 + 9 * number, FOG, SMALL, 1, "center")
-        if self.place is not None:
-            self._draw_place(canvas, x, y + 110)
-        if self.entering:
-            self.initials.draw(canvas)
+        if self.place is not None and self.initials is not None:
+            self._draw_place(canvas, x, y + 110, self.place, self.initials)
+        if self.asked is not None:
+            self.asked.draw(canvas)
             keys = "\u2191 \u2193 letter   \u2190 \u2192 place   or type   Enter goes on"
             canvas.text(keys, x, 206, FOG, SMALL, 1, "center")
             return
@@ -105,9 +131,7 @@ class ResultScreen:
         canvas.text(label, x, y, GOLD, SMALL, 1, align)
         canvas.text(value, x, y + 8, SKY, TEXT, 2, align)
 
-    def _draw_place(self, canvas, x, y):
-        words = "the best run so far" if self.place == 1 else f"place {self.place} of the table"
-        text = (
-            f"{self.initials.text}   {words}" if self.initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
-        )
-        canvas.text(text, x, y, PAPER if self.place > 1 else GOLD, TEXT, 1, "center")
+    def _draw_place(self, canvas, x, y, place, initials):
+        words = "the best run so far" if place == 1 else f"place {place} of the table"
+        text = f"{initials.text}   {words}" if initials.done else f"{words[0].upper()}{words[1:]}. Who was it?"
+        canvas.text(text, x, y, PAPER if place > 1 else GOLD, TEXT, 1, "center")

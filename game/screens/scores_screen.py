@@ -1,17 +1,21 @@
 """High scores: one page per ranked scene and per level of one's own that has been played; left and right turn them."""
 
+from pathlib import Path
 from typing import NamedTuple
 
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import DUSK, FOG, GOLD, PAPER, SKY
-from game.drawing.draw import SMALL, TEXT, shorten
-from game.drawing.figures import clock, points_text
+from game.drawing.number_text import clock, points_text
 from game.errors import FileError
 from game.files.own_levels import own_levels
-from game.files.records import table_of
-from game.screens.ground import DuskGround, draw_page
-from game.screens.rows import GRID, Repeat, Row, RowList, confirmed
+from game.files.records import Records, table_of
+from game.input.inputs import InputState
+from game.registry import Registry
+from game.screens.parts.background import Background, DuskBackground, draw_page
+from game.screens.parts.rows import GRID, Repeat, Row, RowList, confirmed
+from game.screens.screen import CanvasScreen
 
 PAGE = pygame.Rect(40, 8, 400, 254)
 LINE = 15
@@ -27,14 +31,14 @@ class Page(NamedTuple):
     ranked_by: str
 
 
-def pages_of(registry, records, played=None):
+def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
     """The pages in menu order; played: (scene name, level file) of a game that need not be in the levels' folder."""
     found = []
     for scene_class in registry.all_classes():
         if scene_class.ranked_by is None:
             continue
         found.append(Page(scene_class.title, scene_class.name, scene_class.ranked_by))
-        levels = own_levels(scene_class)
+        levels = own_levels(scene_class.level_suffixes())
         if played is not None and played[0] == scene_class.name and played[1] not in (None, *levels):
             levels += (played[1],)
         for level in levels:
@@ -47,21 +51,24 @@ def pages_of(registry, records, played=None):
     return found
 
 
-class ScoresScreen:
-    """`outcome` becomes ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
+class ScoresScreen(CanvasScreen):
+    """`outcome`: ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
 
-    shows_pointer = True
-    tune = None
-
-    def __init__(self, pages, records, shown=None, newest=None, ground=None):
+    def __init__(
+        self,
+        pages: list[Page],
+        records: Records,
+        shown: str | None = None,
+        newest: tuple[str, int | None] | None = None,
+        ground: Background | None = None,
+    ) -> None:
+        super().__init__()
         self.pages, self.records, self.newest = pages, records, newest
-        self.ground = ground or DuskGround()
-        self.cues = []
+        self.ground = ground or DuskBackground()
         self.at = next((number for number, page in enumerate(self.pages) if page.table == shown), 0)
         self.sideways = Repeat(("left", "right"))
         self.turners = RowList(self._rows, (PAGE.x + 16, PAGE.bottom - 34, PAGE.width - 32, 16), self.cues)
         self.time = 0.0
-        self.outcome = None
 
     def _rows(self):
         return [Row("Back", press=self._leave)]
@@ -70,11 +77,11 @@ class ScoresScreen:
         self.outcome = ("back",)
 
     @property
-    def arrows(self):
+    def arrows(self) -> tuple[pygame.Rect, pygame.Rect]:
         """Where a click turns the page: (left, right)."""
         return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         way = self.sideways.move(inputs, dt) - (inputs.wheel > 0) + (inputs.wheel < 0)
@@ -92,7 +99,7 @@ class ScoresScreen:
         else:
             self.turners.pointer = inputs.pointer
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, PAGE, "High scores")

@@ -1,15 +1,21 @@
 """The settings: pages on the left, the marked page's rows on the right. Every change works at once."""
 
+from collections.abc import Callable
+
 import pygame
 
-from game.bindings import key_name, shown
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, Canvas, wrap
 from game.drawing.colors import FOG, GOLD, PAPER
-from game.drawing.draw import SMALL, wrap
-from game.rebinding import rebind
-from game.screens.ground import MARGIN, DuskGround, draw_page
-from game.screens.rows import Row, RowList, confirmed
-from game.screens.settings_rows import PAGES, rows_of
+from game.drawing.nine_slice import draw_box
+from game.files.settings import Settings
+from game.input.bindings import key_name, shown
+from game.input.devices import DeviceSource
+from game.input.inputs import InputState
+from game.input.rebinding import rebind
+from game.screens.parts.background import MARGIN, Background, DuskBackground, draw_page
+from game.screens.parts.rows import Row, RowList, confirmed
+from game.screens.parts.settings_rows import PAGES, rows_of
+from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 136, 254)
 PAGE = pygame.Rect(LIST.right + MARGIN, MARGIN, 320, 254)
@@ -19,19 +25,24 @@ VALUE_FOOT = "\u2190 \u2192 change   or click left and right on a value"
 BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
-class SettingsScreen:
-    """Works on a Settings object. `changed()` puts it to work; the app saves when the screen is left.
+class SettingsScreen(CanvasScreen):
+    """Works on a Settings object. `changed()` puts it to work; `saved()` is called when the screen is left.
 
     `outcome` becomes ("back",). page: the name of the page to begin with, inside it.
     """
 
-    shows_pointer = True
-    tune = None  # whatever is playing plays on
-
-    def __init__(self, settings, devices, changed=lambda: None, ground=None, page=None):
-        self.settings, self.devices, self.changed = settings, devices, changed
-        self.ground = ground or DuskGround()
-        self.cues = []
+    def __init__(
+        self,
+        settings: Settings,
+        devices: DeviceSource,
+        changed: Callable[[], None] = lambda: None,
+        ground: Background | None = None,
+        page: str | None = None,
+        saved: Callable[[], None] = lambda: None,
+    ) -> None:
+        super().__init__()
+        self.settings, self.devices, self.changed, self.saved = settings, devices, changed, saved
+        self.ground = ground or DuskBackground()
         self.pages = RowList(
             self._page_rows,
             (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192),
@@ -43,10 +54,9 @@ class SettingsScreen:
         self.waiting_for = None  # (device, action) whose next key or button is its new one
         self.message = ""
         self.time = 0.0
-        self.outcome = None
 
     @property
-    def page(self):
+    def page(self) -> str | None:
         """The page that is shown, or None while Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
@@ -72,7 +82,11 @@ class SettingsScreen:
         self.waiting_for = device, action
         self.message = ""
 
-    def feed(self, event):
+    def close(self) -> None:
+        """What was changed is kept."""
+        self.saved()
+
+    def feed(self, event: pygame.event.Event) -> bool:
         """Catch the key or button that an action is waiting for; True if the event is used up."""
         if self.waiting_for is None:
             return False
@@ -96,7 +110,7 @@ class SettingsScreen:
         self.devices.release_all()
         return True
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         if self.waiting_for is not None:
@@ -127,7 +141,7 @@ class SettingsScreen:
                 self.list.mark = self.list.first = 0
                 self.list.show_marked()
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Settings", FOOT)

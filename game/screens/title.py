@@ -1,15 +1,17 @@
-"""The title: two planes pass, their boxes meet, and only where pixels meet does it say HIT. Left alone, it shows games."""
+"""The title: two planes pass, their boxes meet, and only where pixels meet it says HIT. Left alone, it shows games."""
 
 from math import pi, sin
 
 import pygame
 
 from game.drawing.backdrop import Backdrop
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED
-from game.drawing.draw import SMALL, TEXT, shorten
+from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
-from game.screens.rows import LINE, Row, RowList
+from game.input.inputs import InputState
+from game.screens.parts.rows import LINE, Row, RowList
+from game.screens.screen import CanvasScreen
 
 LOOP = 9.0  # [s] one pass of the planes
 IDLE = 10.0  # [s] without any input before the games play themselves
@@ -25,23 +27,21 @@ ENTRIES = (
 )
 
 
-class Title:
+class Title(CanvasScreen):
     """The first screen. `outcome` becomes what the chosen entry leads to, or ("attract",) after a while."""
 
-    shows_pointer = True
     tune = "title"
 
-    def __init__(self, message=""):
+    def __init__(self, message: str = "") -> None:
+        super().__init__()
         self.backdrop = Backdrop()
         planes = load_atlas("planes")
         self.left, self.right = planes["large_plane_a"], planes["large_plane_b"]
         self.masks = [pygame.mask.from_surface(image) for image in (self.left, self.right)]
         self.logo = load_atlas("ui")["logo"]
         self.message = message
-        self.cues = []
         self.list = RowList(self._rows, MENU, self.cues)
         self.time = self.idle = 0.0
-        self.outcome = None
 
     def _rows(self):
         return [Row(label, press=lambda outcome=outcome: self._leave(outcome)) for label, outcome in ENTRIES]
@@ -49,11 +49,11 @@ class Title:
     def _leave(self, outcome):
         self.outcome = outcome
 
-    def resume(self):
+    def resume(self) -> None:
         """Called when the screen is seen again."""
         self.idle = 0.0
 
-    def step(self, inputs, dt):
+    def step(self, inputs: InputState, dt: float) -> None:
         """One fixed step."""
         self.time += dt
         busy = (
@@ -69,7 +69,7 @@ class Title:
         if self.idle >= IDLE:
             self.outcome = ("attract",)
 
-    def draw(self, canvas, alpha):
+    def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
         self.backdrop.draw(canvas, self.time * 40.0)
         self._draw_planes(canvas)

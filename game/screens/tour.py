@@ -1,15 +1,22 @@
 """One minute through the overlays: bots play, one layer after the other comes on, two lines say what it shows."""
 
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SLATE
-from game.drawing.draw import SMALL, TEXT
+from game.drawing.presenter import Frame
 from game.errors import UsageError
-from game.screens.demo import Demo
-from game.screens.panel import HEAD, NOTE, Panel, Row
-from game.screens.panel_rows import layer_rows
+from game.files.accessibility import Accessibility
+from game.input.devices import DeviceSource
+from game.run.picture import Picture
+from game.scene import Scene
+from game.screens.parts.demo import Demo
+from game.screens.parts.panel import HEAD, NOTE, Panel, Row
+from game.screens.parts.panel_rows import layer_rows
+from game.screens.screen import SceneScreen
 
 SECONDS = 5  # of each stop: twelve stops are a minute
 CARD = (312, 66)  # [text px]
@@ -111,14 +118,16 @@ BUTTONS = {
 }
 
 
-class Tour:
+class Tour(SceneScreen):
     """`make(name)` builds a scene; a stop whose scene is not there shows the first. `outcome` becomes ("back",)."""
 
-    shows_pointer = True
     tune = "title"
 
-    def __init__(self, make, names, devices, comfort):
-        self.make, self.devices, self.comfort = make, devices, comfort
+    def __init__(
+        self, make: Callable[[str], Scene], names: Sequence[str], devices: DeviceSource, accessibility: Accessibility
+    ) -> None:
+        super().__init__()
+        self.make, self.devices, self.accessibility = make, devices, accessibility
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
         self.demos = {}  # scene name -> Demo, each played on from stop to stop
         self.at = 0
@@ -126,18 +135,17 @@ class Tour:
         self.places = []  # (rect, what it does) of the last picture
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
-        self.outcome = None
 
     @property
-    def demo(self):
+    def demo(self) -> Demo:
         """The scene of this stop, played by its bot."""
         name = self.stops[self.at][0][0]
         if name not in self.demos:
-            self.demos[name] = Demo(self.make(name), self.comfort)
+            self.demos[name] = Demo(self.make(name), self.accessibility)
         return self.demos[name]
 
     @property
-    def begins_in(self):
+    def begins_in(self) -> int:
         """How many steps the bot plays first, fast, up to where there is something to see."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
@@ -152,7 +160,7 @@ class Tour:
             Row(NOTE, "R restart, F12 a picture"),
         ]
 
-    def advance(self, now):
+    def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]; the next stop when this one has had its time."""
         try:
             due = self.demo.advance(now)
@@ -180,7 +188,7 @@ class Tour:
         self.shown = 0
         self.demo.clock.rest()
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""
         what = None
         if event.type == pygame.KEYDOWN:
@@ -188,12 +196,12 @@ class Tour:
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             what = next((does for rect, does in self.places if rect.collidepoint(event.pos)), None)
         else:
-            what = BUTTONS.get(self.devices.pressed_button(event))
+            what = BUTTONS.get(self.devices.pressed_button(event) or "")
         if what is not None:
             self._go(what)
         return what is not None
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene with this stop's layer, and its card."""
         layer = self.stops[self.at][1]
         demo = self.demo
@@ -240,7 +248,7 @@ class Tour:
             right = place.left - 12 * scale
 
 
-def card_rect(frame):
+def card_rect(frame: Frame) -> pygame.Rect:
     """Where the card goes: over the lower edge of the game."""
     scale, area = frame.scale_for(CARD[0]), frame.area.clip(frame.rect)
     rect = pygame.Rect(0, 0, min(CARD[0] * scale, area.width), CARD[1] * scale)

@@ -2,14 +2,21 @@
 
 import pygame
 
+from game.audio.sound import Sounds
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL, TEXT
-from game.drawing.figures import short_clock
-from game.loop import FixedStep
+from game.drawing.number_text import short_clock
+from game.drawing.presenter import Frame
+from game.files.accessibility import Accessibility
+from game.input.devices import DeviceSource
 from game.overlays.stack import Overlays
-from game.run_report import solver_name
-from game.screens.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
-from game.screens.panel_rows import layer_rows
+from game.run.loop import FixedStep
+from game.run.outcome import solver_name
+from game.run.picture import Picture
+from game.run.tape import Tape
+from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, Panel, Row
+from game.screens.parts.panel_rows import layer_rows
+from game.screens.screen import SceneScreen
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
@@ -37,11 +44,14 @@ BUTTON_KEYS = {
 }
 
 
-class Watch:
+class Watch(SceneScreen):
     """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
 
-    def __init__(self, tape, devices, sounds, comfort, name=""):
-        self.tape, self.devices, self.sounds, self.comfort, self.name = tape, devices, sounds, comfort, name
+    def __init__(
+        self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
+    ) -> None:
+        super().__init__()
+        self.tape, self.devices, self.sounds, self.accessibility, self.name = tape, devices, sounds, accessibility, name
         self.overlays = Overlays(tape.scene.overlays)
         self.clock = FixedStep()
         self.speed = SPEEDS.index(1.0)
@@ -51,24 +61,28 @@ class Watch:
         self.alone = 0.0  # [s] since the last key or move of the mouse
         self.before = None
         self.bar = self.button = pygame.Rect(0, 0, 0, 0)  # of the last picture
-        self.outcome = None
 
     @property
-    def shows_pointer(self):
+    def shows_pointer(self) -> bool:
         """True while there is something to click."""
         return self.shows_controls or self.panel_open
 
     @property
-    def tune(self):
+    def tune(self) -> str | None:
         """The music of the recorded game."""
         return self.tape.scene.music
 
     @property
-    def diverged(self):
+    def failure(self) -> str:
+        """Where the game differed from the recording, if it did."""
+        return self.tape.diverged
+
+    @property
+    def diverged(self) -> bool:
         """True from the frame on at which the game differed from the recording."""
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
-    def advance(self, now):
+    def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s], or go on towards the frame that is sought."""
         self.devices.next()  # a replay takes no advice
         self.alone += 0.0 if self.before is None else now - self.before
@@ -79,11 +93,11 @@ class Watch:
         else:
             for _ in range(due):
                 self.step()
-        self.tape.scene.set_comfort(self.comfort)
+        self.tape.scene.set_accessibility(self.accessibility)
         if self.tape.ended and self.tape.goal is None:
             self.clock.paused = True
 
-    def step(self):
+    def step(self) -> None:
         """One recorded step, with its sounds where they are as fast as they were."""
         if not self.tape.ended:
             self.tape.step()
@@ -91,7 +105,7 @@ class Watch:
             if SPEEDS[self.speed] == 1.0:
                 self.sounds.play_cues(self.tape.scene.cues)
 
-    def toggle(self):
+    def toggle(self) -> None:
         """Freeze or play; at the end, from the start again."""
         if self.tape.ended:
             self.tape.begin_seek(0)
@@ -99,22 +113,22 @@ class Watch:
         else:
             self.clock.paused = not self.clock.paused
 
-    def turn_speed(self, way):
+    def turn_speed(self, way: int) -> None:
         """The next speed, or the one before."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
         self.clock.pace = SPEEDS[self.speed]
 
-    def leap(self, frames):
+    def leap(self, frames: int) -> None:
         """Go so many frames on or back; from where a search under way leads to."""
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
-    def shows_controls(self):
+    def shows_controls(self) -> bool:
         """False while it just plays: the controls would hide a part of the game."""
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
-    def feed(self, event):
+    def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""
         self.alone = 0.0
         if self.panel_open and self.panel.feed(event):
@@ -145,7 +159,7 @@ class Watch:
         share = (position[0] - self.bar.x) / max(self.bar.width, 1)
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
-    def single(self, way):
+    def single(self, way: int) -> None:
         """Freeze, and go one frame on or back."""
         self.clock.paused = True
         self.leap(way)
@@ -188,7 +202,7 @@ class Watch:
     def _leave(self):
         self.outcome = ("back",)
 
-    def draw(self, picture):
+    def draw(self, picture: Picture) -> Frame:
         """Draw the scene with what lies over it, and the controls."""
         panel = self.panel if self.panel_open else None
         frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
@@ -264,7 +278,7 @@ def _draw_button(surface, rect, paused, scale):
         surface.fill(GOLD, (x + 5 * scale, y, 3 * scale, high))
 
 
-def watch_rows(watch):
+def watch_rows(watch: Watch) -> list[Row]:
     """Rows of the panel: what is seen can be changed, what happened cannot."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60

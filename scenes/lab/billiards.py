@@ -5,31 +5,24 @@ momentum of all balls together is the cue ball's, in size and direction, however
 two ever adds energy. Pockets are sensors: they push nothing and report who fell in.
 """
 
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, sin
 from random import Random
 
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from physics import Circle, Effects, Material, Polygon
+from physics import Circle, Effects, Material
+from scenes.lab.billiard_table import BALL, CLOTH, HEAD_SPOT, HOLES, MOUTH, best_point, cushions, first_in_the_way, rack
 from scenes.lab.piles import kinetic_energy
 from scenes.lab.yard import draw_head, plate
 
-CLOTH = pygame.Rect(24, 44, 344, 168)  # [px] between the cushions; the canvas and the world are the same
 TABLE = (4, 24)  # [canvas px] where the picture of the table goes
-BALL, MOUTH = 5.0, 5.0  # [px] radius of a ball and of the sensor in a pocket
-HOLES = tuple((x, y) for x in (CLOTH.left, CLOTH.centerx, CLOTH.right) for y in (CLOTH.top, CLOTH.bottom))
-CORNER_GAP, SIDE_GAP, JAW, DEEP = 14, 12, 6, 12  # [px] of the cushions: cut at corner and side, slant, depth
-HEAD_SPOT = (CLOTH.left + CLOTH.width / 4, CLOTH.centery)
-FOOT_SPOT = (CLOTH.left + CLOTH.width * 0.72, CLOTH.centery)
-RACK_GAP = 0.4  # [px] between racked balls
-RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
 FASTEST = 1300.0  # [px/s] of a cue ball hit with full power
 RESTS = 4.0  # [px/s] when none is faster, all stop
 DRAG = 0.5  # [1/s]
@@ -80,14 +73,8 @@ class Billiards(Scene):
         self.ball_names.clear()
         self.potted.clear()
         self.cue = self._add_ball(0, HEAD_SPOT)
-        step_x, step_y = (2 * BALL + RACK_GAP) * cos(pi / 6), BALL + RACK_GAP / 2
-        number, random = 0, Random(self.seed)
-        for row in range(5):
-            for column in range(row + 1):
-                x = FOOT_SPOT[0] + row * step_x + random.uniform(-0.1, 0.1)
-                y = FOOT_SPOT[1] + (2 * column - row) * step_y + random.uniform(-0.1, 0.1)
-                self._add_ball(RACK[number], (x, y))
-                number += 1
+        for number, place in rack(Random(self.seed)):
+            self._add_ball(number, place)
         self.racked = {identity: self.world.body(identity).position for identity in self.ball_names}
         self.budget = None
 
@@ -214,6 +201,10 @@ class Billiards(Scene):
                     return HEAD_SPOT[0], y
         return HEAD_SPOT
 
+    def _others(self):
+        """Places of the balls but the cue ball, in the order in which they were added."""
+        return [self.world.body(ball).position for ball in sorted(self.ball_names) if ball != self.cue.id]
+
     def _stop_the_slow(self):
         bodies = self.world.bodies
         if float((bodies["vx"] ** 2 + bodies["vy"] ** 2).max()) < RESTS * RESTS:
@@ -280,7 +271,7 @@ class Billiards(Scene):
         lens = frame.lens(self.camera)
         x, y = self.cue.position
         c, s = cos(self.aim), sin(self.aim)
-        way, struck = self._first_in_the_way(x, y, c, s)
+        way, struck = first_in_the_way((x, y), (c, s), self._others())
         end = (x + c * way, y + s * way)
         pygame.draw.line(frame.surface, PAPER, lens.points(x + c * BALL, y + s * BALL), lens.points(*end))
         pygame.draw.circle(frame.surface, PAPER, lens.points(*end), BALL * lens.scale, 1)
@@ -288,27 +279,6 @@ class Billiards(Scene):
             dx, dy = struck[0] - end[0], struck[1] - end[1]
             far = (struck[0] + dx * 3.0, struck[1] + dy * 3.0)
             pygame.draw.line(frame.surface, SKY, lens.points(*struck), lens.points(*far), max(1, frame.scale - 1))
-
-    def _first_in_the_way(self, x, y, c, s):
-        """How far the cue ball would run before it meets a ball or a cushion's line, and that ball's place or None."""
-        room = CLOTH.inflate(-2 * BALL, -2 * BALL)
-        ends = [
-            (edge - place) / heading
-            for edge, place, heading in (
-                (room.right if c > 0 else room.left, x, c),
-                (room.bottom if s > 0 else room.top, y, s),
-            )
-            if heading
-        ]
-        way, struck = max(0.0, min(ends)), None
-        for identity in self.ball_names:
-            place = self.world.body(identity).position
-            along, beside = (place[0] - x) * c + (place[1] - y) * s, (place[1] - y) * c - (place[0] - x) * s
-            if along > 0.0 and abs(beside) < 2 * BALL and identity != self.cue.id:
-                reach = along - (4 * BALL * BALL - beside * beside) ** 0.5
-                if reach < way:
-                    way, struck = max(reach, 0.0), place
-        return way, struck
 
     def check(self):
         """Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls fall in."""
@@ -339,26 +309,10 @@ class Billiards(Scene):
     def bot(self):
         """Break, then shoot at the ball and pocket that line up best."""
         if self.calm == CALM and self.shots:
-            return InputFrame(frozenset(), self._best_point())
+            return InputFrame(frozenset(), best_point(self.cue.position, self._others()))
         if self.calm == CALM + 1:
             return InputFrame(frozenset(("fire",)), self.last_pointer)
         return InputFrame(frozenset(), self.last_pointer)
-
-    def _best_point(self):
-        """Where the cue ball has to be to send a ball into a pocket, in whole canvas pixels."""
-        x, y = self.cue.position
-        best = (-2.0, (round(x) + 40, round(y)))
-        for identity in sorted(self.ball_names):
-            bx, by = self.world.body(identity).position
-            for hx, hy in HOLES:
-                far = hypot(hx - bx, hy - by)
-                if identity == self.cue.id or far < 1.0:
-                    continue
-                gx, gy = bx - (hx - bx) / far * 2 * BALL, by - (hy - by) / far * 2 * BALL
-                near = hypot(gx - x, gy - y)
-                straight = ((gx - x) * (hx - bx) + (gy - y) * (hy - by)) / (far * max(near, 1.0))
-                best = max(best, (straight - (far + near) / 800.0, (round(gx), round(gy))))
-        return best[1]
 
     def state(self):
         """The score and the books; the world holds the balls."""
@@ -379,24 +333,3 @@ class Billiards(Scene):
             self.compared,
             *budget,
         )
-
-
-def cushions():
-    """Six cushions with slanted jaws, and the wooden frame behind the pockets."""
-    left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
-    shapes = []
-    for y, way in ((top, -1), (bottom, 1)):
-        for a, b in ((left + CORNER_GAP, middle - SIDE_GAP), (middle + SIDE_GAP, right - CORNER_GAP)):
-            shapes.append(Polygon([(a, y), (b, y), (b + JAW, y + way * DEEP), (a - JAW, y + way * DEEP)]))
-    for x, way in ((left, -1), (right, 1)):
-        a, b = top + CORNER_GAP, bottom - CORNER_GAP
-        shapes.append(Polygon([(x, a), (x, b), (x + way * DEEP, b + JAW), (x + way * DEEP, a - JAW)]))
-    wide, high, deep = CLOTH.width + 2 * DEEP, CLOTH.height + 2 * DEEP, 40
-    for x, y, width, height in (
-        (CLOTH.centerx, top - DEEP - deep / 2, wide + 2 * deep, deep),
-        (CLOTH.centerx, bottom + DEEP + deep / 2, wide + 2 * deep, deep),
-        (left - DEEP - deep / 2, CLOTH.centery, deep, high),
-        (right + DEEP + deep / 2, CLOTH.centery, deep, high),
-    ):
-        shapes.append(Polygon.box(width, height, (x, y)))
-    return shapes

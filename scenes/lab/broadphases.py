@@ -10,9 +10,9 @@ import numpy as np
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
-from game.drawing.draw import SMALL
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects
 from scenes.lab.curves import Curves

@@ -10,11 +10,11 @@ from math import atan2, cos, hypot, radians, sin
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.yard import Yard, plate
@@ -62,7 +62,8 @@ class CardHouse(Scene):
         """A new world with everything as it was built."""
         self.worlds = []
         self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
-        world, self.cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
+        self.add_world(substeps=int(self.values["substeps"]))
+        self.cast = Cast(load_atlas("lab"))
         friction = self.values["friction"] / 100.0
         self._table(-200.0, PAIRS[0][0] - CLOTH / 2, friction)
         self.cards = self._house(int(self.values["storeys"]), Material(friction=friction))
@@ -156,7 +157,7 @@ class CardHouse(Scene):
     def draw(self, canvas, alpha):
         """The table with its cloths, the cards, the words."""
         self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
-        for x, friction, color in PAIRS:
+        for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)
             canvas.surface.fill(color, (left + 1, FLOOR, round(CLOTH) - 2, 2))
             canvas.surface.fill((20, 16, 32), (left + 1, FLOOR + 2, round(CLOTH) - 2, 1))

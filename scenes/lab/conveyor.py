@@ -10,11 +10,11 @@ from math import cos, hypot, pi, sin
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.pieces import piece
@@ -32,7 +32,7 @@ GRIP = Material(friction=0.5)
 BRAKED = Material(friction=0.5, rolling_resistance=0.6)  # more than the slope's rise: a wheel rides, it does not roll
 KINDS = {  # name: (shape, colours, material)
     "box": (Polygon.box(16, 16), "wood", GRIP),
-    "hexagon": (Polygon([(10, 0), (6, 7), (-6, 7), (-10, 0), (-6, -7), (6, -7)]), "violet", GRIP),
+    "hexagon": (Polygon(((10, 0), (6, 7), (-6, 7), (-10, 0), (-6, -7), (6, -7))), "violet", GRIP),
     "capsule": (Capsule((-7, 0), (7, 0), 6.0), "teal", GRIP),
     "rounded": (Polygon(Polygon.box(12, 6).points, radius=4.0), "coral", GRIP),
     "wheel": (Circle(8.0), "gold", BRAKED),
@@ -147,7 +147,7 @@ class Conveyor(Scene):
         world, speed = self.world, float(self.values["speed"])
         if self.frame - self.changed < SETTLE:
             return
-        held = self.drag.body.id if self.drag.holds else -1
+        held = self.drag.held
         for identity, kind in self.kinds[0].items():
             if identity == held:
                 continue

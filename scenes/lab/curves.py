@@ -5,8 +5,8 @@ from math import log10
 
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, INK, SLATE
-from game.drawing.draw import SMALL
 
 HISTORY = 150  # steps kept: 2.5 seconds
 

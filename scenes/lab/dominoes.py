@@ -10,11 +10,11 @@ from math import degrees, radians, sqrt
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Effects, Material, Polygon
 from scenes.lab.piles import SOLVERS

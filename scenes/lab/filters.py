@@ -10,9 +10,9 @@ from math import pi, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SERIES, SLATE, WHITE, YELLOW, faded
-from game.drawing.draw import SMALL, TEXT
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter
 

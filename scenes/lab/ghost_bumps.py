@@ -11,10 +11,10 @@ from math import log10
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.drawing.turned import Cast
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.pieces import piece
@@ -129,7 +129,8 @@ class GhostBumps(Scene):
         touching = set(contacts["body_a"][near].tolist()) | set(contacts["body_b"][near].tolist())
         for kind, (_, _, half) in KINDS.items():
             body, key = self.sliding[index][kind], (floor, kind)
-            if self.drag.holds and self.drag.body.id == body.id and self.drag.world is world:
+            hold = self.drag.hold
+            if hold is not None and hold.body.id == body.id and hold.world is world:
                 self.free[key] = True
             x, y = body.position
             error = abs(body.velocity[0] - speed) / speed
@@ -213,7 +214,7 @@ class GhostBumps(Scene):
             frame.text(title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
             plot = pygame.Rect(rect.x + 2, rect.y + 12 * scale, rect.width - 4, rect.height - 15 * scale)
             marks = ((1e-4, "1e-4"), (1e-8, "1e-8"), (1e-12, "1e-12")) if number == 0 else ((2.0, "2"), (4.0, "4"))
-            for value, text in marks:
+            for value, _ in marks:
                 y = plot.bottom - plot.height * share(number, value)
                 pygame.draw.line(frame.surface, (52, 46, 76), (plot.left, y), (plot.right, y))
             for floor in FLOORS:
@@ -284,7 +285,7 @@ def lay_floor(world, floor):
     elif floor == "tiles":
         world.add_body(TileGrid([[True] * LENGTH], TILE), position=(0.0, FLOOR_Y), kind="static", filter=GROUND)
     else:
-        points = [(column * TILE, 0.0) for column in range(LENGTH + 1)]
+        points = tuple((column * TILE, 0.0) for column in range(LENGTH + 1))
         world.add_body(Chain(points), position=(0.0, FLOOR_Y), kind="static", filter=GROUND)
 
 

@@ -9,10 +9,10 @@ from math import hypot
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
-from game.drawing.draw import SMALL
-from game.drawing.sprites import TurnedSprites, load_atlas, load_backdrop
-from game.inputs import InputFrame
+from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene
 from physics import Effects, debug
 from scenes.lab.hands import Hands
@@ -61,7 +61,7 @@ class Masks(Scene):
         """Eight worlds: four to look at, four to time."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
-        self.sprites = [TurnedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
+        self.sprites = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
         self.sky = load_backdrop("sky_dusk")
         self.hands = Hands(START, 0, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.shown, self.timed = {}, {}

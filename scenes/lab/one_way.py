@@ -10,11 +10,11 @@ from math import cos, hypot, pi, sin
 import pygame
 
 from game.drawing.backdrop import Backdrop
+from game.drawing.canvas import SMALL, whole
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED
-from game.drawing.draw import SMALL, whole
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Character, Circle, Effects, Material, Polygon, TileGrid
 from scenes.lab.pieces import piece
@@ -32,7 +32,7 @@ SPRINGS = (192.0, 240.0, 288.0)  # [px] where bodies are thrown from
 KINDS = {
     "crate": (Polygon.box(16, 16), None),
     "ball": (Circle(7.0), "gold"),
-    "nut": (Polygon([(8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6)]), "violet"),
+    "nut": (Polygon(tuple((8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6))), "violet"),
 }
 BRAKED = Material(rolling_resistance=0.1)  # balls come to rest on a plank
 THROWS = (238.0, 306.0)  # [px/s] up to the first plank, and up to the roof
@@ -230,7 +230,7 @@ class OneWay(Scene):
         x, y = self.lift.position
         crate, walker = self.rider.position, self.walker.position
         now = (crate[0] - x, crate[1] - y, walker[0] - x, walker[1] - y)
-        self.disturbed |= self.drag.holds and self.drag.body.id == self.rider.id
+        self.disturbed |= self.drag.held == self.rider.id
         if self.disturbed:
             return
         if self.offsets is None:

@@ -10,7 +10,7 @@ import numpy as np
 import pygame
 
 from game.drawing.colors import INK
-from game.drawing.turned import TurnedPicture
+from game.drawing.rotated import RotatedPicture
 from physics import Capsule, Circle
 
 OUTLINE, RIM = 1.0, 2.6  # [px] inwards from the edge
@@ -28,7 +28,7 @@ RAMPS = {
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
     """The picture of a shape, ready to be drawn at any angle with the shape's origin at a point."""
-    return TurnedPicture(piece(shape, ramp))
+    return RotatedPicture(piece(shape, ramp))
 
 
 def piece(shape, ramp, marked=True):
@@ -71,7 +71,7 @@ def signed_distance(points, radius, x, y):
     x, y = np.asarray(x, float), np.asarray(y, float)
     nearest = np.full(x.shape, np.inf)
     inside = np.full(x.shape, len(points) > 2)
-    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0)):
+    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0), strict=True):
         dx, dy = bx - ax, by - ay
         length = dx * dx + dy * dy
         share = np.clip(((x - ax) * dx + (y - ay) * dy) / length, 0.0, 1.0) if length > 0.0 else 0.0

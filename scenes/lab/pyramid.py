@@ -7,11 +7,11 @@ substeps or take another solver and the overlap grows and the top starts to wand
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.curves import Curves

@@ -10,11 +10,11 @@ from math import pi, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL, whole
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
-from game.drawing.draw import SMALL, whole
+from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.drawing.turned import TurnedPicture
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter, Polygon
 
@@ -60,7 +60,7 @@ class Sensors(Scene):
         self.add_world()
         self.sky = load_backdrop("sky_dusk")
         planes, effects = load_atlas("planes"), load_atlas("effects")
-        self.saucer, self.mine = planes.animation("saucer"), TurnedPicture(effects["bullet_orange_0"])
+        self.saucer, self.mine = planes.animation("saucer"), RotatedPicture(effects["bullet_orange_0"])
         self.zones, self.zone_of = {}, {}
         for name, (size, middle, _) in ZONES.items():
             kind = "static" if name in ("field", "beam") else "kinematic"

@@ -5,8 +5,8 @@ from math import cos, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, PAPER, PINK, RED, SLATE, WHITE, YELLOW, faded
-from game.drawing.draw import SMALL
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import clockwise, ring
 from scenes.lab.pieces import hull

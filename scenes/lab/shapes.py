@@ -10,9 +10,9 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
-from game.drawing.draw import SMALL
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import ring
 from game.scene import Goal, Scene, Slider
@@ -25,11 +25,11 @@ CHOICES = {
     "circle": Circle(33.0),
     "capsule": Capsule((-27, 0), (27, 0), 17.0),
     "box": Polygon.box(72, 44),
-    "triangle": Polygon([(40, 0), (-22, 35), (-22, -35)]),
-    "hexagon": Polygon([(37 * cos(k * pi / 3), 37 * sin(k * pi / 3)) for k in range(6)]),
+    "triangle": Polygon(((40, 0), (-22, 35), (-22, -35))),
+    "hexagon": Polygon(tuple((37 * cos(k * pi / 3), 37 * sin(k * pi / 3)) for k in range(6))),
     "rounded": Polygon(Polygon.box(46, 28).points, radius=12.0),
     "segment": Segment((-42, 0), (42, 0)),
-    "shard": Polygon([(45, -5), (20, 25), (-17, 30), (-42, 8), (-35, -20), (5, -27)]),
+    "shard": Polygon(((45, -5), (20, 25), (-17, 30), (-42, 8), (-35, -20), (5, -27))),
 }
 NAMES = tuple(CHOICES)
 COLORS = (SKY, ORANGE)  # of A and B
@@ -194,7 +194,8 @@ class Shapes(Scene):
         if len(corners) > 2:
             pygame.draw.polygon(surface, color if chosen else faded(color, 0.45), corners.tolist())
         else:
-            pygame.draw.line(surface, color if chosen else faded(color, 0.45), *corners.tolist(), 2)
+            start, end = corners.tolist()
+            pygame.draw.line(surface, color if chosen else faded(color, 0.45), start, end, 2)
 
     def _draw_numbers(self, canvas):
         meets, gap = len(self.manifold) > 0, self.gap

@@ -12,11 +12,11 @@ import numpy as np
 import pygame
 
 from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
-from game.drawing.draw import SMALL
+from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.turned import Cast
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.piles import deepest, kinetic_energy, step_seconds
@@ -45,8 +45,8 @@ KINDS = (
     ("disc", Circle(10)),
     ("brick", Polygon.box(28, 12)),
     ("pill", Capsule((-6, 0), (6, 0), 6)),
-    ("hexagon", Polygon(ring(6, 24, 0.0))),
-    ("triangle", Polygon(ring(3, 28, -pi / 2))),
+    ("hexagon", Polygon(tuple(ring(6, 24, 0.0)))),
+    ("triangle", Polygon(tuple(ring(3, 28, -pi / 2)))),
 )
 THINNEST = 12.0  # [px] bricks and pills
 

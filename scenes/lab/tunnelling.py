@@ -11,10 +11,10 @@ from math import cos, pi, sin
 import numpy as np
 import pygame
 
+from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, WHITE, faded
-from game.drawing.draw import SMALL, TEXT
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.inputs import InputFrame
+from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon
 

@@ -3,8 +3,8 @@
 import pygame
 
 from game.drawing.backdrop import Backdrop
+from game.drawing.canvas import CANVAS_SIZE, SMALL, Canvas
 from game.drawing.colors import FOG, GOLD, INK
-from game.drawing.draw import CANVAS_SIZE, SMALL, Canvas
 from game.drawing.sprites import load_atlas
 
 TILE = 16

@@ -1,8 +1,10 @@
 """What is behind the level: a sky and layers that move slower than the ground, by act, faded from one to the next."""
 
+from typing import Any
+
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 
 FADE = 0.9  # [s] from one act's backdrop to the next
@@ -32,7 +34,9 @@ class Backdrops:
 
     def __init__(self, level):
         self.sky = load_backdrop("sky_dusk")
-        self.layers = {act: [(load_backdrop(name), *rest) for name, *rest in layers] for act, layers in LAYERS.items()}
+        self.layers: dict[str, list[tuple[Any, ...]]] = {
+            act: [(load_backdrop(name), *rest) for name, *rest in layers] for act, layers in LAYERS.items()
+        }
         self.cave = [(load_backdrop(name), *rest) for name, *rest in CAVE]
         self.lowest = {act: lowest_view(level, act) for act in ("meadow", "cave", "keep")}
         self.scratch = pygame.Surface(CANVAS_SIZE)

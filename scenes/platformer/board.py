@@ -1,13 +1,13 @@
-"""Words and numbers over the picture: counters, names of acts, signs that are read, the iris of a new life, the result."""
+"""Words and numbers over the picture: counters, acts' names, signs that are read, the iris, the result."""
 
 from functools import lru_cache
 
 import pygame
 
-from game.drawing.boxes import draw_box
+from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, whole, wrap
 from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
-from game.drawing.draw import CANVAS_SIZE, SMALL, TEXT, whole, wrap
 from game.drawing.hud import MARGIN
+from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
 from scenes.platformer.feel import steps
 

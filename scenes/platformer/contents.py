@@ -26,7 +26,7 @@ class Contents:
             if thing.kind in ENEMIES
         ]
         self.enemies = {enemy.body.id: enemy for enemy in enemies}
-        self.lairs = {enemy.lair.id: enemy for enemy in enemies if enemy.kind == "bat"}
+        self.lairs = {enemy.lair.id: enemy for enemy in enemies if isinstance(enemy, Bat)}
         self.crate_ids = {crate.body.id: crate for crate in self.crates}
         self.decks = {one.body.id: self._deck_under(one) for one in (*self.crates, *enemies)}
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
@@ -51,7 +51,7 @@ class Contents:
         return tuple(one.box for group in (self.crates, self.platforms, self.belts, self.crumbles) for one in group)
 
     def step(self, tick, seen):
-        """Platforms, stones and enemies move by one step. seen: where the hero is. Returns [(word, thing)] that happened."""
+        """Platforms, stones, enemies make one step. seen: the hero is there. Returns what happened: [(word, thing)]."""
         news = []
         for platform in self.platforms:
             platform.aim(tick)
@@ -119,7 +119,7 @@ class Contents:
 
     def state(self):
         """What the world does not hold of them."""
-        out = [trigger.lit for trigger in self.of("checkpoint")]
+        out: list = [trigger.lit for trigger in self.of("checkpoint")]
         for enemy in self.enemies.values():
             out += enemy.state()
         for crumble in self.crumbles:

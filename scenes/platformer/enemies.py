@@ -4,9 +4,10 @@ None is solid for the hero: contacts with them are read after the step. A crate 
 """
 
 from math import cos, pi, sin
+from typing import cast
 
-from game.loop import STEP_SECONDS
-from physics import Character, Polygon
+from game.scene import STEP_SECONDS
+from physics import Body, Character, Polygon
 from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
 from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER
 
@@ -78,7 +79,8 @@ class Walker(Creature):
         if moved.wall == self.way:
             self.way = -self.way
         self.squeezed = moved.squeezed
-        self.riding = moved.riding.id if moved.riding is not None else -1
+        carrier = cast(Body | None, moved.riding)
+        self.riding = -1 if carrier is None else carrier.id
         self.left_at = self.character.position[0]
         return False
 

@@ -4,7 +4,7 @@ from game.scene import Goal
 from scenes.platformer.feel import HEIGHT, WIDTH
 
 WORDS = {"jump": "jumps", "wall_jump": "wall jumps", "drop": "drops"}
-# feat: (kind of object that makes it possible, or None; how often or how many steps; by which step of the level as made)
+# feat: (object that makes it possible, or None; how often or how many steps; by which step of the level as made)
 WANTED = {
     "slope": (None, 20, 900),
     "stomps": ("walker", 1, 1500),
@@ -45,7 +45,7 @@ class Feats:
         done["slid"] += hero.sliding != 0
         done["ladder"] += hero.ladder is not None
         done["belt"] += hero.grounded and hero.character.surface_speed != 0.0
-        done["pushed a crate"] += bool(hero.pushing and hero.vx != 0.0 and hero.pushed.slides(hero.facing))
+        done["pushed a crate"] += bool(hero.pushed is not None and hero.vx != 0.0 and hero.pushed.slides(hero.facing))
         if hero.riding is not None:
             self._count_ride(scene, hero)
 

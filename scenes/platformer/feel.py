@@ -4,7 +4,7 @@ The numbers are those of Celeste at twice its size, since its tiles are 8 px wid
 forgive: they do what the player meant, a few frames or pixels off from what was pressed.
 """
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 
 WIDTH, HEIGHT = 10, 20  # [px] slimmer than the sprite: what grazes the scarf is no hit
 

@@ -2,7 +2,7 @@
 
 from math import exp
 
-from game.drawing.draw import CANVAS_SIZE
+from game.drawing.canvas import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
 AHEAD = 64.0  # [px] it looks this far in the way of a run
@@ -45,7 +45,7 @@ class Gaze:
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
 
     def _kept(self, x, y):
-        """The point moved so that the picture around it stays in the hero's zone, where that is larger than the picture."""
+        """The point moved so that the picture around it stays in the hero's zone, where that is larger."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         width, height = CANVAS_SIZE
         wide = next((zone for zone in zones if zone.width >= width), None)

@@ -1,9 +1,11 @@
 """The hero: the moves that are made of the numbers in feel.py."""
 
+from collections.abc import Sequence
 from math import sqrt
+from typing import cast
 
-from game.loop import STEP_SECONDS
-from physics import Character, Polygon
+from game.scene import STEP_SECONDS
+from physics import Body, Character, Polygon
 from scenes.platformer.feel import (
     AIR_CONTROL,
     APEX_SPEED,
@@ -50,6 +52,7 @@ from scenes.platformer.feel import (
     steps,
 )
 from scenes.platformer.level import HERO_FILTER
+from scenes.platformer.things import Crate, Trigger
 
 TIMERS = ("coyote", "drop", "locked", "kept", "lift")
 
@@ -62,8 +65,10 @@ class Hero:
         self.character = Character(
             world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH
         )
-        self.crates = ()  # what he can push
-        self.solids = ()  # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
+        self.crates: Sequence[Crate] = ()  # what he can push
+        self.solids: Sequence[
+            tuple
+        ] = ()  # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
         self.ladders = {}  # body id -> trigger of the ladders that he touches
         self.facing = 1
         self.news = []
@@ -79,9 +84,10 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
         self.locked_way = self.wall = self.sliding = 0
         self.grounded = self.pushing = self.crushed = False
-        self.pushed = None  # the crate beside him that he runs against
+        self.pushed: Crate | None = None  # the crate beside him that he runs against
         self.peak = self.before[1]  # highest since he left the ground [px]
-        self.riding = self.ladder = None
+        self.riding: Body | None = None
+        self.ladder: Trigger | None = None
         self.gazing = 0  # -1 looks up, 1 ducks
         self.news.clear()
 
@@ -224,24 +230,25 @@ class Hero:
             else:
                 self._jump(way, False)
             return
-        if self.ladder.body.id not in self.ladders or (way and not turn):
+        ladder = self.ladder
+        if ladder is None or ladder.body.id not in self.ladders or (way and not turn):
             self.ladder, self.coyote = None, steps(COYOTE)  # left behind, or stepped off
             self.vx, self.vy = way * RUN_SPEED * 0.5, 0.0
             return
         if way:
             self.facing = way
-        aside = self.ladder.x - self.character.position[0]
+        aside = ladder.x - self.character.position[0]
         self.vx = max(-CLIMB_ALIGN, min(aside, CLIMB_ALIGN)) / STEP_SECONDS
         self.vy = turn * CLIMB_SPEED
         if turn < 0:
-            self.vy = max(self.vy, (self.ladder.top - self.box[3]) / STEP_SECONDS)
+            self.vy = max(self.vy, (ladder.top - self.box[3]) / STEP_SECONDS)
         self.drop = 2 if turn > 0 else 0  # past its own top
 
-    def _leave_ladder(self, moved):
+    def _leave_ladder(self, moved, ladder):
         """Off at its foot, or stand on its top."""
         if self.vy > 0.0 and moved.grounded:
             self.ladder, self.drop, self.grounded = None, 0, True
-        elif self.box[3] <= self.ladder.top:
+        elif self.box[3] <= ladder.top:
             self.ladder, self.grounded = None, True
         if self.ladder is None:
             self.vx = self.vy = 0.0
@@ -276,9 +283,9 @@ class Hero:
             dy -= POP_SPEED * STEP_SECONDS
         moved = self.character.move(dx, dy, drop=self.drop > 0)
         self.crushed = moved.squeezed and not self._slip_out()
-        self.wall, self.slope, self.riding = moved.wall, moved.slope, moved.riding
+        self.wall, self.slope, self.riding = moved.wall, moved.slope, cast(Body | None, moved.riding)
         if self.ladder is not None:
-            self._leave_ladder(moved)
+            self._leave_ladder(moved, self.ladder)
             self.peak = self.character.position[1]
             return
         if self.vy < 0.0 and moved.y == 0 and dy <= -1.0:
@@ -286,7 +293,7 @@ class Hero:
         if moved.x == 0 and moved.wall and moved.wall * self.vx > 0.0:
             if not self.kept and not self.grounded:
                 self.kept_vx, self.kept = self.vx, steps(WALL_RETENTION)
-            if not (self.pushing and self.pushed.slides(moved.wall)):
+            if self.pushed is None or not self.pushed.slides(moved.wall):
                 self.vx = 0.0
         self._stand(moved.grounded and self.vy >= 0.0)
 

@@ -88,8 +88,9 @@ class Level:
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
-        if kind != SLOPE:
-            return None
+        return self._slope(column, row, x) if kind == SLOPE else None
+
+    def _slope(self, column, row, x):
         low, high = self.slopes[row][column]
         share = min(max((x - column * self.tile) / self.tile, 0.0), 1.0)
         return (row + 1 - low - (high - low) * share) * self.tile
@@ -105,7 +106,7 @@ class Level:
                 if kind == SLOPE:
                     start = max(left, column * self.tile)
                     end = min(left + width, (column + 1) * self.tile)
-                    highest = min(self.surface(column, row, start), self.surface(column, row, end))
+                    highest = min(self._slope(column, row, start), self._slope(column, row, end))
                     if bottom > highest:
                         return True
         return False

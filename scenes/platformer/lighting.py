@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import pygame
 
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_atlas
 
 AMBIENT = (136, 132, 180)  # what is left of each colour where the cave is darkest

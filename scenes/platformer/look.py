@@ -1,8 +1,9 @@
-"""What is only seen and heard: squash and stretch, dust, trails, sparkles, the light of an act. No rule reads any of it."""
+"""What is only seen and heard: squash and stretch, dust, trails, sparkles, an act's light. No rule reads any of it."""
 
-from math import exp, pi
+from math import exp
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
+from scenes.platformer import bursts
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
@@ -30,22 +31,6 @@ SOUNDS = {
     "drop": ("blip", 0.4),
     "thrown": ("hit", 0.7),
 }
-DUST = ((214, 200, 190), (160, 142, 140), (104, 90, 100))
-GRIT = ((190, 196, 214), (128, 128, 158), (74, 70, 100))
-GOLDEN = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
-EMBER = ((255, 244, 190), (255, 178, 70), (214, 84, 40), (90, 40, 52))
-MOTES = {
-    "meadow": ((255, 226, 150), (226, 150, 110), (130, 84, 120)),
-    "cave": ((190, 255, 240), (90, 190, 200), (50, 90, 130)),
-    "keep": ((255, 214, 190), (214, 130, 140), (110, 70, 120)),
-}
-CONFETTI = (
-    ((255, 92, 92), (180, 50, 80)),
-    ((120, 220, 232), (60, 130, 190)),
-    ((255, 222, 110), (214, 140, 60)),
-    ((190, 236, 120), (90, 160, 80)),
-)
-GEM = ((255, 255, 255), (170, 255, 236), (80, 200, 220), (60, 90, 170))
 FALLEN = 260.0  # [px/s] how fast a hurt hero is thrown up before he falls out of the picture
 FALLEN_GRAVITY = 1100.0  # [px/s2]
 RUN_DUST = 11  # steps between puffs of a run
@@ -149,33 +134,10 @@ class Look:
             self._dust(2, hero.facing * 10, speed=(8, 26))
         elif hero.sliding and scene.frame % 4 == 0:
             x, y = hero.character.position
-            scene.particles.burst(
-                x + 5 * hero.sliding,
-                y + 4,
-                2,
-                DUST,
-                speed=(5, 26),
-                life=(0.2, 0.4),
-                angle=pi / 2 * (1 + hero.sliding),
-                spread=1.6,
-                gravity=60.0,
-            )
+            bursts.slide(scene.particles, x, y, hero.sliding)
         for crumble in scene.things.crumbles:
             if crumble.shaking and scene.frame % 3 == 0:
-                left, _, right, bottom = crumble.box
-                x = left + (right - left) * scene.particles.random.uniform(0, 1)
-                scene.particles.burst(
-                    x,
-                    bottom,
-                    1,
-                    GRIT,
-                    speed=(4, 18),
-                    life=(0.2, 0.5),
-                    angle=pi / 2,
-                    spread=0.8,
-                    size=(1, 1),
-                    gravity=240.0,
-                )
+                bursts.trickle(scene.particles, crumble.box)
 
     def _age(self, dt):
         for aging in (self.puffs, self.flat):
@@ -219,37 +181,15 @@ class Look:
 
     def _air(self, scene):
         """Motes drift through the air of an act, sparks rise from flames."""
-        particles, random = scene.particles, scene.particles.random
         left, top = scene.camera.view()
         width, height = scene.camera.size
         if scene.frame % MOTE_EVERY == 0:
-            particles.burst(
-                left + width * random.uniform(0, 1),
-                top + height * random.uniform(0.2, 1),
-                1,
-                MOTES[self.act],
-                speed=(4, 14),
-                life=(1.5, 3.2),
-                size=(1, 1),
-                drag=0.2,
-                gravity=-3.0,
-            )
+            bursts.mote(scene.particles, (left, top, width, height), self.act)
         if scene.frame % EMBER_EVERY == 0:
             for x, y, name in scene.level.lights:
                 seen = left - 16 < x < left + width + 16 and top - 16 < y < top + height + 16
                 if name == "torch" and seen and not self.hidden(x, y):
-                    particles.burst(
-                        x,
-                        y - 1,
-                        1,
-                        EMBER,
-                        speed=(6, 20),
-                        life=(0.3, 0.8),
-                        angle=-pi / 2,
-                        spread=1.2,
-                        size=(1, 1),
-                        gravity=-30.0,
-                    )
+                    bursts.ember(scene.particles, x, y)
 
     # --- what the scene reports --------------------------------------------------------------------------------------
 
@@ -268,23 +208,9 @@ class Look:
                 self.scene.camera.shake(0.22)
             elif word == "wall_jump":
                 x, y = self.scene.hero.character.position
-                away = self.scene.hero.facing
-                self.scene.particles.burst(
-                    x - 6 * away,
-                    y + 4,
-                    10,
-                    DUST,
-                    speed=(20, 90),
-                    life=(0.2, 0.45),
-                    angle=0.0 if away > 0 else pi,
-                    spread=1.8,
-                    gravity=120.0,
-                )
+                bursts.wall_jump(self.scene.particles, x, y, self.scene.hero.facing)
             elif word == "launch":
-                x, y = self._feet()
-                self.scene.particles.burst(
-                    x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
-                )
+                bursts.launch(self.scene.particles, *self._feet())
 
     def tell(self, word, thing):
         """A stone shakes, breaks or is back, a bat wakes."""
@@ -298,37 +224,33 @@ class Look:
         elif word == "break":
             scene.feats.broke()
             self._sound_at("crumble", x, 0.9)
-            scene.particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
+            bursts.rubble(scene.particles, x, y)
             scene.camera.shake(0.15)
         elif self._in_picture(x, y):
             self._puff("sparkle", x, y)
 
     def took(self, trigger):
         """A coin or a gem: sparkle and count."""
-        particles = self.scene.particles
         if trigger.kind == "secret":
-            for speed in ((30, 60), (90, 150)):
-                particles.burst(trigger.x, trigger.y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
+            bursts.gem(self.scene.particles, trigger.x, trigger.y)
             self.gem_pulse = 1.0
             self.scene.flash.start(0.5, (150, 255, 240))
             self._sound("secret", 0.9)
             return
         self._puff("sparkle", trigger.x, trigger.y)
-        particles.burst(trigger.x, trigger.y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
+        bursts.coin(self.scene.particles, trigger.x, trigger.y)
         self.pulse = 1.0
         self._sound("coin", 0.6)
 
     def threw(self, trigger):
         """A spring has thrown a crate."""
         self._sound_at("spring", trigger.x, 0.7)
-        self.scene.particles.burst(
-            trigger.x, trigger.foot[1] - 8, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
-        )
+        bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
         """A lantern is lit; the time against the ghost's is told."""
         x, bottom = trigger.foot
-        self.scene.particles.burst(x, bottom - 24, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
+        bursts.kindle(self.scene.particles, x, bottom - 24)
         self._sound("checkpoint", 0.8)
         for number, row in enumerate(self.scene.ghost or ()):
             if abs(row[0] - x) < WINDOW[0] and abs(row[1] - bottom) < WINDOW[1]:
@@ -339,9 +261,7 @@ class Look:
         """An enemy is flat."""
         x, _ = enemy.character.position
         self.flat.append([enemy.kind, x, enemy.bottom, enemy.way, 0.0])
-        self.scene.particles.burst(
-            x, enemy.bottom - 6, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=-pi / 2, spread=2.6, gravity=200.0
-        )
+        bursts.squash(self.scene.particles, x, enemy.bottom - 6)
         if self._in_picture(x, enemy.bottom):
             self.scene.camera.shake(0.2)
             self._sound_at("stomp", x, 0.6)
@@ -351,17 +271,7 @@ class Look:
         force = min(impulse / LOUDEST, 1.0)
         if force < FAINTEST or not self._in_picture(x, y):
             return
-        self.scene.particles.burst(
-            x,
-            y,
-            2 + round(16 * force),
-            DUST,
-            speed=(10, 30 + 80 * force),
-            life=(0.2, 0.3 + 0.4 * force),
-            angle=-pi / 2,
-            spread=2.6,
-            gravity=60.0,
-        )
+        bursts.knock(self.scene.particles, x, y, force)
         self._sound_at("crate", x, 0.15 + 0.75 * force)
         if force > SHAKING:
             self.scene.camera.shake(0.35 * force)
@@ -370,34 +280,19 @@ class Look:
         """The hero is thrown out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
-        self.scene.particles.burst(
-            x, y, 24, ((255, 255, 255), (255, 150, 150), (190, 50, 80), (80, 30, 60)), speed=(30, 170), life=(0.25, 0.7)
-        )
+        bursts.hurt(self.scene.particles, x, y)
         self.scene.camera.shake(0.6)
         self.scene.flash.start(0.35, (255, 190, 190))
         self._sound("hurt", 0.9)
 
     def vanished(self):
         """He is put back to where he stood: a puff where he was."""
-        x, y = self.scene.hero.character.position
-        self.scene.particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
+        bursts.vanish(self.scene.particles, *self.scene.hero.character.position)
         self.scene.camera.shake(0.25)
 
     def won(self, trigger):
         """Confetti."""
-        for ramp in CONFETTI:
-            self.scene.particles.burst(
-                trigger.x,
-                trigger.y - 10,
-                34,
-                ramp,
-                speed=(60, 240),
-                life=(0.8, 2.0),
-                angle=-pi / 2,
-                spread=2.2,
-                drag=1.6,
-                gravity=150.0,
-            )
+        bursts.confetti(self.scene.particles, trigger.x, trigger.y - 10)
         self._sound("goal", 1.0)
 
     def arrive(self):
@@ -426,15 +321,4 @@ class Look:
 
     def _dust(self, count, dx, speed):
         x, bottom = self._feet()
-        self.scene.particles.burst(
-            x + dx,
-            bottom - 1,
-            count,
-            DUST,
-            speed=speed,
-            life=(0.15, 0.4),
-            angle=-pi / 2,
-            spread=2.8,
-            drag=3.0,
-            gravity=40.0,
-        )
+        bursts.dust(self.scene.particles, x + dx, bottom - 1, count, speed)

@@ -1,8 +1,8 @@
 """The scripted player: goes from hint to hint of the map and presses keys by rules.
 
-A hint says where to be next and how: run (and jump at what is in the way), jump at once, climb, kick from wall to wall,
-ride a platform, drop through a plank, push, fall, or let a spring throw it. When, it sees for itself: whether a platform is
-docked, where an enemy will be, whether there is ground ahead.
+A hint says where to be next and how: run (and jump at what is in the way), jump at once, climb, kick from wall to
+wall, ride a platform, drop through a plank, push, fall, or let a spring throw it. When, it sees for itself: whether a
+platform is docked, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -80,7 +80,7 @@ class Runner:
             return abs(x - _middle(hint)) <= NEAR_X
         return near and hero.grounded
 
-    # --- the acts: (keys, whether to jump) -----------------------------------------------------------------------------
+    # --- the acts: (keys, whether to jump) ---------------------------------------------------------------------------
 
     def _run(self, scene, hero, hint):
         way = _way(hero, hint)
@@ -244,7 +244,7 @@ class Runner:
                 return at
         return (left + right) / 2
 
-    # --- what to do there ------------------------------------------------------------------------------------------------
+    # --- what to do there --------------------------------------------------------------------------------------------
 
     def _must_jump(self, scene, hero, hint, way):
         """What is in the way: a wall, a gap that does not lead there, an enemy."""

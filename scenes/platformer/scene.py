@@ -1,7 +1,6 @@
 """The platformer: a hero, one level, and the rules between them."""
 
-from game.loop import STEP_SECONDS
-from game.scene import Result, Scene
+from game.scene import STEP_SECONDS, Result, Scene
 from physics import Effects
 from scenes.platformer.contents import BELOW, Contents
 from scenes.platformer.feats import Feats
@@ -133,7 +132,7 @@ class Platformer(Scene):
         if hero.crushed or hero.box[1] > self.level.size[1] + BELOW:
             self._lose()
 
-    # --- what the world has seen ---------------------------------------------------------------------------------------
+    # --- what the world has seen -------------------------------------------------------------------------------------
 
     def _read_events(self):
         events, things, me = self.world.events, self.things, self.hero.character.body.id
@@ -282,7 +281,7 @@ class Platformer(Scene):
             ),
         )
 
-    # --- the rest of a scene -------------------------------------------------------------------------------------------
+    # --- the rest of a scene -----------------------------------------------------------------------------------------
 
     def check(self):
         """All that the level teaches, by when the bot is past it."""

@@ -2,7 +2,7 @@
 
 from math import ceil, cos, floor, pi, sin
 
-from game.loop import STEP_SECONDS
+from game.scene import STEP_SECONDS
 from physics import Filter, Material, Polygon
 from scenes.platformer.feel import SPRING_SPEED, steps
 from scenes.platformer.level import (
@@ -77,7 +77,7 @@ class Trigger:
             user=self.kind,
         )
         self.lit = False
-        self.touched = None
+        self.touched: int | None = None
 
     @property
     def foot(self):

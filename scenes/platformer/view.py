@@ -8,10 +8,10 @@ from functools import lru_cache
 import pygame
 
 from game.drawing.camera import Camera
-from game.drawing.draw import CANVAS_SIZE, Canvas, whole
+from game.drawing.canvas import CANVAS_SIZE, Canvas, whole
+from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_image
 from game.drawing.tile_picture import TilePicture
-from game.drawing.turned import TurnedPicture
 from scenes.platformer import board
 from scenes.platformer.backdrop import Backdrops
 from scenes.platformer.feel import APEX_SPEED, HEIGHT, steps
@@ -47,8 +47,8 @@ class View:
             name: TilePicture(level.map, name, sheet) for name in (*LAYERS, "cover") if name in level.map.layers
         }
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
-        self.crates = [TurnedPicture(self.things[name]) for name in ("crate", "crate_large")]
-        self.bits = [TurnedPicture(self.things[f"crumble_bit_{number}"]) for number in range(3)]
+        self.crates = [RotatedPicture(self.things[name]) for name in ("crate", "crate_large")]
+        self.bits = [RotatedPicture(self.things[f"crumble_bit_{number}"]) for number in range(3)]
         self.shaped = lru_cache(maxsize=512)(self._shaped)
         self.tinted = lru_cache(maxsize=512)(self._tinted)
         self._paint_ahead()
@@ -225,7 +225,7 @@ class View:
         x, y = between(scene.hero.before, scene.hero.character.position, alpha)
         yield x - self.left, y - self.top, "hero"
 
-    # --- the hero ------------------------------------------------------------------------------------------------------
+    # --- the hero ----------------------------------------------------------------------------------------------------
 
     def _draw_hero(self, canvas, scene, alpha):
         hero, look = scene.hero, scene.look
@@ -234,7 +234,7 @@ class View:
             image = self.tinted(name, way, IMAGE, whole(left / ALPHA_STEP) * ALPHA_STEP)
             self._stand(canvas, image, x, bottom)
         spared = scene.mercy and scene.phase == "playing"
-        if spared and scene.comfort.flashing and scene.mercy % SPARED_BLINK < SPARED_BLINK // 2:
+        if spared and scene.accessibility.flashing and scene.mercy % SPARED_BLINK < SPARED_BLINK // 2:
             return
         x, y = between(hero.before, hero.character.position, alpha)
         bottom = y + HEIGHT / 2
@@ -244,7 +244,7 @@ class View:
         elif hero.grounded:
             bottom += lowered(self.level, hero)
         image = self.shaped(name, way, whole(FRAME * look.width), whole(FRAME * look.height))
-        if spared and not scene.comfort.flashing:
+        if spared and not scene.accessibility.flashing:
             for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
                 self._stand(canvas, self.tinted(name, way, (255, 255, 255), 255), x + dx, bottom + dy)
         self._stand(canvas, image, x, bottom)
@@ -336,7 +336,7 @@ def strode(animation, way, stride):
 
 
 def lowered(level, hero):
-    """How far below his box the hero is drawn [px]: on a slope the box stands on its corner, his feet at their middle."""
+    """How far below his box the hero is drawn [px]: on a slope it stands on its corner, his feet at their middle."""
     if hero.slope == 0.0:
         return 0.0
     left, _, right, bottom = hero.box

@@ -5,10 +5,10 @@ from math import inf
 
 import pygame
 
+from game.drawing.canvas import TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
-from game.drawing.draw import TEXT, whole
-from game.drawing.figures import count_text, points_text
 from game.drawing.hud import banner
+from game.drawing.number_text import count_text, points_text
 from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
 from scenes.shooter.spectacle import BONUS_SHOWN
@@ -69,7 +69,7 @@ def _draw_warning(canvas, scene):
         canvas.surface.blit(stripes(canvas.rect.width + 2 * STRIPE), (shift - 2 * STRIPE, y))
     if share < 0.6:
         return
-    bright = not scene.comfort.flashing or since % (2 * BLINK) < BLINK
+    bright = not scene.accessibility.flashing or since % (2 * BLINK) < BLINK
     canvas.text(
         "WARNING", canvas.rect.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True
     )

@@ -1,7 +1,7 @@
 """What is written over the sky all the time: score, chain, lives, bombs, power, hits, and the leader's health."""
 
+from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
-from game.drawing.draw import SMALL, TEXT, whole
 from game.drawing.hud import MARGIN, icons
 from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import ALMOST
@@ -25,7 +25,7 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's top left."""
+    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's corner."""
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view

@@ -42,10 +42,14 @@ class Bullets:
     @property
     def ids(self):
         """Ids of all, ascending."""
-        return self.table.rows["id"]
+        return self._rows["id"]
+
+    @property
+    def _rows(self) -> np.ndarray:
+        return self.table.rows  # a column is asked for by its name, which NumPy's stubs allow of no known dtype
 
     def make_room(self, count):
-        """Let every table grow before the first step, so that no step of the fight has to, and memory stays as it is."""
+        """Let every table grow before the first step, so that no step of the fight has to and memory stays as it is."""
         apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away: no two of them are ever a pair
         ids = self.world.add_bodies(
             mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
@@ -74,7 +78,8 @@ class Bullets:
             ids = self.world.add_bodies(
                 mask_of(look), rows[:, 0:2], rows[:, 2:4], rows[:, 4], kind="kinematic", filter=self.side
             )
-            added = self.table.append(len(ids))
+            self.table.append(len(ids))
+            added = self._rows[-len(ids) :]
             added["id"], added["look"], added["met"] = ids, NAMES.index(look), 0
             fired.clear()
 
@@ -89,10 +94,10 @@ class Bullets:
         return self.ids[self._nearest(ids)] == ids
 
     def meet(self, ids, what):
-        """Note that bullets met a part of the player (GRAZED ...). Returns those that meet it for the first time; ids of
-        others are ignored."""
+        """Note that bullets met a part of the player (GRAZED ...). Returns those that meet it for the first time; ids
+        of others are ignored."""
         at = self._nearest(ids[self.has(ids)])
-        met = self.table.rows["met"]
+        met = self._rows["met"]
         new = at[(met[at] & what) == 0]
         met[new] |= what
         return self.ids[new]

@@ -1,7 +1,7 @@
 """Who is in the air, and who may meet whom. Sides are filters: what cannot meet never becomes a pair.
 
-A shot never pairs with a shot, a bullet never with a bullet or with the planes that fired it. A plane that was just lost
-comes back as a ghost: for a while nothing but pick-ups meets it, and nobody has to ask whether a hit counts.
+A shot never pairs with a shot, a bullet never with a bullet or with the planes that fired it. A plane that was just
+lost comes back as a ghost: for a while nothing but pick-ups meets it, and nobody has to ask whether a hit counts.
 """
 
 from physics import Filter

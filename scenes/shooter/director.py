@@ -62,9 +62,10 @@ class Director:
             if self._go_on(WARNING, "leader"):
                 sky.fleet.launch_leader(self.announced)
         elif self.mode == "leader":
-            if sky.fleet.leader is None:
-                sky.leader_gone(self.announced)
-                self._enter("over" if self.announced.event == "boss" else "rest")
+            leader = self.announced
+            if sky.fleet.leader is None and leader is not None:
+                sky.leader_gone(leader)
+                self._enter("over" if leader.event == "boss" else "rest")
         elif self.mode == "rest":
             self._go_on(REST, "run")
         self._launch(sky)

@@ -1,9 +1,9 @@
-"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and its bonuses are counted.
+"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and bonuses counted.
 
 `scene.result` is set once, at the very end; then the picture stands and keys do nothing.
 """
 
-from game.drawing.figures import count_text
+from game.drawing.number_text import count_text
 from game.scene import Result
 from scenes.shooter.cast import steps
 

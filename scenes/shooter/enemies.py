@@ -1,4 +1,4 @@
-"""Three kinds that come from above: dart, saucer, gunship. Each thinks once per step: a velocity, perhaps a turn or a volley.
+"""Three kinds that come from above: dart, saucer, gunship. Each thinks once per step: a velocity, a turn, a volley.
 
 The dart waits, aims and dives at where you are. The saucer weaves down and fires at you. The gunship takes its place,
 drifts, and fills the sky with patterns.

@@ -1,4 +1,4 @@
-"""Two kinds that do not come from above: the hornet flies in curved files from the sides, the turret stands on the ground.
+"""Two kinds that come otherwise: the hornet flies in curved files from the sides, the turret stands on the ground.
 
 The hornet fires at where you will be. The turret fires slow walls and fans, and nobody can ram it.
 """

@@ -1,7 +1,7 @@
 """What the planes fly over: a stretch of ground that scrolls, the next one coming in from above, clouds, rain.
 
-Where two stretches meet, the border is a coast of noise, not a line: a pixel belongs to the upper one where it is above a
-wavy threshold.
+Where two stretches meet, the border is a coast of noise, not a line: a pixel belongs to the upper one where it is
+above a wavy threshold.
 """
 
 from functools import cache, lru_cache
@@ -9,12 +9,12 @@ from functools import cache, lru_cache
 import numpy as np
 import pygame
 
-from game.compat import blit_many
-from game.drawing.draw import CANVAS_SIZE, whole
+from game.drawing.blit import blit_many
+from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 from scenes.shooter.cast import GROUND_SPEED, steps
 
-# Layer over the ground, its way down [px/s], px it shifts for each px that the plane is off the middle, a fixed shift [px].
+# Layer over the ground, its way down [px/s], px it shifts for each px the plane is off the middle, fixed shift [px]
 LAYERS = (("cloud_shadows", 46.0, 0.06, 40), ("clouds_low", 46.0, 0.08, 0), ("clouds_high", 92.0, 0.16, 0))
 BORDER = 150  # [px] that the meeting of two stretches is high
 DARKEN = steps(5.0)  # steps in which clouds turn dark over a stormy stretch
@@ -40,7 +40,7 @@ def draw_ground(surface, scene, alpha, left, top):
         picture = clouds(name, round(share * SHADES))
         tile(surface, picture, shift - off * lean - left, time * speed + shift - top)
     _draw_air(surface, time, off, share)
-    if scene.comfort.palette == "contrast":
+    if scene.accessibility.palette == "contrast":
         surface.fill(CONTRAST, special_flags=pygame.BLEND_RGB_MULT)
 
 
@@ -104,7 +104,7 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """White where the upper of two stretches is seen, clear where the lower one is: BORDER rows of the picture's width."""
+    """White where the upper of two stretches is seen, clear where the lower is: BORDER rows of the picture's width."""
     width = CANVAS_SIZE[0]
     x, y = np.arange(width)[:, None], np.arange(BORDER)[None, :]
     turn = 2 * np.pi * x / width

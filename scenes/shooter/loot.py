@@ -1,4 +1,4 @@
-"""Pick-ups: power, bombs, lives. They drift down, come to you when you are near, and the ring around the plane takes them."""
+"""Pick-ups: power, bombs, lives. They drift down, come to you when you are near, and the plane's ring takes them."""
 
 from math import cos, hypot, pi
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Pace:
-    """Factors on the speed of bullets and dives, on the time between volleys and on health; bullets more in a volley."""
+    """Factors on the speed of bullets and dives, the time between volleys and on health; bullets more in a volley."""
 
     speed: float = 1.0
     patience: float = 1.0

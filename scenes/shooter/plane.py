@@ -39,8 +39,8 @@ VOLLEYS = (
 
 
 class Plane:
-    """`bodies` holds core, hull and ring, or nothing between two lives; `power` 1.. chooses the volley; `safe` counts the
-    steps as a ghost down."""
+    """`bodies` holds core, hull and ring, or nothing between two lives; `power` 1.. chooses the volley; `safe` counts
+    the steps as a ghost down."""
 
     def __init__(self, world, tier):
         self.world = world
@@ -93,15 +93,16 @@ class Plane:
     def step(self, inputs, shots):
         """Move, bank, fire; come back when it is time."""
         self.fired = False
-        if not self.here:
+        hull = self.body
+        if hull is None:
             self.away = max(self.away - 1, 0)
             if self.away == 0 and self.lives > 0:
                 self.arrive()
             return
-        self.x, self.y = self.body.position
+        self.x, self.y = hull.position
         self.safe = max(self.safe - 1, 0)
         self._haunt(self.safe > 0)
-        self._move(inputs)
+        self._move(inputs, hull)
         self.cooldown = max(self.cooldown - 1, 0)
         if inputs.held("fire") and not self.cooldown and not self.entering:
             self._fire(shots)
@@ -118,7 +119,7 @@ class Plane:
             for part, body in self.bodies.items():
                 body.filter = (GHOST if ghost else AT_RISK)[part]
 
-    def _move(self, inputs):
+    def _move(self, inputs, hull):
         side = inputs.held("right") - inputs.held("left")
         rise = inputs.held("down") - inputs.held("up")
         self.focusing = inputs.held("focus")
@@ -135,7 +136,7 @@ class Plane:
         before, wanted = self.frame, 2.0 * side * (0.5 if self.focusing else 1.0)
         self.bank += min(max(wanted - self.bank, -BANK_RATE), BANK_RATE)
         if self.frame != before:
-            dress(self.world, self.body.id, self.frame, self.tier)
+            dress(self.world, hull.id, self.frame, self.tier)
 
     def _fire(self, shots):
         straight, heavy, leaning = VOLLEYS[self.power - 1]

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from game.loop import STEP_SECONDS
-from game.scene import Scene, Slider
+from game.scene import STEP_SECONDS, Scene, Slider
 from physics import Effects
 from scenes.shooter.blows import Blow, Blows, push
 from scenes.shooter.bomb import DAMAGE, LEADER_DAMAGE, SHELTER, Bomb
@@ -54,7 +53,6 @@ class Shooter(Scene):
     assists = ("invincible", "hit_stop")
     takes_level = True
     level_suffix = ".json"
-    best = 0  # points of the best game so far, to be shown; whoever keeps the list sets it
 
     def build(self):
         """An empty sky, and you."""
@@ -81,7 +79,7 @@ class Shooter(Scene):
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
-    # --- what enemies ask for ------------------------------------------------------------------------------------------
+    # --- what enemies ask for ----------------------------------------------------------------------------------------
 
     @property
     def target(self):
@@ -98,7 +96,7 @@ class Shooter(Scene):
         """Which part of the player must be met: core or hull."""
         return ("core", "hull")[int(self.values["hurts"])]
 
-    # --- the step ------------------------------------------------------------------------------------------------------
+    # --- the step ----------------------------------------------------------------------------------------------------
 
     def update(self, inputs):
         """All choose their velocities, the world steps, and what happened is read from it."""
@@ -211,7 +209,7 @@ class Shooter(Scene):
             return
         enemy.health -= blow.strength * times
         if enemy.health > 0.0:
-            self.spectacle.struck(enemy, *place, blow)
+            self.spectacle.struck(enemy, place[0], place[1], blow)
         elif enemy.leads:
             self.end_phase(enemy, beaten=True)
         else:
@@ -282,7 +280,7 @@ class Shooter(Scene):
         known = set(self.gone)
         self._burn([identity for identity in self.incoming.ids.tolist() if identity not in known])
 
-    # --- leaders -------------------------------------------------------------------------------------------------------
+    # --- leaders -----------------------------------------------------------------------------------------------------
 
     def warn(self, event):
         """A leader is near."""
@@ -314,7 +312,7 @@ class Shooter(Scene):
         if event.event == "boss":
             self.ending.clear(self)
 
-    # --- bodies --------------------------------------------------------------------------------------------------------
+    # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
         """Remove, in one batch, all that was hit and all that has left the sky."""
@@ -333,7 +331,7 @@ class Shooter(Scene):
         known = sum(len(group) for group in groups) + len(self.plane.bodies) + (self.bomb.body is not None)
         self.unknown = max(self.unknown, abs(len(self.world.bodies) - known))
 
-    # --- what the judge wants to know ----------------------------------------------------------------------------------
+    # --- what the judge wants to know --------------------------------------------------------------------------------
 
     def check(self):
         """The stage, played by the bot."""

@@ -1,4 +1,4 @@
-"""What the scene reports, as pictures, light and sounds: who is hit, who bursts, what was won. No rule reads any of it."""
+"""What the scene reports, as pictures, light, sounds: who is hit, who bursts, what was won. No rule reads any of it."""
 
 from math import pi
 
@@ -95,7 +95,7 @@ class Spectacle:
         """The parallax' shift between two steps [px]."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
-    # --- the stage -----------------------------------------------------------------------------------------------------
+    # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
         """A wave begins."""
@@ -112,7 +112,7 @@ class Spectacle:
         self.scene.play("warning", volume=0.9)
         self.scene.camera.shake(0.2)
 
-    # --- shots ---------------------------------------------------------------------------------------------------------
+    # --- shots -------------------------------------------------------------------------------------------------------
 
     def player_fires(self, plane):
         """Muzzle flash and sound."""
@@ -183,7 +183,7 @@ class Spectacle:
         self.scene.camera.shake(shake * blow.strength)
         self.scene.play(sound, x, min(volume * (0.8 + 0.2 * blow.strength), 1.0))
 
-    # --- the player ----------------------------------------------------------------------------------------------------
+    # --- the player --------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
         """Something met: plane and bullet stand white for as many steps as a bomb would still save it."""
@@ -266,7 +266,7 @@ class Spectacle:
         self.scene.flash.start(0.5)
         self.scene.play("confirm", volume=0.8)
 
-    # --- leaders -------------------------------------------------------------------------------------------------------
+    # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
         """The sky is cleared, and the leader shows what it took."""

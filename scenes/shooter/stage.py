@@ -1,7 +1,7 @@
 """A stage is data: what comes when, and what it fires. This file says what a stage file may hold, and reads one.
 
-Events stand in the order of their times. The clock of the stage [s] stands still while a mid-boss or a boss fights. Lengths
-are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
+Events stand in the order of their times. The clock of the stage [s] stands still while a mid-boss or a boss fights.
+Lengths are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
 """
 
 from dataclasses import dataclass
@@ -27,8 +27,9 @@ MOST_FIRE = 1000  # bullets that a phase may fire per second, by all its pattern
 
 @dataclass(frozen=True)
 class Group:
-    """Planes of one kind, one after another. `places`: shares 0..1 of the side by which each enters; `every` and `after`
-    [s]; `carries`: what the last one leaves. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see the kinds."""
+    """Planes of one kind, one after another. `places`: shares 0..1 of the side by which each enters; `every` and
+    `after` [s]; `carries`: what the last one leaves. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see
+    the kinds."""
 
     kind: str
     places: tuple
@@ -43,9 +44,9 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them it rests `rest` [s] more; the
-    first comes after `after` [s]; each shot of such a burst is `faster` [px/s]; `muzzles`: places [px] off the middle, and
-    `out` how far from them [px] bullets begin."""
+    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them it rests `rest` [s]
+    more; the first comes after `after` [s]; each shot of such a burst is `faster` [px/s]; `muzzles`: places [px] off
+    the middle, and `out` how far from them [px] bullets begin."""
 
     shoot: str
     bullet: str

@@ -1,4 +1,4 @@
-"""Fields of a data file, read one by one: what is unknown, missing, of a wrong type or out of range is named by place."""
+"""Fields of a data file, read one by one: what is unknown, missing, of a wrong type or range is named by place."""
 
 from difflib import get_close_matches
 from math import isfinite

@@ -11,9 +11,9 @@ from math import sin
 import numpy as np
 import pygame
 
-from game.compat import blit_many
-from game.drawing.draw import CANVAS_SIZE
-from game.drawing.sprites import TurnedSprites, lit, load_atlas
+from game.drawing.blit import blit_many
+from game.drawing.canvas import CANVAS_SIZE
+from game.drawing.sprites import RotatedSprites, lit, load_atlas
 from scenes.shooter import banners, board, light
 from scenes.shooter.bullets import LOOKS, NAMES
 from scenes.shooter.cast import GROUNDED
@@ -60,7 +60,7 @@ class View:
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
-        self.turned = {}  # (atlas, shown frame, frame that collides) -> TurnedSprites
+        self.turned = {}  # (atlas, shown frame, frame that collides) -> RotatedSprites
         self.shaded, self.whitened = lru_cache(maxsize=512)(shade), lru_cache(maxsize=512)(lit)
         self.outlined = lru_cache(maxsize=16)(outline)
         self.ghostly = lru_cache(maxsize=16)(ghostly)
@@ -74,7 +74,7 @@ class View:
             return atlas[frame], atlas.mask(mask).origin
         key = (atlas is self.planes, frame, mask)
         if key not in self.turned:
-            self.turned[key] = TurnedSprites(atlas[frame], atlas.mask(mask))
+            self.turned[key] = RotatedSprites(atlas[frame], atlas.mask(mask))
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
@@ -127,7 +127,7 @@ class View:
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """(picture, place, whiteness) of what is in the air, the player last; (picture, place) of what is on the ground."""
+        """(picture, place, whiteness) of all in the air, the player last; (picture, place) of what is on the ground."""
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
         if fleet:
@@ -142,7 +142,7 @@ class View:
         player = scene.plane
         if player.here:
             image, origin = self.sprite(self.planes, player.frame)
-            blinks = scene.comfort.flashing and scene.ending.mode == PLAYING
+            blinks = scene.accessibility.flashing and scene.ending.mode == PLAYING
             if blinks and player.safe % BLINK >= BLINK // 2:
                 image = self.ghostly(image)
             x, y, _ = self.places(scene, [player.body.id])
@@ -186,7 +186,7 @@ class View:
         looks = bullets.table.rows["look"]
         seen = (x > -OUT) & (x < CANVAS_SIZE[0] + OUT) & (y > -OUT) & (y < CANVAS_SIZE[1] + OUT)
         x, y, angles, looks = x[seen], y[seen], angles[seen], looks[seen]
-        safe = scene.comfort.palette != "standard" and bullets is scene.incoming
+        safe = scene.accessibility.palette != "standard" and bullets is scene.incoming
         for number in np.unique(looks).tolist():
             mine, name = looks == number, NAMES[number]
             if name in GLOWS and np.count_nonzero(mine) <= MOST_GLOWS:
@@ -225,7 +225,7 @@ class View:
             self.surface.blit(image, self.at(x[0], y[0] - MUZZLE_AT, middle(image)))
         image, origin = self.sprite(self.planes, player.frame)
         # Where nothing may blink, a steady line says that the plane is a ghost.
-        steady = player.safe and not scene.comfort.flashing and scene.ending.mode == PLAYING
+        steady = player.safe and not scene.accessibility.flashing and scene.ending.mode == PLAYING
         if steady or scene.hurts == "hull":
             self.surface.blit(self.outlined(image), self.at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
         core = self.planes.animation("core").at(self.time)

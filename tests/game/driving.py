@@ -4,9 +4,9 @@ import pygame
 
 from game.app import App
 from game.command_line import read_options
+from game.drawing.window import open_window
 from game.files.settings import Settings
 from game.registry import Registry
-from game.window import open_window
 from tests.game.arena import GAMES
 
 BUTTONS = {
@@ -54,7 +54,7 @@ class Driver:
     def turns(self, count=1):
         """So many turns of the loop, a step of 1/60 s each."""
         for _ in range(count):
-            if self.app.running:
+            if self.app.arcade.running:
                 self.now += 1.0001 / 60
                 self.app.turn()
 
@@ -110,7 +110,7 @@ class Driver:
 
     def to_window(self, place):
         """The window position of a canvas place."""
-        frame = self.app.picture.presenter.frame
+        frame = self.app.arcade.picture.presenter.frame
         return frame.area.x + place[0] * frame.scale, frame.area.y + place[1] * frame.scale
 
     def click_row(self, label, rows=None):

@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pygame
 
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 
 LEAST_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
 SHARE = 0.9  # of the pixels around a text's letters that must be so far from it
@@ -66,7 +66,7 @@ class Reader:
 
 
 def share_that_stands_out(surface, rect, color):
-    """Of the pixels beside the letters, the share that is far enough from their colour. 0 if the letters are covered."""
+    """Of the pixels beside the letters, the share far enough from their colour. 0 if the letters are covered."""
     around = rect.inflate(2, 2).clip(surface.get_rect())
     pixels = pygame.surfarray.array3d(surface.subsurface(around)).astype(int)
     letters = (pixels == np.array(color[:3])).all(axis=2)

@@ -6,9 +6,9 @@ import pygame
 import pytest
 
 from game.files.records import load_records
-from game.files.replay import load_replay
-from game.files.replay_shelf import recent_folder, replays_folder
 from game.files.settings import Settings, load_settings
+from game.run.replay import load_replay
+from game.run.replay_shelf import recent_folder, replays_folder
 
 K = pygame
 
@@ -64,7 +64,7 @@ def test_by_keyboard_from_title_to_replay(drive):
     d.key(K.K_ESCAPE, K.K_ESCAPE)
     assert d.name == "Title" and d.screen.list.mark == 5, "Esc marks Leave first"
     d.key(K.K_ESCAPE)
-    assert not d.app.running
+    assert not d.app.arcade.running
 
 
 def test_by_controller_from_title_to_replay(drive):
@@ -129,7 +129,7 @@ def test_by_mouse_from_title_to_replay(drive):
     d.click_row("Sound", d.screen.pages)
     bar = d.screen.list.bar_place(d.screen.list.place(1))
     d.click((bar.x + 2, bar.centery))
-    assert d.settings.music < 0.1 and d.app.sounds.music < 0.1
+    assert d.settings.music < 0.1 and d.app.arcade.sounds.music < 0.1
     d.click_row("Comfort", d.screen.pages)
     number = next(i for i, row in enumerate(d.screen.list.rows()) if row.label == "Colours")
     value = d.screen.list.value_place(d.screen.list.place(number))
@@ -173,6 +173,15 @@ def test_a_run_left_early_is_a_recent_replay(drive):
     (path,) = recent_folder().glob("*.json")
     replay = load_replay(path)
     assert replay.scene == "arena" and replay.result is None and replay.frames >= 150
+
+
+def test_a_lost_focus_pauses_nothing_that_nobody_plays(drive):
+    d = drive("--scene", "arena", "--bot")
+    d.turns(3)
+    before = d.screen.scene.frame
+    d.post(K.WINDOWFOCUSLOST)
+    d.turns(3)
+    assert d.name == "Play" and d.screen.scene.frame > before
 
 
 def test_focus_and_pad_lost_pause(drive):
@@ -221,7 +230,7 @@ def test_closing_the_window_ends_and_keeps_the_run(drive):
     d.turns(150)
     d.post(K.QUIT)
     d.turns(1)
-    assert not d.app.running
+    assert not d.app.arcade.running
     d.app.run()
     assert list(recent_folder().glob("*.json"))
 
@@ -292,8 +301,7 @@ def test_the_tour_is_a_minute_and_can_be_walked(drive):
     d.mark("Tour of the overlays")
     d.turns(60)
     assert d.name == "Tour"
-    for number in range(3):
-        d.key(K.K_RIGHT)
+    d.key(K.K_RIGHT, K.K_RIGHT, K.K_RIGHT)
     assert d.screen.at == 3 and d.screen.demo.overlays.on == {d.screen.stops[3][1]}
     d.key(K.K_LEFT)
     d.pad("rb")
@@ -323,7 +331,7 @@ def test_the_tour_from_a_game_comes_back_to_it(drive):
 
 @pytest.mark.parametrize("driver_refuses", [True, False])
 def test_the_window_opens_with_and_without_vsync(monkeypatch, driver_refuses):
-    from game import window
+    from game.drawing import window
 
     asked = []
 

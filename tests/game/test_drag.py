@@ -4,18 +4,19 @@ from math import hypot
 
 import pytest
 
-from game.devices import DeviceSource
-from game.digest import scene_digest
-from game.drag import MOST_PULL
+from game.audio.sound import Sounds
 from game.drawing.camera import Camera
-from game.drawing.picture import Picture
-from game.files.replay import Recorder, load_replay
-from game.inputs import BotSource, InputFrame, ScriptSource
+from game.input.devices import DeviceSource
+from game.input.drag import MOST_PULL
+from game.input.inputs import InputFrame
 from game.overlays.stack import Overlays
+from game.run.digest import scene_digest
+from game.run.picture import Picture
+from game.run.replay import Recorder, load_replay
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from game.scene import Scene
 from game.screens.play import Play
-from game.session import Session
-from game.sound import Sounds
 from physics import BROADPHASES, Circle, Effects, Material, Polygon
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
@@ -95,7 +96,7 @@ def path(start, end, steps):
 
 def test_the_grabbed_point_comes_to_the_pointer_and_stays_without_swinging():
     scene = drive(hold((60, 224)) + path((60, 224), (120, 120), 20) + hold((120, 120), 60))
-    assert scene.drag.body == scene.box
+    assert scene.drag.hold.body == scene.box
     assert hypot(scene.box.center[0] - 120, scene.box.center[1] - 120) < 2.0
     assert hypot(*scene.box.velocity) < 5.0
 
@@ -112,7 +113,7 @@ def test_a_step_of_the_pointer_is_answered_without_overshoot():
 
 def test_a_corner_is_held_at_that_corner():
     scene = drive(hold((48, 214)) + hold((100, 120), 300))
-    x, y = scene.drag.held_point()
+    x, y = scene.drag.hold.point()
     assert hypot(x - 100, y - 120) < 2.5
     assert scene.box.center[1] > 120, "it hangs below the hand"
 
@@ -126,12 +127,12 @@ def test_nothing_static_or_kinematic_and_no_air_is_grabbed(place):
 
 def test_a_thin_thing_is_found_a_little_beside_it():
     scene = drive(hold((160, 235)))
-    assert scene.drag.body == scene.card
+    assert scene.drag.hold.body == scene.card
 
 
 def test_each_view_has_its_own_world_and_zoom():
     scene = drive(hold((290, 110)) + hold((300, 60), 90))
-    assert scene.drag.world is scene.worlds[1] and scene.drag.body == scene.ball
+    assert scene.drag.hold.world is scene.worlds[1] and scene.drag.hold.body == scene.ball
     assert hypot(scene.ball.center[0] - 120, scene.ball.center[1] - 120) < 3.0
 
 

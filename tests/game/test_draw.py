@@ -4,7 +4,7 @@ import pygame
 import pytest
 
 from game.drawing.camera import Camera
-from game.drawing.draw import SMALL, TEXT, Canvas, shorten, whole, wrap
+from game.drawing.canvas import SMALL, TEXT, Canvas, shorten, whole, wrap
 from game.drawing.font import load_font
 from game.drawing.presenter import Presenter
 

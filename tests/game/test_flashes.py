@@ -1,21 +1,22 @@
 """Full-screen flashes: at most three a second whatever happens, none for who asks for none.
 
-A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker side
-under 0.8, over a quarter of the picture or more.
+A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker
+side under 0.8, over a quarter of the picture or more.
 """
 
 import numpy as np
 import pygame
 import pytest
 
-from game.comfort import Comfort
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 from game.drawing.flash import MOST, SPAN, Flash
-from game.drawing.picture import Picture
-from game.inputs import BotSource, InputState
+from game.files.accessibility import Accessibility
+from game.input.inputs import InputState
 from game.overlays.stack import Overlays
 from game.registry import Registry
-from game.screens.wipe import Wipe
+from game.run.picture import Picture
+from game.run.sources import BotSource
+from game.screens.parts.wipe import Wipe
 from scenes import SCENES
 from tests.game.reading import luminance
 
@@ -26,7 +27,7 @@ AREA = 0.25  # of the picture
 
 
 def squares(surface):
-    """Luminance of each square of a canvas, by its mean colour: the whole picture's pixels would take ten times as long."""
+    """Luminance of each square of a canvas, by its mean colour: all its pixels would take ten times as long."""
     width, height = surface.get_size()
     return luminance(pygame.surfarray.array3d(pygame.transform.smoothscale(surface, (width // BLOCK, height // BLOCK))))
 
@@ -93,10 +94,10 @@ def test_flashes_are_limited_whoever_asks():
     assert meter.most_in_a_second() <= 3
 
 
-def lights_of(name, steps, comfort, seed=1):
+def lights_of(name, steps, accessibility, seed=1):
     """The squares of each picture of a bot's run."""
     scene = Registry(SCENES).scene_class(name)(seed=seed)
-    scene.set_comfort(comfort)
+    scene.set_accessibility(accessibility)
     source, inputs, picture, overlays = BotSource(), InputState(), Picture(pygame.Surface((480, 270))), Overlays(())
     meter = FlashMeter()
     for _ in range(steps):
@@ -110,7 +111,7 @@ def lights_of(name, steps, comfort, seed=1):
 @pytest.mark.parametrize("flashing", [True, False])
 @pytest.mark.parametrize("name", ["shooter", "platformer"])
 def test_games_stay_within_three_flashes_a_second(name, flashing):
-    meter = lights_of(name, 600, Comfort(flashing=flashing))
+    meter = lights_of(name, 600, Accessibility(flashing=flashing))
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
 
 
@@ -120,20 +121,20 @@ def test_games_stay_within_three_flashes_a_second(name, flashing):
     [("shooter", 15000, True), ("platformer", 4800, True), ("shooter", 4000, False), ("platformer", 2400, False)],
 )
 def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):
-    meter = lights_of(name, steps, Comfort(flashing=flashing))
+    meter = lights_of(name, steps, Accessibility(flashing=flashing))
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("name", [name for name in SCENES if "/" in name])
 def test_labs_stay_within_three_flashes_a_second(name):
-    assert lights_of(name, 600, Comfort()).most_in_a_second() <= 3
+    assert lights_of(name, 600, Accessibility()).most_in_a_second() <= 3
 
 
 def test_reduced_flashing_leaves_out_the_flash(monkeypatch):
     scene = Registry(SCENES).scene_class("lab/masks")(seed=1)
     for flashing, lit in ((True, True), (False, False)):
-        scene.set_comfort(Comfort(flashing=flashing))
+        scene.set_accessibility(Accessibility(flashing=flashing))
         picture = Picture(pygame.Surface((480, 270)))
         scene.flash.light = 0.0
         picture.draw_scene(scene, Overlays(()))

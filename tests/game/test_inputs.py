@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
-from game.bindings import DEFAULT_KEYS, key_codes
-from game.devices import DeviceSource
-from game.inputs import InputFrame, InputState, ScriptSource
+from game.input.bindings import DEFAULT_KEYS, key_codes
+from game.input.devices import DeviceSource
+from game.input.inputs import InputFrame, InputState
+from game.run.sources import ScriptSource
 
 
 def event(kind, **values):
@@ -78,7 +79,7 @@ def test_changes_travel_once():
 
 
 class FakePads:
-    """Stands in for game.devices.Pads: two pads, 7 mapped and 9 not."""
+    """Stands in for game.input.devices.Pads: two pads, 7 mapped and 9 not."""
 
     def __init__(self):
         self.open = set()

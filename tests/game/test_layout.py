@@ -4,14 +4,14 @@ import pygame
 import pytest
 
 import physics
-from game.devices import DeviceSource
-from game.drawing.picture import Picture
-from game.inputs import BotSource
-from game.overlays import LAYER_NAMES
+from game.audio.sound import Sounds
+from game.input.devices import DeviceSource
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.stack import Overlays
 from game.registry import Registry
+from game.run.picture import Picture
+from game.run.sources import BotSource
 from game.screens.play import Play
-from game.sound import Sounds
 from scenes import SCENES
 from tests.game.reading import Reader, assert_text_is_apart
 

@@ -5,8 +5,8 @@ import weakref
 
 import pytest
 
-from game.garbage import set_loaded_aside
-from game.loop import LONGEST_FRAME, SPEEDS, STEP_SECONDS, FixedStep
+from game.run.loop import LONGEST_FRAME, SPEEDS, FixedStep
+from game.scene import STEP_SECONDS, set_loaded_aside
 
 
 def test_first_call_starts_the_clock():

@@ -1,20 +1,21 @@
 """The layers that show what a solver does, and the outlines of every kind of shape."""
 
+from itertools import pairwise
 from math import cos, hypot, sin
 
 import numpy as np
 import pygame
 import pytest
 
-from game.digest import scene_digest
-from game.drawing.picture import Picture
-from game.inputs import InputFrame, InputState
-from game.overlays import LAYER_NAMES
+from game.input.inputs import InputFrame, InputState
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_features import text_of
 from game.overlays.layer_impulses import short, step_of
 from game.overlays.layer_islands import hull_of
 from game.overlays.outlines import corners_of, moved, ring
 from game.overlays.stack import Overlays
+from game.run.digest import scene_digest
+from game.run.picture import Picture
 from game.scene import Scene
 from physics import Capsule, Chain, Circle, Effects, Polygon, Segment, TileGrid, World, debug
 from scenes.lab.shape_pictures import difference
@@ -113,7 +114,7 @@ def test_ghosts_stay_for_a_while_and_go():
         picture.draw_scene(scene, overlays)
         picture.draw_scene(scene, overlays)  # drawn twice, noted once
         seen.append(sum(len(kept) for kept, _, _ in layer.kept.values()))
-    assert max(seen) > 0 and all(later - earlier <= 2 for earlier, later in zip(seen, seen[1:]))
+    assert max(seen) > 0 and all(later - earlier <= 2 for earlier, later in pairwise(seen))
     scene.world.clear()
     for _ in range(60):
         scene.step(InputState())
@@ -163,13 +164,15 @@ def test_a_ring_is_the_rounded_hull(points, radius):
         assert nearest == pytest.approx(radius, abs=0.02)
     turns = [
         (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
-        for (ax, ay), (bx, by), (cx, cy) in zip(corners, corners[1:] + corners[:1], corners[2:] + corners[:2])
+        for (ax, ay), (bx, by), (cx, cy) in zip(
+            corners, corners[1:] + corners[:1], corners[2:] + corners[:2], strict=True
+        )
     ]
     assert min(turns) >= -1e-9, "convex, clockwise on the screen"
 
 
 def on_edges(points):
-    for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]):
+    for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1], strict=True):
         yield from ((ax + (bx - ax) * i / 500, ay + (by - ay) * i / 500) for i in range(501))
 
 

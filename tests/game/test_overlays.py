@@ -4,17 +4,17 @@ import numpy as np
 import pygame
 import pytest
 
-from game.devices import DeviceSource
-from game.digest import scene_digest
-from game.drawing.picture import Picture
-from game.inputs import InputFrame, InputState
-from game.overlays import LAYER_NAMES
+from game.audio.sound import Sounds
+from game.input.devices import DeviceSource
+from game.input.inputs import InputFrame, InputState
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_pairs import Pairs
 from game.overlays.stack import Overlays
+from game.run.digest import scene_digest
+from game.run.picture import Picture
 from game.scene import Scene
-from game.screens.panel import Panel
+from game.screens.parts.panel import Panel
 from game.screens.play import Play
-from game.sound import Sounds
 from physics import Circle, Effects, Filter, PixelMask, Polygon
 from tests.game.arena import Arena
 

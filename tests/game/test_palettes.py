@@ -6,11 +6,11 @@ import numpy as np
 import pygame
 import pytest
 
-from game.comfort import PALETTES, Comfort
 from game.drawing.colors import SERIES, toned
-from game.drawing.picture import Picture
-from game.overlays import LAYER_NAMES
+from game.files.accessibility import PALETTES, Accessibility
+from game.overlays.layer import LAYER_NAMES
 from game.overlays.stack import Overlays
+from game.run.picture import Picture
 from tests.game.test_overlays import Crowd, stepped
 
 # Machado, Oliveira and Fernandes, "A Physiologically-based Model for Simulation of Color Vision Deficiency", 2009,
@@ -56,7 +56,7 @@ def test_contrast_hues_are_bright():
 
 def drawn(palette, layers):
     scene = stepped(Crowd())
-    scene.set_comfort(Comfort(palette=palette))
+    scene.set_accessibility(Accessibility(palette=palette))
     overlays = Overlays(layers)
     overlays.times.note(scene)
     return pygame.surfarray.array3d(Picture().draw_scene(scene, overlays).surface).astype(int)

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from game.files.best_run import ghost_path, keep_ghost, load_ghost
-from game.files.records import PLACES, Entry, load_records, ranks, table_of
+from game.files.records import PLACES, Entry, load_records, table_of
 from game.scene import Result
 
 
@@ -41,9 +41,9 @@ def test_ten_places_and_no_more():
 
 
 def test_who_ranks():
-    assert ranks(Result(False, 10, 5.0), "points") and not ranks(Result(True, 0, 5.0), "points")
-    assert ranks(Result(True, 0, 5.0), "seconds") and not ranks(Result(False, 10, 5.0), "seconds")
-    assert not ranks(Result(True, 10, 5.0), None)
+    assert Result(False, 10, 5.0).ranks("points") and not Result(True, 0, 5.0).ranks("points")
+    assert Result(True, 0, 5.0).ranks("seconds") and not Result(False, 10, 5.0).ranks("seconds")
+    assert not Result(True, 10, 5.0).ranks(None)
 
 
 def test_a_level_of_one_s_own_has_its_own_table(tmp_path):

@@ -4,14 +4,15 @@ import json
 
 import pytest
 
-from game.digest import scene_digest
 from game.errors import FileError, ReplayDiverged
-from game.files.replay import Recorder, load_replay
-from game.files.replay_check import load_replay_for
-from game.inputs import BotSource, InputFrame, ScriptSource
+from game.input.inputs import InputFrame
 from game.registry import Registry
+from game.run.digest import scene_digest
+from game.run.replay import Recorder, load_replay
+from game.run.replay_check import load_replay_for
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from game.scene import Result
-from game.session import Session
 from tests.game.arena import LISTING, Arena, Race
 
 

@@ -1,22 +1,23 @@
-"""A person's runs: each attempt its own recording, help noticed, results ranked, ghosts kept; files that cannot be used."""
+"""A person's runs: each attempt its own recording, help noticed, results ranked, ghosts kept, damaged files told."""
 
 import json
 
 import pygame
 import pytest
 
-from game.devices import DeviceSource
-from game.digest import scene_digest
+from game.audio.sound import Sounds
 from game.errors import FileError
 from game.files.best_run import load_ghost
 from game.files.records import load_records
-from game.files.replay import load_replay
-from game.files.replay_shelf import recent_folder, replays_folder
 from game.files.settings import Settings
-from game.inputs import InputFrame, ScriptSource
+from game.input.devices import DeviceSource
+from game.input.inputs import InputFrame
+from game.run.digest import scene_digest
+from game.run.replay import load_replay
+from game.run.replay_shelf import recent_folder, replays_folder
+from game.run.session import Session
+from game.run.sources import ScriptSource
 from game.screens.play import Play
-from game.session import Session
-from game.sound import Sounds
 from tests.game.arena import Arena, Race
 
 K = pygame

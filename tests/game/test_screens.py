@@ -6,34 +6,34 @@ from types import SimpleNamespace
 import pygame
 import pytest
 
-from game.comfort import Comfort
-from game.devices import DeviceSource
-from game.drawing.picture import Picture
+from game.audio.sound import Sounds
 from game.errors import FileError, UsageError
+from game.files.accessibility import Accessibility
 from game.files.records import Entry, Records, table_of
-from game.files.replay import load_replay
-from game.files.replay_shelf import recent_folder, replays_folder
 from game.files.settings import Settings
-from game.files.tape import Tape
+from game.input.devices import DeviceSource
 from game.registry import Registry
+from game.run.picture import Picture
+from game.run.replay import load_replay
+from game.run.replay_shelf import recent_folder, replays_folder
+from game.run.tape import Tape
 from game.scene import Result
 from game.screens.attract import Attract
-from game.screens.first_hint import HintCard
-from game.screens.ground import SceneGround
 from game.screens.loading import Loading
 from game.screens.menu import Menu
-from game.screens.message_screen import file_message
+from game.screens.message_screen import error_message
+from game.screens.parts.background import SceneBackground
+from game.screens.parts.first_hint import HintCard
+from game.screens.parts.settings_rows import PAGES
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
 from game.screens.replays_screen import ReplaysScreen
 from game.screens.result_screen import ResultScreen
 from game.screens.scores_screen import ScoresScreen, pages_of
-from game.screens.settings_rows import PAGES
 from game.screens.settings_screen import SettingsScreen
 from game.screens.title import Title
 from game.screens.tour import STOPS, Tour
 from game.screens.watch import Watch
-from game.sound import Sounds
 from scenes import SCENES
 from tests.game.arena import GAMES, Arena, Race
 from tests.game.reading import Reader, assert_text_is_apart
@@ -53,7 +53,7 @@ def display():
 
 
 def settled(screen, steps=70):
-    from game.inputs import InputFrame, InputState
+    from game.input.inputs import InputFrame, InputState
 
     inputs = InputState()
     for _ in range(steps):
@@ -142,7 +142,7 @@ def test_every_page_and_row_of_the_settings(page, inside):
 
 def test_settings_over_a_game():
     scene = Race()
-    screen = SettingsScreen(Settings(), DeviceSource(), ground=SceneGround(scene))
+    screen = SettingsScreen(Settings(), DeviceSource(), ground=SceneBackground(scene))
     screen.pages.mark = len(PAGES)
     check(screen)
 
@@ -232,7 +232,8 @@ def test_replays(tmp_path):
     check(screen)
     settled(screen)
     assert [replay is None for replay, _ in screen.read.values()].count(True) == 2
-    for screen.list.mark in range(len(screen.entries) + 1):
+    for mark in range(len(screen.entries) + 1):
+        screen.list.mark = mark
         screen.list.show_marked()
         screen.inside = screen.chosen is not None
         check(screen)
@@ -242,8 +243,8 @@ def test_replays(tmp_path):
 
 
 def test_messages():
-    check(file_message(FileError("/tmp/" + "x" * 300, "waves[3].enemies[12].pattern.speed", LONG * 3)))
-    check(file_message(UsageError("no scene 'shoter'; valid: " + ", ".join(SCENES))))
+    check(error_message(FileError("/tmp/" + "x" * 300, "waves[3].enemies[12].pattern.speed", LONG * 3)))
+    check(error_message(UsageError("no scene 'shoter'; valid: " + ", ".join(SCENES))))
 
 
 def tape_of(tmp_path, frames=200, **spoilt):
@@ -259,7 +260,7 @@ def tape_of(tmp_path, frames=200, **spoilt):
 def test_watching(tmp_path, panel, layers):
     digests = ["0" * 16] * 200
     for tape in (tape_of(tmp_path), tape_of(tmp_path, digests=digests)):
-        watch = Watch(tape, DeviceSource(), Sounds(silent=True), Comfort(), LONG)
+        watch = Watch(tape, DeviceSource(), Sounds(silent=True), Accessibility(), LONG)
         watch.overlays.on, watch.panel_open = set(layers), panel
         for _ in range(60):
             watch.step()
@@ -271,14 +272,14 @@ def test_watching(tmp_path, panel, layers):
 
 
 def test_every_stop_of_the_tour():
-    tour = Tour(lambda name: Arena(), ("arena",), DeviceSource(), Comfort())
+    tour = Tour(lambda name: Arena(), ("arena",), DeviceSource(), Accessibility())
     assert len(tour.stops) == len(STOPS)
     for tour.at in range(len(STOPS)):
         check_at_sizes(tour)
 
 
 def test_attract():
-    attract = Attract(lambda name: Arena(), ("arena",), Comfort())
+    attract = Attract(lambda name: Arena(), ("arena",), Accessibility())
     attract.advance(0.0)
     check_at_sizes(attract)
 

@@ -5,10 +5,10 @@ from random import Random
 
 import pytest
 
-from game.bindings import BUTTON_NAMES, DEFAULT_KEYS, REBOUND, button_actions, key_codes, rivals
 from game.files.data_folder import data_folder, keep_beside, write_atomically
 from game.files.settings import Settings, load_settings, save_settings
-from game.rebinding import FIXED, clash, default_table, rebind
+from game.input.bindings import BUTTON_NAMES, DEFAULT_KEYS, REBOUND, button_actions, key_codes, rivals
+from game.input.rebinding import FIXED, clash, default_table, rebind
 
 
 @pytest.fixture

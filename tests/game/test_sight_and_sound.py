@@ -5,9 +5,9 @@ import pygame
 import pytest
 
 from game.drawing.camera import Camera
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 from game.drawing.particles import CAPACITY, Particles
-from game.drawing.sprites import TurnedSprites, load_atlas
+from game.drawing.sprites import RotatedSprites, load_atlas
 
 RAMP = ((255, 255, 255), (255, 100, 0), (90, 0, 0))
 
@@ -16,7 +16,7 @@ RAMP = ((255, 255, 255), (255, 100, 0), (90, 0, 0))
 def test_a_turned_sprite_has_exactly_the_mask_s_pixels(angle):
     atlas = load_atlas("planes")
     mask = atlas.mask("player")
-    image, origin = TurnedSprites(atlas["player"], mask).at(angle)
+    image, origin = RotatedSprites(atlas["player"], mask).at(angle)
     turned = mask.turned(angle)
     assert np.array_equal(pygame.surfarray.array_alpha(image).T > 127, turned.solid)
     assert origin == turned.origin

@@ -3,11 +3,11 @@
 import pygame
 import pytest
 
-from game.devices import DeviceSource
-from game.headless import start_dummy_display
-from game.screens.panel_rows import play_rows
+from game.audio.sound import Sounds
+from game.input.devices import DeviceSource
+from game.run.headless import start_dummy_display
+from game.screens.parts.panel_rows import play_rows
 from game.screens.play import Play
-from game.sound import Sounds
 from physics import Effects, Polygon
 from tests.game.arena import Arena
 

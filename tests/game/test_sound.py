@@ -1,4 +1,4 @@
-"""Effects: every file plays, few voices at once, what matters is never lost to what does not, and no file can crash a game."""
+"""Effects: every file plays, few voices at once, what matters is never lost, and no file can crash a game."""
 
 import ast
 import wave
@@ -7,9 +7,9 @@ import numpy as np
 import pygame
 import pytest
 
-from game.drawing.draw import CANVAS_SIZE
+from game.audio.sound import CHANNELS, PITCHES, RATE, SPACING, STEADY, VOICES, Sounds, Voice, pan, resampled
+from game.drawing.canvas import CANVAS_SIZE
 from game.places import ASSETS, SOUNDS
-from game.sound import CHANNELS, PITCHES, RATE, SPACING, STEADY, VOICES, Sounds, Voice, pan, resampled
 
 
 class Clock:

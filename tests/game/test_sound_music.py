@@ -1,13 +1,13 @@
-"""Music: a tune fades into the next, a jingle comes between, a loud effect pushes it back, and no file can crash a game."""
+"""Music: a tune fades into the next, a jingle comes between, a loud effect pushes it back, no file crashes a game."""
 
 import re
 
 import pygame
 import pytest
 
-from game.music import DUCK_UP, DUCKED, FADE
+from game.audio.music import DUCK_UP, DUCKED, FADE
+from game.audio.sound import DUCK_SECONDS, DUCKING, Sounds
 from game.places import MUSIC
-from game.sound import DUCK_SECONDS, DUCKING, Sounds
 
 FRAME = 1 / 60
 

@@ -5,18 +5,19 @@ import json
 import pygame
 import pytest
 
-from game.comfort import Comfort
-from game.devices import DeviceSource
-from game.digest import scene_digest
-from game.drawing.picture import Picture
-from game.files.replay import Recorder, load_replay
-from game.files.replay_shelf import RECENT, keep, put_recent, recent_folder, replays_folder, shelf
-from game.files.tape import KEY_SECONDS, MOST_KEYS, Tape
-from game.inputs import BotSource, InputFrame, ScriptSource
+from game.audio.sound import Sounds
+from game.files.accessibility import Accessibility
+from game.input.devices import DeviceSource
+from game.input.inputs import InputFrame
 from game.registry import Registry
+from game.run.digest import scene_digest
+from game.run.picture import Picture
+from game.run.replay import Recorder, load_replay
+from game.run.replay_shelf import RECENT, keep, put_recent, recent_folder, replays_folder, shelf
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
+from game.run.tape import KEY_SECONDS, MOST_KEYS, Tape
 from game.screens.watch import Watch
-from game.session import Session
-from game.sound import Sounds
 from scenes import SCENES
 from tests.game.arena import Arena
 
@@ -93,7 +94,7 @@ def test_a_difference_is_shown_and_where_it_began(tmp_path, tape):
     data = json.loads(path.read_text())
     data["digests"][10] = "0" * 16
     path.write_text(json.dumps(data))
-    watch = Watch(Tape(lambda: Arena(seed=3), load_replay(path)), DeviceSource(), Sounds(silent=True), Comfort())
+    watch = Watch(Tape(lambda: Arena(seed=3), load_replay(path)), DeviceSource(), Sounds(silent=True), Accessibility())
     watch.tape.seek(329)
     assert not watch.diverged
     watch.step()
@@ -108,7 +109,7 @@ def test_a_difference_is_shown_and_where_it_began(tmp_path, tape):
 
 @pytest.fixture
 def watch(tape):
-    return Watch(tape, DeviceSource(), Sounds(silent=True), Comfort())
+    return Watch(tape, DeviceSource(), Sounds(silent=True), Accessibility())
 
 
 def press(watch, *keys):

@@ -4,7 +4,8 @@ import pygame as K
 import pytest
 
 from game.files.records import load_records
-from game.inputs import InputFrame, ScriptSource
+from game.input.inputs import InputFrame
+from game.run.sources import ScriptSource
 from tests.game.test_runs import SEEN, Settings, finish_race
 
 
@@ -38,6 +39,6 @@ def test_a_measured_run_leaves_no_entry(drive):
     d = drive("--scene", "race", "--frames", "250", settings=Settings(**SEEN))
     d.screen.session.source = ScriptSource([InputFrame(frozenset({"right"}))] * 250)
     d.turns(255)
-    assert d.screen.scene.result is not None and not d.app.running
+    assert d.screen.scene.result is not None and not d.app.arcade.running
     d.app.run()
     assert load_records()[0].tables == {}

@@ -1,4 +1,4 @@
-"""A data folder that may not be looked into, or whose name no system takes, was a traceback at the start and in the menus."""
+"""A data folder that may not be looked into, or whose name no system takes, was a traceback at start and in menus."""
 
 from pathlib import Path
 
@@ -9,8 +9,8 @@ from game.files.best_run import load_ghost
 from game.files.data_folder import data_folder
 from game.files.own_levels import own_levels
 from game.files.records import load_records
-from game.files.replay_shelf import shelf
 from game.files.settings import Settings, load_settings
+from game.run.replay_shelf import shelf
 from tests.game.arena import Race
 
 
@@ -40,7 +40,7 @@ def test_everything_starts_empty(out_of_reach):
     assert settings == Settings() and str(data_folder()) in message
     records, message = load_records()
     assert records.tables == {} and str(data_folder()) in message
-    assert load_ghost("race")[0] is None and own_levels(Race) == () and shelf() == []
+    assert load_ghost("race")[0] is None and own_levels(Race.level_suffixes()) == () and shelf() == []
 
 
 def test_the_menus_work(drive, out_of_reach):

@@ -1,6 +1,6 @@
 """Faults of drawing, each as the smallest picture that showed it."""
 
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 from scenes.platformer.scene import Platformer
 from scenes.platformer.view import flipped
 

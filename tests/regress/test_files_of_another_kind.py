@@ -6,8 +6,8 @@ import threading
 import pygame
 import pytest
 
-from game.drawing.picture import save_png
 from game.files.data_folder import write_atomically
+from game.run.picture import save_png
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")

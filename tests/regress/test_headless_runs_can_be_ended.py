@@ -14,7 +14,7 @@ MAIN = Path(__file__).resolve().parents[2] / "main.py"
 def test_it_ends(tmp_path):
     # It has begun once its display is open, which is when SDL takes what signals it can.
     watched = (
-        "import main, game.headless as h; start = h.start_dummy_display; "
+        "import main, game.run.headless as h; start = h.start_dummy_display; "
         "h.start_dummy_display = lambda: (start(), print('open', flush=True)); "
         "main.main(['--scene', 'lab/cradle', '--headless', '--frames', '100000000'])"
     )

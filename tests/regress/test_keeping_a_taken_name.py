@@ -2,7 +2,7 @@
 
 import os
 
-from game.files.replay_shelf import keep, recent_folder, replays_folder
+from game.run.replay_shelf import keep, recent_folder, replays_folder
 
 
 def test_the_run_gets_a_name_of_its_own():

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.bindings import key_name
+from game.input.bindings import key_name
 
 
 def test_such_a_key_is_refused():

@@ -6,8 +6,8 @@ import pytest
 
 from game.command_line import run
 from game.errors import FileError
-from game.files.replay import LARGEST_SEED, load_replay
 from game.registry import Registry
+from game.run.replay import LARGEST_SEED, load_replay
 from tests.game.arena import LISTING
 from tests.game.test_replay import record
 

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.files.replay import load_replay
+from game.run.replay import load_replay
 
 
 def test_what_was_played_is_written(drive, tmp_path):
@@ -11,6 +11,6 @@ def test_what_was_played_is_written(drive, tmp_path):
     d.turns(30)
     d.key(pygame.K_ESCAPE)
     d.mark("Leave")
-    assert d.name == "PauseMenu" and not d.app.running
+    assert d.name == "PauseMenu" and not d.app.arcade.running
     d.app.run()
     assert load_replay(path).frames >= 30

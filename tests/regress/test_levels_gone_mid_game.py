@@ -22,7 +22,7 @@ def test_a_restart_is_a_message_and_the_menu_goes_on(drive, tmp_path):
     path.unlink()
     d.key(K.K_r)
     assert d.name == "MessageScreen" and dict(d.screen.parts)["file"] == str(path)
-    assert d.app.devices.menus
+    assert d.app.arcade.devices.menus
     d.key(K.K_RETURN)
     assert d.name == "Menu"
 

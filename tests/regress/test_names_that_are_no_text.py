@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.window import copy_text
+from game.drawing.window import copy_text
 
 
 def test_the_clipboard_refuses(monkeypatch):

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from game.files.settings import load_settings, settings_path
-from game.rebinding import default_table
+from game.input.rebinding import default_table
 
 
 @pytest.mark.parametrize("keys", [[["a"]], [{}], [5], 5, None])

@@ -1,4 +1,4 @@
-"""A restart built the new world while the old one was still there: in ten minutes the shooter kept 1.7 MB more of the heap."""
+"""A restart built the new world beside the old one: in ten minutes the shooter kept 1.7 MB more of the heap."""
 
 import gc
 import weakref

@@ -1,4 +1,4 @@
-"""A closed standard error made exit 1 and no word of every mistake; a full disk behind standard output was a traceback."""
+"""A closed standard error made exit 1 and no word of every mistake; a full disk behind our output was a traceback."""
 
 import subprocess
 import sys

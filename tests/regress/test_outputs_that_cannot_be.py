@@ -1,4 +1,4 @@
-"""--record . was a traceback at the end of the run; a folder as the output file was only said after everything was played."""
+"""--record . was a traceback at the end of the run; a folder as the output file was only said after all was played."""
 
 import pytest
 

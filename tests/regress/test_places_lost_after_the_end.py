@@ -2,9 +2,10 @@
 
 import pygame as K
 
-from game.inputs import InputFrame, ScriptSource
-from game.screens.panel import act
-from game.screens.panel_rows import play_rows
+from game.input.inputs import InputFrame
+from game.run.sources import ScriptSource
+from game.screens.parts.panel import act
+from game.screens.parts.panel_rows import play_rows
 from tests.game.test_runs import SEEN, Settings
 
 
@@ -25,7 +26,7 @@ def test_the_focus_goes(drive):
 
 def test_the_pad_goes(drive):
     d = ended(drive)
-    d.app.devices.lost_pad = True
+    d.app.arcade.devices.lost_pad = True
     d.turns(2)
     assert d.name == "ResultScreen" and d.screen.entering
 

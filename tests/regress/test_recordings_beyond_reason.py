@@ -1,4 +1,4 @@
-"""A recording of a few bytes could ask for all memory, or stop the program with a traceback: repeats, pointers, level names.
+"""A recording of a few bytes could ask for all memory, or end in a traceback: repeats, pointers, level names.
 
 Dates and points without end made a line of text that took gigabytes to draw.
 """
@@ -8,7 +8,7 @@ import json
 import pytest
 
 from game.errors import FileError
-from game.files.replay import LONGEST, load_replay
+from game.run.replay import LONGEST, load_replay
 from tests.game.test_replay import record
 
 

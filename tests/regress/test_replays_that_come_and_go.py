@@ -1,12 +1,12 @@
 """A replay that was gone once it was listed, or a link to nowhere, stopped the program when the replays were opened.
 
-In recent/, a link or a folder made every kept run look as if it could not be kept; and where the clock had been set back,
-the run just played was the oldest, and went.
+In recent/, a link or a folder made every kept run look as if it could not be kept; and where the clock had been set
+back, the run just played was the oldest, and went.
 """
 
 import os
 
-from game.files.replay_shelf import RECENT, SHORTEST, files_of, put_recent, recent_folder, replays_folder, shelf
+from game.run.replay_shelf import RECENT, SHORTEST, files_of, put_recent, recent_folder, replays_folder, shelf
 from tests.game.test_replay import record
 
 

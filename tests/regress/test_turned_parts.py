@@ -1,4 +1,4 @@
-"""A body of several shapes that is stopped on its way stands at an angle nobody foresaw: its mask is drawn there too."""
+"""A body of several shapes, stopped on its way, stands at an angle nobody foresaw: its mask is drawn there too."""
 
 import math
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from game.drawing.tilemap import Thing, TileMap
-from game.inputs import InputFrame, InputState
+from game.input.inputs import InputFrame, InputState
 from physics import World
 from scenes.platformer.feel import GRAVITY, HEIGHT
 from scenes.platformer.hero import Hero

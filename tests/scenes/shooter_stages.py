@@ -3,7 +3,7 @@
 import copy
 import json
 
-from game.inputs import InputFrame, InputState
+from game.input.inputs import InputFrame, InputState
 from scenes.shooter.scene import Shooter
 from scenes.shooter.stage import STAGE, Group
 

@@ -1,6 +1,7 @@
 """The ledger of the games: an effect that a scene declares changes what happens, one that it does not call for nothing.
 
-The same recorded keys are played with one effect taken out, or put in. What cannot even be built without it is called for.
+The same recorded keys are played with one effect taken out, or put in. What cannot even be built without it is called
+for.
 """
 
 from dataclasses import fields
@@ -8,10 +9,10 @@ from dataclasses import fields
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.inputs import BotSource, ScriptSource
 from game.registry import Registry
-from game.session import Session
+from game.run.digest import scene_digest
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from physics import Effects
 from scenes import SCENES
 

@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from game.inputs import InputFrame, InputState
+from game.input.inputs import InputFrame, InputState
 from game.registry import Registry
 from physics import Capsule, Circle, Polygon
 from scenes import SCENES

@@ -6,11 +6,13 @@ import pygame
 import pytest
 
 import physics
-from game.drawing.turned import TurnedPicture
-from game.inputs import BotSource, InputFrame, ScriptSource
-from game.run_report import judge
-from game.session import Session
-from scenes.lab.billiards import CLOTH, HEAD_SPOT, HOLES, Billiards
+from game.drawing.rotated import RotatedPicture
+from game.input.inputs import InputFrame
+from game.run.outcome import judge
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
+from scenes.lab.billiard_table import CLOTH, HEAD_SPOT, HOLES
+from scenes.lab.billiards import Billiards
 from scenes.lab.card_house import NEEDED, CardHouse
 from scenes.lab.cradle import SPEED, Cradle
 from scenes.lab.dominoes import Dominoes
@@ -226,7 +228,7 @@ def test_a_picture_turns_by_quarters_without_loss():
     for x in range(5):
         for y in range(4):
             image.set_at((x, y), (40 * x + 20, 50 * y + 20, 90, 255))
-    turned = TurnedPicture(image)
+    turned = RotatedPicture(image)
     assert turned.at(0.0) is image and turned.at(2 * pi) is image
     half = turned.at(pi)
     left, top = (half.get_width() - 5) // 2, (half.get_height() - 4) // 2

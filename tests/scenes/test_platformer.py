@@ -2,9 +2,10 @@
 
 import pytest
 
-from game.drawing.draw import Canvas
-from game.inputs import InputFrame, ScriptSource
-from game.session import Session
+from game.drawing.canvas import Canvas
+from game.input.inputs import InputFrame
+from game.run.session import Session
+from game.run.sources import ScriptSource
 from scenes.platformer.feel import HEIGHT, steps
 from scenes.platformer.level import level_of
 from scenes.platformer.scene import APPLAUSE, HIT_STOP, Platformer

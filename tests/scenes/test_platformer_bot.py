@@ -5,11 +5,11 @@ import copy
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.drawing.draw import Canvas
-from game.inputs import BotSource
-from game.run_report import judge
-from game.session import Session
+from game.drawing.canvas import Canvas
+from game.run.digest import scene_digest
+from game.run.outcome import judge
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes.platformer.feats import GOAL_DUE
 from scenes.platformer.scene import Platformer
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from game.drawing.draw import CANVAS_SIZE
-from game.inputs import BotSource, ScriptSource
-from game.session import Session
+from game.drawing.canvas import CANVAS_SIZE
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
 from scenes.platformer.feel import HEIGHT
 from scenes.platformer.gaze import AHEAD, PEEK, rows_of
 from scenes.platformer.scene import Platformer

@@ -1,4 +1,4 @@
-"""Maps with a mistake: file, place, reason. And maps that are right: a copy elsewhere, a changed one, one without decor."""
+"""Maps with a mistake: file, place, reason. And maps that are right: a copy elsewhere, a changed one, a bare one."""
 
 import json
 import os
@@ -6,9 +6,9 @@ import os
 import pytest
 
 from game.errors import FileError
-from game.inputs import IdleSource
 from game.places import LEVELS
-from game.session import Session
+from game.run.session import Session
+from game.run.sources import IdleSource
 from scenes.platformer.level import level_of
 from scenes.platformer.level_rules import HINTS, KINDS
 from scenes.platformer.runner import Runner

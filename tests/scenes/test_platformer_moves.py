@@ -109,9 +109,9 @@ def test_kicking_from_wall_to_wall_leads_up_and_one_wall_alone_does_not():
     stage.run("right jump", 14)
     for _ in range(6):
         side = stage.hero.wall or 1
-        stage.until("right" if side > 0 else "left", lambda hero: hero.wall == side and hero.vy > 0)
+        stage.until("right" if side > 0 else "left", lambda hero, side=side: hero.wall == side and hero.vy > 0)
         stage.run("jump", 1)
-        stage.until("jump " + ("left" if side > 0 else "right"), lambda hero: hero.wall == -side)
+        stage.until("jump " + ("left" if side > 0 else "right"), lambda hero, side=side: hero.wall == -side)
     assert start - stage.hero.box[3] > 120
     lone = Stage("..........#\n" * 30 + "###########\n", 9)
     start = lone.hero.box[3]

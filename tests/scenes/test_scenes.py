@@ -3,12 +3,12 @@
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.drawing.draw import Canvas
-from game.inputs import BotSource
+from game.drawing.canvas import Canvas
 from game.registry import Registry
-from game.run_report import judge
-from game.session import Session
+from game.run.digest import scene_digest
+from game.run.outcome import judge
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes import SCENES
 
 FRAMES = 600 if physics.JIT else 90

@@ -5,8 +5,8 @@ import pytest
 
 import physics
 from game.drawing.sprites import load_atlas
-from game.inputs import BotSource
-from game.session import Session
+from game.run.session import Session
+from game.run.sources import BotSource
 from physics import debug
 from scenes.shooter.bomb import BURN, LEADER_DAMAGE, REACH
 from scenes.shooter.cast import BLAST, BULLET, CORE, ENEMY, HULL, ITEM, RING, SHOT

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.drawing.draw import Canvas
-from game.inputs import BotSource
-from game.session import Session
+from game.drawing.canvas import Canvas
+from game.run.digest import scene_digest
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes.shooter.boss import CHANGE, FALL
 from scenes.shooter.director import WARNING
 from scenes.shooter.scene import FREEZE, Shooter

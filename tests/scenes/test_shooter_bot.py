@@ -5,10 +5,10 @@ import copy
 import pytest
 
 import physics
-from game.digest import scene_digest
-from game.inputs import BotSource
-from game.run_report import judge
-from game.session import Session
+from game.run.digest import scene_digest
+from game.run.outcome import judge
+from game.run.session import Session
+from game.run.sources import BotSource
 from scenes.shooter.goals import CLEARED
 from scenes.shooter.scene import Shooter
 from tests.scenes.shooter_stages import boss_stage

@@ -2,7 +2,7 @@
 
 import pytest
 
-from game.digest import scene_digest
+from game.run.digest import scene_digest
 from game.scene import Result
 from scenes.shooter.ending import COUNTDOWN, GRACE, MOST_CONTINUES
 from scenes.shooter.plane import LIVES
@@ -98,7 +98,7 @@ def test_a_restart_forgets_everything():
     assert sky.scene.result is None and sky.scene.score.points == 0 and sky.scene.director.grounds[0][1] == "sea"
 
 
-# --- points ----------------------------------------------------------------------------------------------------------------
+# --- points ----------------------------------------------------------------------------------------------------------
 
 
 class Target:

@@ -130,7 +130,7 @@ def test_every_kind_has_health_points_and_a_pace_that_makes_it_harder():
         assert made.points > 0 and hard.health == 2 * easy.health > 0
 
 
-# --- primitives ------------------------------------------------------------------------------------------------------------
+# --- primitives ------------------------------------------------------------------------------------------------------
 
 
 def shoot(steps=1, **fields):

@@ -1,4 +1,4 @@
-"""The shooter's picture: text keeps clear of text, bullets can be read anywhere, palettes and flashes as the player wants."""
+"""The shooter's picture: text keeps clear of text, bullets can be read, palettes and flashes as the player wants."""
 
 from itertools import combinations
 
@@ -6,9 +6,9 @@ import numpy as np
 import pygame
 import pytest
 
-from game.comfort import Comfort
-from game.drawing.draw import Canvas
+from game.drawing.canvas import Canvas
 from game.drawing.sprites import load_atlas
+from game.files.accessibility import Accessibility
 from game.places import SOUNDS
 from scenes.shooter.bullets import HOSTILE_LOOKS, LOOKS
 from scenes.shooter.cast import GROUND_SPEED
@@ -107,7 +107,7 @@ def test_palettes_change_the_picture_and_nothing_else():
         sky.bullet(look, 60 + 50 * HOSTILE_LOOKS.index(look), 60)
     pictures = []
     for palette in ("standard", "safe", "contrast"):
-        sky.scene.set_comfort(Comfort(palette=palette))
+        sky.scene.set_accessibility(Accessibility(palette=palette))
         pictures.append(pygame.surfarray.array3d(picture(sky.scene).surface).astype(int))
     assert (pictures[0] != pictures[1]).any()
     ground = np.s_[20:400, 200:230]
@@ -118,7 +118,7 @@ def test_a_ghost_blinks_or_is_outlined():
     sky = Sky()
     sky.scene.plane.shelter(100)
     for flashing in (True, False):
-        sky.scene.set_comfort(Comfort(flashing=flashing))
+        sky.scene.set_accessibility(Accessibility(flashing=flashing))
         wings = []
         for safe in (60, 58):
             sky.scene.plane.safe = safe

@@ -16,12 +16,12 @@ from scenes import SCENES
 FRAMES = 400
 PLAY = """
 import json, sys
-from game.headless import start_dummy_display
+from game.run.headless import start_dummy_display
 start_dummy_display()
-from game.inputs import BotSource
+from game.run.sources import BotSource
 from game.registry import Registry
-from game.session import Session
-from game.warmup import warm_up_scene
+from game.run.session import Session
+from game.run.warmup import warm_up_scene
 from physics import jit
 from scenes import SCENES
 

@@ -1,0 +1,104 @@
+"""Music: one tune at a time, streamed from its file, faded into the next; jingles that come between.
+
+Nothing is read before it is wanted. The old tune goes out before the new one comes in: two tunes of different keys over
+each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pygame
+
+from game.places import MUSIC
+
+FADE = 0.4  # [s] out, and as long in: a change takes 0.8 s
+QUICK = 0.12  # [s] out when a jingle comes
+DUCKED = 0.5  # -6 dB under a loud moment
+DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
+
+
+class Music:
+    """`playing`: the tune or jingle that is heard, None in silence. `report` is called once per unusable file."""
+
+    def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
+        self.folder, self.report = folder, report
+        self.wanted = None  # the tune that should be heard, once no jingle is
+        self.jingle_due = None
+        self.playing = None
+        self.in_jingle = False
+        self.paused = False
+        self.level = 0.0  # of the fade, 0..1
+        self.duck = 1.0  # DUCKED..1
+        self.ducked_for = 0.0  # [s] more
+        self.unusable = set()
+
+    def tune(self, name: str | None) -> None:
+        """Want a tune, or None for silence. It comes when a jingle that is heard has ended."""
+        if name != self.wanted:
+            self.wanted = name
+            self.resume()
+
+    def jingle(self, name: str) -> None:
+        """Play once, at once; the tune comes back after it, from its start."""
+        self.resume()
+        self.jingle_due = name
+
+    def duck_for(self, seconds: float) -> None:
+        """Step back behind a loud effect."""
+        self.ducked_for = max(self.ducked_for, seconds)
+
+    def pause(self) -> None:
+        """Be silent from the next step on.
+
+        The mixer's own pause and unpause are not called: they wait for the sound thread with the interpreter's lock
+        held, while that thread, when an effect has just ended, waits for this lock. The program then stands still for
+        good.
+        """
+        self.paused = True
+
+    def resume(self) -> None:
+        """Be heard again. Another tune or a jingle does so too."""
+        self.paused = False
+
+    def step(self, seconds: float, volume: float) -> None:
+        """Fade, duck and change tunes. volume: 0..1 of all music."""
+        if not self.paused:
+            self._advance(seconds)
+        pygame.mixer.music.set_volume(0.0 if self.paused else volume * self.level * self.duck)
+
+    def _advance(self, seconds):
+        if self.in_jingle and not pygame.mixer.music.get_busy():
+            self.playing, self.in_jingle, self.level = None, False, 0.0
+        if self.jingle_due is not None:
+            self._leave_for(self.jingle_due, seconds / QUICK)
+        elif self.playing != self.wanted and not self.in_jingle:
+            self._leave_for(self.wanted, seconds / FADE)
+        else:
+            self.level = min(1.0, self.level + seconds / FADE)
+        down = self.ducked_for > 0.0
+        self.ducked_for = max(0.0, self.ducked_for - seconds)
+        way = -seconds / DUCK_DOWN if down else seconds / DUCK_UP
+        self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
+
+    def _leave_for(self, name, share):
+        """Fade out by a share of the whole; then `name` starts."""
+        self.level = max(0.0, self.level - share)
+        if self.level == 0.0 or self.playing is None:
+            self._start(name)
+
+    def _start(self, name):
+        pygame.mixer.music.stop()
+        self.in_jingle = self.jingle_due is not None
+        self.jingle_due = None
+        self.playing, self.level = name, float(self.in_jingle)
+        if name is None or name in self.unusable:
+            return
+        path = self.folder / f"{name}.ogg"
+        try:
+            if not path.is_file():
+                raise FileNotFoundError("there is no such file")
+            pygame.mixer.music.load(str(path))
+            pygame.mixer.music.play(0 if self.in_jingle else -1)
+        except (OSError, pygame.error) as error:
+            self.unusable.add(name)
+            self.report(f"{path}: music: {error}")

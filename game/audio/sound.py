@@ -1,0 +1,215 @@
+"""Sound: effects with a few voices each, panned and varied in pitch, over music; silence where there is no device.
+
+Seen from the game this is only output: nothing here is read back by a scene, and the variation has random numbers of
+its own. A buffer of 512 samples (12 ms): larger ones are heard as lag, smaller ones pop.
+"""
+
+import math
+import wave
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+from time import perf_counter
+
+import numpy as np
+import pygame
+
+from game.audio.music import Music
+from game.drawing.canvas import CANVAS_SIZE
+from game.places import MUSIC, SOUNDS
+from game.startup import say
+
+Cue = tuple[str, float | None, float]  # name, canvas x or None, volume
+
+RATE = 44_100  # [Hz] of effects and mixer
+CHANNELS = 24
+VOICES = 3  # of one sound at once: more of the same is only louder
+SPACING = 0.03  # [s] between two starts of one sound: ten hits in a step are one crack
+PAN_WIDTH = 0.6  # of full left-right; full panning is tiring on headphones
+PITCHES = (1.0, 0.96, 1.04)  # playing speed of the variants, +-4 %: a sound that repeats is not a machine's
+STEADY = {
+    "blip",
+    "confirm",
+    "back",
+    "powerup",
+    "checkpoint",
+    "secret",
+    "goal",
+    "life",
+    "warning",
+}  # melodies stay in tune
+DUCK_SECONDS = 0.5
+DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}  # the music steps back for these
+FIRST, LAST = 2, 0  # ranks when all channels are taken; others have 1
+RANKS = {
+    **dict.fromkeys(DUCKING | {"confirm", "back", "blip", "checkpoint", "powerup"}, FIRST),
+    **dict.fromkeys(("laser", "enemy_shot", "graze", "hit", "land", "ladder", "crate"), LAST),
+}
+
+
+@dataclass
+class Voice:
+    """One channel of the mixer and what it last played. `started`: the number of that start."""
+
+    channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer refuses the name, and plays on in silence
+    name: str = ""
+    rank: int = LAST
+    started: int = 0
+
+
+class Sounds:
+    """play() and tune() by file name. `silent_because` says why nothing is heard, or is "".
+
+    master, effects and music are volumes 0..1 and may be set at any time. step() is to be called once per drawn frame.
+    """
+
+    def __init__(
+        self,
+        master: float = 0.8,
+        effects: float = 1.0,
+        music: float = 0.6,
+        folder: Path = SOUNDS,
+        silent: bool = False,
+        music_folder: Path = MUSIC,
+        report: Callable[[str], object] = say,
+        clock: Callable[[], float] = perf_counter,
+    ) -> None:
+        self.master, self.effects, self.music = master, effects, music
+        self.folder, self.report, self.clock = folder, report, clock
+        self.random = Random(4)  # only heard; never a game's
+        self.samples: dict[str, np.ndarray | None] = {}  # name -> int16 samples, None for a file that cannot be used
+        self.variants: dict[str, dict[float, pygame.mixer.Sound]] = {}  # name -> {pitch: pygame Sound}
+        self.last_pitch = {}
+        self.last_start = {}  # name -> when [s]
+        self.starts = 0
+        self.voices: list[Voice] = []
+        self.player = Music(report, music_folder)
+        self.silent_because = "sound is off" if silent else self._open()
+
+    def _open(self):
+        try:
+            if pygame.mixer.get_init() not in (None, (RATE, -16, 2)):
+                pygame.mixer.quit()
+            pygame.mixer.init(RATE, -16, 2, 512, allowedchanges=0)
+            pygame.mixer.set_num_channels(CHANNELS)
+        except RuntimeError as error:  # pygame.error is one, and so is what a pygame without its mixer raises
+            return f"no sound device ({error})"
+        self.voices = [Voice(pygame.mixer.Channel(number)) for number in range(CHANNELS)]
+        return ""
+
+    def play_cues(self, cues: Iterable[Cue]) -> None:
+        """Play what a scene asked for in one step: (name, canvas x or None, volume) each; of one name the loudest."""
+        loudest = {}
+        for name, x, volume in cues:
+            if name not in loudest or volume > loudest[name][1]:
+                loudest[name] = (x, volume)
+        for name, (x, volume) in loudest.items():
+            self.play(name, x, volume)
+
+    def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
+        """Start a sound; the oldest voice of it gives way. Returns True if it is heard."""
+        loudness = min(1.0, volume) * self.effects * self.master
+        now = self.clock()
+        if self.silent_because or loudness <= 0.0 or now - self.last_start.get(name, -SPACING) < SPACING:
+            return False
+        sound = self._variant(name)
+        rank = RANKS.get(name, 1)
+        voice = self._voice_for(name, rank) if sound else None
+        if sound is None or voice is None:
+            return False
+        left, right = pan(x)
+        voice.channel.play(sound)
+        voice.channel.set_volume(left * loudness, right * loudness)
+        self.starts += 1
+        voice.name, voice.rank, voice.started = name, rank, self.starts
+        self.last_start[name] = now
+        if name in DUCKING:
+            self.player.duck_for(DUCK_SECONDS)
+        return True
+
+    def _voice_for(self, name, rank):
+        """The voice to start on: a free one, the oldest of this sound, or of those that matter least; None: no room."""
+        busy = [voice for voice in self.voices if voice.channel.get_busy()]
+        same = [voice for voice in busy if voice.name == name]
+        if len(same) >= VOICES:
+            return min(same, key=lambda voice: voice.started)
+        if len(busy) < len(self.voices):
+            return next(voice for voice in self.voices if voice not in busy)
+        least = min(busy, key=lambda voice: (voice.rank, voice.started))
+        return least if least.rank <= rank else None
+
+    def _variant(self, name):
+        """The sound at one of its pitches, never the same twice running; None for a file that cannot be used."""
+        if name not in self.samples:
+            self.samples[name] = self._read(name)
+        samples = self.samples[name]
+        if samples is None:
+            return None
+        pitches = (1.0,) if name in STEADY else [each for each in PITCHES if each != self.last_pitch.get(name)]
+        pitch = self.last_pitch[name] = self.random.choice(pitches)
+        made = self.variants.setdefault(name, {})
+        if pitch not in made:
+            made[pitch] = pygame.mixer.Sound(buffer=stereo(resampled(samples, pitch)))
+        return made[pitch]
+
+    def _read(self, name):
+        path = self.folder / f"{name}.wav"
+        try:
+            with wave.open(str(path)) as file:
+                form = (file.getnchannels(), file.getsampwidth(), file.getframerate())
+                samples = np.frombuffer(file.readframes(file.getnframes()), "<i2")
+            if form != (1, 2, RATE) or len(samples) < 2:
+                raise wave.Error(f"must be mono, 16 bit, {RATE} Hz and not empty")
+        except FileNotFoundError:
+            self.report(f"{path}: sound: there is no such file")
+        except (OSError, EOFError, ValueError, wave.Error) as error:
+            self.report(f"{path}: sound: {str(error) or 'the file ends too soon'}")
+        else:
+            return samples
+        return None
+
+    def tune(self, name: str | None) -> None:
+        """Want a tune, faded in, or None for silence. Cheap when it is the same as before."""
+        if not self.silent_because:
+            self.player.tune(name)
+
+    def jingle(self, name: str) -> None:
+        """Play a tune once, at once; the wanted tune comes after it."""
+        if not self.silent_because:
+            self.player.jingle(name)
+
+    def pause(self) -> None:
+        """Hold the music; effects ring out."""
+        if not self.silent_because:
+            self.player.pause()
+
+    def resume(self) -> None:
+        """Let the music go on where it stood."""
+        if not self.silent_because:
+            self.player.resume()
+
+    def step(self, seconds: float) -> None:
+        """Fades and ducking; `seconds` since the last call."""
+        if not self.silent_because:
+            self.player.step(seconds, self.music * self.master)
+
+
+def pan(x: float | None) -> tuple[float, float]:
+    """(left, right) volumes 0..1 for a canvas x, of equal power everywhere; None is the middle."""
+    side = 0.0 if x is None else max(-1.0, min(1.0, 2.0 * x / CANVAS_SIZE[0] - 1.0)) * PAN_WIDTH
+    angle = (side + 1.0) * math.pi / 4.0
+    return math.cos(angle), math.sin(angle)
+
+
+def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
+    """The samples played `speed` times as fast, so that much higher."""
+    if speed == 1.0:
+        return samples
+    places = np.arange(0.0, len(samples) - 1, speed)
+    return np.round(np.interp(places, np.arange(len(samples)), samples)).astype(np.int16)
+
+
+def stereo(samples: np.ndarray) -> bytes:
+    """Mono samples as bytes of a stereo buffer."""
+    return np.repeat(samples, 2).tobytes()

@@ -1,0 +1,152 @@
+"""Canvas: what scenes draw on. It knows every text box it holds, so text can keep out of text's way.
+
+Positions are canvas pixels. Sprites are rounded with floor(x + 0.5), once, so that a sprite and the
+ground under it always step together.
+"""
+
+from collections.abc import Iterable
+from math import floor
+from typing import TypeVar
+
+import numpy as np
+import pygame
+
+from game.drawing.colors import PAPER, Color, toned
+from game.drawing.font import load_font
+
+Number = TypeVar("Number", float, np.ndarray)  # one coordinate, or a column of them
+Box = pygame.Rect | tuple[int, int, int, int]  # left, top, width, height
+
+CANVAS_SIZE = (480, 270)
+TEXT, SMALL = "font5x7", "font3x5"
+
+
+def whole(value: float) -> int:
+    """The one rounding rule for drawing: floor(value + 0.5)."""
+    return floor(value + 0.5)
+
+
+class Canvas:
+    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` rects that text keeps out of."""
+
+    def __init__(self, surface: pygame.Surface | None = None) -> None:
+        self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
+        self.boxes = []
+        self.reserved = []
+        self.palette = "standard"  # of the overlays, as the player wants it
+
+    def tone(self, color: Color) -> Color:
+        """An overlay's colour in the palette of this picture."""
+        return toned(color, self.palette)
+
+    @property
+    def rect(self) -> pygame.Rect:
+        """The whole canvas as a Rect at (0, 0)."""
+        return self.surface.get_rect()
+
+    def begin(self, color: Color | None = None) -> None:
+        """Start a picture: forget the last one's text boxes; fill with `color` when given."""
+        self.boxes.clear()
+        self.reserved.clear()
+        if color is not None:
+            self.surface.fill(color)
+
+    def sprite(self, image: pygame.Surface, x: float, y: float) -> None:
+        """Draw an image centred on (x, y)."""
+        width, height = image.get_size()
+        self.surface.blit(image, (whole(x) - width // 2, whole(y) - height // 2))
+
+    def measure(self, text: str, font: str = TEXT, scale: int = 1) -> tuple[int, int]:
+        """Width and height of a line of text in pixels."""
+        return load_font(font).measure(text, scale)
+
+    def text_rect(
+        self, text: str, x: float, y: float, font: str = TEXT, scale: int = 1, align: str = "left"
+    ) -> pygame.Rect:
+        """Where text() would put the line. `align` says what x is: left, center or right."""
+        width, height = load_font(font).measure(text, scale)
+        left = {"left": x, "center": x - width / 2, "right": x - width}[align]
+        return pygame.Rect(whole(left), whole(y), width, height)
+
+    def text(
+        self,
+        text: str,
+        x: float,
+        y: float,
+        color: Color = PAPER,
+        font: str = TEXT,
+        scale: int = 1,
+        align: str = "left",
+        outline: bool = False,
+    ) -> pygame.Rect:
+        """Draw one line of text, y its top, and return its rect. Its place is the caller's promise."""
+        rect = self.text_rect(text, x, y, font, scale, align)
+        load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
+        self.boxes.append((rect, text))
+        return rect
+
+    def text_if_free(
+        self,
+        text: str,
+        x: float,
+        y: float,
+        color: Color = PAPER,
+        font: str = TEXT,
+        scale: int = 1,
+        align: str = "left",
+        outline: bool = False,
+    ) -> bool:
+        """Draw the line only where it is on the screen and touches no other text. Returns True if drawn.
+
+        For labels that follow things: the caller counts the ones left out and says so in a fixed place.
+        """
+        rect = self.text_rect(text, x, y, font, scale, align)
+        if not self.is_free(rect):
+            return False
+        load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
+        self.boxes.append((rect, text))
+        return True
+
+    def is_free(self, rect: pygame.Rect) -> bool:
+        """True if the rect is on the canvas and meets no text box and no reserved rect."""
+        return self.rect.contains(rect) and rect.collidelist(self._taken()) < 0
+
+    def _taken(self):
+        return [box for box, _ in self.boxes] + self.reserved
+
+    def reserve(self, rect: Box) -> None:
+        """Keep text_if_free and free_place out of a rect (a graph, a panel, a life bar)."""
+        self.reserved.append(pygame.Rect(rect))
+
+    def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
+        """The first (x, y) of `places` where a box of that size is free, or None."""
+        inside, taken = self.rect, self._taken()
+        for x, y in places:
+            rect = pygame.Rect(whole(x), whole(y), *size)
+            if inside.contains(rect) and rect.collidelist(taken) < 0:
+                return rect.topleft
+        return None
+
+
+def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
+    """Break a sentence into lines of at most `width` pixels; a longer word stands alone."""
+    measure = load_font(font).measure
+    lines, line = [], ""
+    for word in text.split():
+        longer = f"{line} {word}" if line else word
+        if line and measure(longer, scale)[0] > width:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return [*lines, line] if line else lines
+
+
+def shorten(text: str, width: int, font: str = TEXT, scale: int = 1) -> str:
+    """The text, or as much of it as fits in `width` pixels with two dots behind."""
+    measure = load_font(font).measure
+    if measure(text, scale)[0] <= width:
+        return text
+    while text and measure(text + "..", scale)[0] > width:
+        text = text[:-1]
+    return text.rstrip() + ".."

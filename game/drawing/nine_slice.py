@@ -1,0 +1,36 @@
+"""Framed boxes from the ui sheet: nine slices, the middle ones stretched."""
+
+from functools import lru_cache
+
+import pygame
+
+from game.drawing.canvas import Box, Canvas
+from game.drawing.sprites import load_atlas
+
+EDGE = 8  # [px] of a slice that keeps its size
+
+
+def draw_box(canvas: Canvas, rect: Box, name: str = "panel_dark") -> None:
+    """Draw a framed box; `name` is panel, panel_selected or panel_dark."""
+    canvas.surface.blit(_box(name, rect[2], rect[3]), (rect[0], rect[1]))
+
+
+@lru_cache(maxsize=64)
+def _box(name, width, height):
+    source = load_atlas("ui")[name]
+    side = source.get_width()
+    picture = pygame.Surface((width, height), pygame.SRCALPHA)
+    for index_y in range(3):
+        for index_x in range(3):
+            from_x, wide = _place(index_x, side)
+            from_y, tall = _place(index_y, side)
+            x, out_wide = _place(index_x, width)
+            y, out_tall = _place(index_y, height)
+            part = source.subsurface((from_x, from_y, wide, tall))
+            picture.blit(pygame.transform.scale(part, (out_wide, out_tall)), (x, y))
+    return picture
+
+
+def _place(index, length):
+    """Where the first, middle or last slice goes along a side, and how long it is there."""
+    return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

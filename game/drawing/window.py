@@ -1,0 +1,74 @@
+"""The window: opening it, and changing it to what the settings say."""
+
+import os
+import sys
+import warnings
+from collections.abc import Mapping
+
+import pygame
+
+from game.drawing.canvas import CANVAS_SIZE
+from game.errors import UsageError
+from game.files.settings import Settings
+
+LARGEST_SHARE = 0.9  # of the desktop that a window opened without a chosen size may take
+
+
+def open_window(settings: Settings) -> pygame.Surface:
+    """The window's surface. Raises UsageError when there is no display to open it on."""
+    try:
+        if not has_screen(sys.platform, os.environ):
+            raise pygame.error("neither DISPLAY nor WAYLAND_DISPLAY is set")
+        pygame.display.init()
+        # SDL falls back to drivers nobody can see; only who asks for one by name gets it.
+        if pygame.display.get_driver() in ("dummy", "offscreen") and not os.environ.get("SDL_VIDEODRIVER"):
+            raise pygame.error("no screen found")
+        surface = set_mode(settings)
+    except pygame.error as error:
+        raise UsageError(
+            f"no display to open a window on ({error}); run without one: --headless --scene NAME"
+        ) from error
+    pygame.display.set_caption("Hitbox")
+    return surface
+
+
+def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
+    """False where SDL could only fail, with noise of its own: Linux without X, Wayland or a driver by name."""
+    names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
+    return not platform.startswith("linux") or any(environment.get(name) for name in names)
+
+
+def mode_of(settings: Settings) -> tuple[bool, int, bool]:
+    """What of the settings the window depends on: it is opened anew only when this changes."""
+    return settings.fullscreen, settings.window_scale, settings.vsync
+
+
+def set_mode(settings: Settings) -> pygame.Surface:
+    """Open or change the window to the settings' size."""
+    desktop = pygame.display.get_desktop_sizes()[0]
+    if settings.fullscreen:
+        return _open(desktop, pygame.FULLSCREEN, settings.vsync)
+    fits = min(desktop[0] * LARGEST_SHARE // CANVAS_SIZE[0], desktop[1] * LARGEST_SHARE // CANVAS_SIZE[1])
+    scale = settings.window_scale or max(1, int(fits))
+    return _open((CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale), pygame.RESIZABLE, settings.vsync)
+
+
+def _open(size, flags, vsync):
+    """Where the system has no vsync, the window opens without: our own timing paces it then."""
+    if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # "no fast renderer" is no reason to stop, not even for --strict
+                return pygame.display.set_mode(size, flags, vsync=1)
+        except pygame.error:
+            return pygame.display.set_mode(size, flags)
+    return pygame.display.set_mode(size, flags)
+
+
+def copy_text(text: str) -> bool:
+    """Put text on the clipboard; True if that worked."""
+    try:
+        pygame.scrap.put_text(text)
+        return pygame.scrap.get_text() == text
+    except (AttributeError, UnicodeEncodeError, pygame.error):  # a file name need not be text
+        return False

@@ -1,0 +1,173 @@
+"""Which keys and buttons mean which actions, as data: names that a settings file can hold and a person can read.
+
+A key may mean several actions (Space fires and jumps), as long as no one game uses two of them: `rivals` says which.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import pygame
+
+from game.input.inputs import ACTIONS
+
+Table = Mapping[str, Sequence[str]]  # action -> names of keys or buttons
+
+# What a player may change. The first name of each is the one that the settings show and change.
+DEFAULT_KEYS = {
+    "left": ("left", "a"),
+    "right": ("right", "d"),
+    "up": ("up", "w"),
+    "down": ("down", "s"),
+    "fire": ("space", "z"),
+    "jump": ("space", "x"),
+    "focus": ("left shift", "right shift"),
+    "bomb": ("x", "left ctrl"),
+}
+DEFAULT_BUTTONS = {
+    "left": ("dpad left",),
+    "right": ("dpad right",),
+    "up": ("dpad up",),
+    "down": ("dpad down",),
+    "fire": ("a", "x"),
+    "jump": ("a",),
+    "focus": ("left shoulder", "right shoulder", "left trigger"),
+    "bomb": ("b", "right trigger"),
+}
+REBOUND = tuple(DEFAULT_KEYS)
+# What stays, so that menus always work and the way out is never lost.
+FIXED_KEYS = {"confirm": ("return", "keypad enter"), "cancel": ("escape", "backspace"), "pause": ("p",)}
+SHELL_KEYS = ("tab", "f11", "f12")  # panel, full screen, screenshot
+FIXED_BUTTONS = {"confirm": ("a", "start"), "cancel": ("b", "back")}
+SHELL_BUTTONS = ("start", "back", "y", "guide")  # pause menu, freeze, panel
+# No game uses actions of two of these sets together.
+USED_TOGETHER = ({"left", "right", "up", "down", "fire", "focus", "bomb"}, {"left", "right", "up", "down", "jump"})
+
+# Buttons by their place on an Xbox pad, as SDL names them on every pad it knows.
+CONTROLLER_NAMES = {
+    pygame.CONTROLLER_BUTTON_A: "a",
+    pygame.CONTROLLER_BUTTON_B: "b",
+    pygame.CONTROLLER_BUTTON_X: "x",
+    pygame.CONTROLLER_BUTTON_Y: "y",
+    pygame.CONTROLLER_BUTTON_BACK: "back",
+    pygame.CONTROLLER_BUTTON_START: "start",
+    pygame.CONTROLLER_BUTTON_GUIDE: "guide",
+    pygame.CONTROLLER_BUTTON_LEFTSTICK: "left stick",
+    pygame.CONTROLLER_BUTTON_RIGHTSTICK: "right stick",
+    pygame.CONTROLLER_BUTTON_LEFTSHOULDER: "left shoulder",
+    pygame.CONTROLLER_BUTTON_RIGHTSHOULDER: "right shoulder",
+    pygame.CONTROLLER_BUTTON_DPAD_LEFT: "dpad left",
+    pygame.CONTROLLER_BUTTON_DPAD_RIGHT: "dpad right",
+    pygame.CONTROLLER_BUTTON_DPAD_UP: "dpad up",
+    pygame.CONTROLLER_BUTTON_DPAD_DOWN: "dpad down",
+}
+TRIGGER_NAMES = {
+    pygame.CONTROLLER_AXIS_TRIGGERLEFT: "left trigger",
+    pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "right trigger",
+}
+# A pad that SDL has no mapping for: most count their buttons in this order.
+JOYSTICK_NAMES = {0: "a", 1: "b", 2: "x", 3: "y", 4: "left shoulder", 5: "right shoulder", 6: "back", 7: "start"}
+BUTTON_NAMES = (*CONTROLLER_NAMES.values(), *TRIGGER_NAMES.values())
+AXES = {0: ("left", "right"), 1: ("up", "down")}  # of the stick, which always steers
+DEAD_ZONE = 0.25  # of the stick's travel; Celeste's value: less and worn sticks drift
+
+# pygame's constants for keys whose name in settings is not theirs.
+SPELLED = {
+    "left shift": "LSHIFT",
+    "right shift": "RSHIFT",
+    "left ctrl": "LCTRL",
+    "right ctrl": "RCTRL",
+    "left alt": "LALT",
+    "right alt": "RALT",
+    "keypad enter": "KP_ENTER",
+}
+PICTURED = {
+    "left": "\u2190",
+    "right": "\u2192",
+    "up": "\u2191",
+    "down": "\u2193",
+    "dpad left": "pad \u2190",
+    "dpad right": "pad \u2192",
+    "dpad up": "pad \u2191",
+    "dpad down": "pad \u2193",
+    "left shift": "L shift",
+    "right shift": "R shift",
+    "left ctrl": "L ctrl",
+    "right ctrl": "R ctrl",
+    "left alt": "L alt",
+    "right alt": "R alt",
+    "left shoulder": "LB",
+    "right shoulder": "RB",
+    "left trigger": "LT",
+    "right trigger": "RT",
+    "left stick": "L stick",
+    "right stick": "R stick",
+}
+_NAMES = {}  # key code -> name, made when first asked for
+
+
+def rivals(action: str, other: str) -> bool:
+    """True if one game uses both, so that they cannot share a key."""
+    return action != other and any(action in game and other in game for game in USED_TOGETHER)
+
+
+def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
+    """{action: names} -> {key code: actions}, the fixed keys with them. Raises ValueError naming what is wrong."""
+    return _turned({**names, **FIXED_KEYS}, _code)
+
+
+def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
+    """{action: names} -> {button name: actions}, with the fixed buttons. Raises ValueError naming what is wrong."""
+    return _turned({**names, **FIXED_BUTTONS}, _button)
+
+
+def _turned(names, read):
+    table = {}
+    for action, controls in names.items():
+        if action not in ACTIONS:
+            raise ValueError(f"action must be one of {', '.join(ACTIONS)} (got {action!r})")
+        for control in controls:
+            table.setdefault(read(control), []).append(action)
+    return {control: tuple(actions) for control, actions in table.items()}
+
+
+def _code(key: str) -> int:
+    """The key code of a key name. The table is pygame's constants, so that no display is needed."""
+    name = SPELLED.get(key, key)
+    for spelling in (name.upper(), name.lower()):
+        code = getattr(pygame, f"K_{spelling}", None)
+        if code is not None:
+            return code
+    raise ValueError(f"no key is called {key!r}; examples: a, space, left shift, f1")
+
+
+def _button(name):
+    if name not in BUTTON_NAMES:
+        raise ValueError(f"no button is called {name!r}; valid: {', '.join(BUTTON_NAMES)}")
+    return name
+
+
+def key_name(code: int) -> str | None:
+    """A key code as settings spell it, or None for a key without a plain name."""
+    if not _NAMES:
+        spelled = {constant: name for name, constant in SPELLED.items()}
+        for constant in dir(pygame):
+            if constant.startswith("K_") and constant != "K_UNKNOWN":  # that is every key without a name
+                _NAMES.setdefault(getattr(pygame, constant), spelled.get(constant[2:], constant[2:].lower()))
+    return _NAMES.get(code)
+
+
+def shown(control: str) -> str:
+    """A key or button as the screen shows it."""
+    return PICTURED.get(control, control.capitalize())
+
+
+def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
+    """(what to press, what it does) of Scene.actions as the player has bound them; table {action: names}."""
+    pairs = []
+    steering = [table[action][0] for action in ("left", "right", "up", "down")]
+    for key, what in actions:
+        if what in table:
+            key = shown(table[what][0])
+        elif key.lower() == "arrows" and steering != ["left", "right", "up", "down"]:
+            key = " ".join(shown(each) for each in steering)
+        pairs.append((key, what))
+    return pairs

@@ -1,0 +1,180 @@
+"""Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
+
+The pointer comes through the input of the step like every key, so a recording holds the drag. The pull is the
+force that the implicit spring would give over one step (Catto, "Soft Constraints", GDC 2011): it stays stable at
+any stiffness and for any mass, and it is capped in proportion to the mass.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin
+from typing import Protocol
+
+import numpy as np
+import pygame
+
+from game.input.inputs import InputState
+from physics import Body, Circle, Effects, World
+
+HERTZ = 5.0  # [1/s] of the spring: in 0.2 s the body is where the pointer is
+DAMPING_RATIO = 1.0  # critical: no swinging back and forth about the pointer
+MOST_PULL = 300.0  # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
+SPIN_DAMPING = 2.0  # [1/s] a hanging body comes to rest instead of swinging for ever
+FOLLOW = 20.0  # [1/s] where no force moves a body, its speed follows the pointer
+REACH = 4.0  # [canvas px] how far beside a body a press may be: a card is 2 px thin
+
+
+class View(Protocol):
+    """What is asked of a camera: the world point at its left top corner, its zoom, and its place on the canvas."""
+
+    x: float
+    y: float
+    zoom: float
+    viewport: pygame.Rect
+
+    def view(self, alpha: float = 1.0) -> tuple[float, float]:
+        """The world point at its left top corner as it is drawn, a shake included."""
+        ...
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A body in hand. `grip`: the grabbed point in body space [px]; `before`: the velocity to fly on with, or None."""
+
+    body: Body
+    world: World
+    camera: View
+    grip: tuple[float, float]
+    before: tuple[float, float] | None
+
+    def point(self) -> tuple[float, float]:
+        """The grabbed point in the world [px]."""
+        (x, y), angle = self.body.position, self.body.angle
+        c, s = cos(angle), sin(angle)
+        return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
+
+    def is_there(self) -> bool:
+        """True while the world has the body."""
+        return bool((self.world.bodies["id"] == self.body.id).any())
+
+
+class Drag:
+    """One pointer's hold on at most one body of a scene; `hold` is None while nothing is held."""
+
+    def __init__(self) -> None:
+        self.hold: Hold | None = None
+
+    @property
+    def holds(self) -> bool:
+        """True while a body is held."""
+        return self.hold is not None
+
+    @property
+    def held(self) -> int:
+        """Id of the body that is held, -1 for none."""
+        return -1 if self.hold is None else self.hold.body.id
+
+    def release(self) -> None:
+        """Let go. What flies without forces flies on as before."""
+        hold, self.hold = self.hold, None
+        if hold is not None and hold.before is not None and hold.is_there():
+            hold.body.velocity = hold.before
+
+    def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
+        """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
+        if inputs.pointer_pressed:
+            self._grab(inputs.pointer, views)
+        elif not inputs.pointer_down:
+            self.release()
+        if self.hold is not None and not _goes_on(self.hold, views):
+            self.release()
+        if self.hold is not None:
+            _pull(self.hold, to_world(self.hold.camera, inputs.pointer))
+
+    def _grab(self, pointer, views):
+        self.release()
+        for world, camera in views:
+            if not camera.viewport.collidepoint(pointer):
+                continue
+            point = to_world(camera, pointer)
+            body = body_at(world, point, REACH / camera.zoom)
+            if body is not None:
+                x, y = point[0] - body.position[0], point[1] - body.position[1]
+                c, s = cos(body.angle), sin(body.angle)
+                before = None if has_forces(world.effects) else body.velocity
+                self.hold = Hold(body, world, camera, (c * x + s * y, c * y - s * x), before)
+            return
+
+
+def _goes_on(hold, views):
+    """False where the scene was filled anew, or the body is gone or can no longer be held."""
+    return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
+
+
+def _pull(hold, target):
+    world, body = hold.world, hold.body
+    body.wake()
+    turns = world.effects.rotation
+    point = hold.point()
+    if not has_forces(world.effects):
+        body.velocity = (FOLLOW * (target[0] - point[0]), FOLLOW * (target[1] - point[1]))
+        return
+    row = world.bodies[world.rows([body.id])[0]]
+    force = spring_force(row, point, target, world.dt, turns)
+    most = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
+    size = hypot(*force)
+    share = most / size if size > most else 1.0
+    body.apply_force((force[0] * share, force[1] * share), point)
+    if turns:
+        body.apply_torque(-SPIN_DAMPING * float(row["inertia"]) * body.angular_velocity)
+
+
+def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
+    """The world point under a canvas point. Without the shake, which a player may have switched off."""
+    view = camera.viewport
+    return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
+
+
+def has_forces(effects: Effects) -> bool:
+    """True for a world in which a force moves a body."""
+    return effects.response or effects.gravity or effects.drag or effects.wind
+
+
+def can_be_held(body: Body) -> bool:
+    """True for a dynamic body with a mass that takes part in the simulation."""
+    row = body.world.bodies[body.world.rows([body.id])[0]]
+    return body.kind == "dynamic" and row["inverse_mass"] > 0.0 and not row["quarantined"]
+
+
+def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
+    """The body to grab at a world point: the uppermost that holds it, else the nearest one within reach, or None."""
+    held = [body for body in world.query_point(point) if can_be_held(body)]
+    if held:
+        return held[-1]
+    near = [body for body in world.overlap(Circle(reach), (*point, 0.0)) if can_be_held(body)]
+    distance = {body: hypot(body.center[0] - point[0], body.center[1] - point[1]) for body in near}
+    return min(near, key=lambda body: (distance[body], body.id), default=None)
+
+
+def spring_force(
+    row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
+) -> tuple[float, float]:
+    """The force at `point` of a spring to `target`, as the end of the step would have it [mass px/s2].
+
+    row: the body's row. With K the inverse mass that the point shows, J = -s K^-1 (v + b (point - target)); s and b
+    are the soft constraint's factors for one step of dt.
+    """
+    omega = 2.0 * pi * HERTZ
+    first = 2.0 * DAMPING_RATIO + dt * omega
+    second = dt * omega * first
+    softness, rate = second / (1.0 + second), omega / first
+    inverse_mass, inverse_inertia = float(row["inverse_mass"]), float(row["inverse_inertia"]) if turns else 0.0
+    spin = float(row["angular_velocity"]) if turns else 0.0
+    rx, ry = point[0] - float(row["center_x"]), point[1] - float(row["center_y"])
+    vx, vy = float(row["vx"]) - spin * ry, float(row["vy"]) + spin * rx
+    wanted_x, wanted_y = vx + rate * (point[0] - target[0]), vy + rate * (point[1] - target[1])
+    k11 = inverse_mass + inverse_inertia * ry * ry
+    k12 = -inverse_inertia * rx * ry
+    k22 = inverse_mass + inverse_inertia * rx * rx
+    share = -softness / (dt * (k11 * k22 - k12 * k12))
+    return share * (k22 * wanted_x - k12 * wanted_y), share * (k11 * wanted_y - k12 * wanted_x)

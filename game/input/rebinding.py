@@ -1,0 +1,98 @@
+"""Giving a key or button to an action: what cannot be taken is refused, what another action had is swapped."""
+
+from string import ascii_lowercase
+
+from game.input.bindings import (
+    BUTTON_NAMES,
+    DEFAULT_BUTTONS,
+    DEFAULT_KEYS,
+    FIXED_KEYS,
+    SHELL_BUTTONS,
+    SHELL_KEYS,
+    Table,
+    rivals,
+    shown,
+)
+
+FIXED = {"keys": {*SHELL_KEYS, *(key for keys in FIXED_KEYS.values() for key in keys)}, "buttons": set(SHELL_BUTTONS)}
+DEFAULTS = {"keys": DEFAULT_KEYS, "buttons": DEFAULT_BUTTONS}
+SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
+
+
+def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
+    """Make `control` the first of the action's; table {action: [names]} is changed. Returns a line to show.
+
+    device: "keys" or "buttons". A rival that had it gets what the action gave up. No action is ever left without.
+    """
+    if control is None:
+        return "That key has no name here. Choose another."
+    if control in FIXED[device]:
+        return f"{shown(control)} always does the same and cannot be taken."
+    own = table[action]
+    if control in own:
+        table[action] = [control, *(each for each in own if each != control)]
+        return f"{action}: {shown(control)}"
+    given_up = own[0]
+    new = {name: list(controls) for name, controls in table.items()}
+    new[action] = [control, *own[1:]]
+    said = [f"{action}: {shown(control)}."]
+    for other in table:
+        if rivals(action, other) and control in table[other]:
+            line = _make_room(new, device, other, control, given_up)
+            if line is None:
+                return f"{shown(control)} is all that {other} has, and nothing else is free."
+            said.append(line)
+    table.update(new)
+    return " ".join(said)
+
+
+def _make_room(table, device, other, control, given_up):
+    """Take a control away from an action; returns what to say, or None where nothing would be left for it."""
+    place = table[other].index(control)
+    rest = [each for each in table[other] if each != control]
+    choices = (given_up,) if rest else (given_up, *DEFAULTS[device][other], *SPARE[device])
+    instead = next((each for each in choices if _is_free(table, device, other, each)), None)
+    if instead is None and not rest:
+        return None
+    table[other] = rest
+    if instead is None:
+        return f"{other} keeps {shown(rest[0])}."
+    table[other].insert(place, instead)
+    return f"{other} now has {shown(instead)}."
+
+
+def _is_free(table, device, action, control):
+    """True if no rival of the action holds the control, nor the action itself, nor the shell."""
+    taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
+    return control not in taken
+
+
+def clash(table: Table) -> tuple[str, str, str] | None:
+    """The first two rivals that share a control, as (action, other, control), or None."""
+    for action in table:
+        for other in table:
+            if rivals(action, other):
+                for control in table[action]:
+                    if control in table[other]:
+                        return action, other, control
+    return None
+
+
+def default_table(device: str) -> dict[str, list[str]]:
+    """A fresh copy of the table that a player starts with."""
+    return {action: list(controls) for action, controls in DEFAULTS[device].items()}
+
+
+def completed(table: Table, device: str) -> dict[str, list[str]]:
+    """The table with what it lacks: an older file may not know all actions. Clashing names are left out."""
+    full = {}
+    for action in DEFAULTS[device]:
+        full[action] = list(table[action]) if action in table else []
+    for action, controls in full.items():
+        if not controls:
+            wanted = [
+                each for each in (*DEFAULTS[device][action], *SPARE[device]) if _is_free(full, device, action, each)
+            ]
+            known = [each for each in wanted if each in DEFAULTS[device][action]]
+            full[action] = known or wanted[:1]
+    return full

@@ -1,0 +1,55 @@
+"""What an overlay layer is. Layers only read; each answers for itself where and when it is drawn."""
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
+from game.drawing.colors import Color
+from game.drawing.presenter import Frame, Lens
+from physics import World
+
+LegendLine = tuple[Color, str]
+
+# What --overlay takes, in the order of the panel: keys 1 to 9, then letters.
+LAYER_NAMES = (
+    "bounds",
+    "motion",
+    "structure",
+    "pairs",
+    "masks",
+    "contacts",
+    "filters",
+    "times",
+    "impulses",
+    "features",
+    "islands",
+    "colors",
+    "centers",
+    "ghosts",
+    "outlines",
+)
+
+
+class Layer:
+    """`key`: the key that switches it; `color`: of its check box and of its first legend line."""
+
+    name: str
+    title: str
+    key: str
+    color: Color
+    on_canvas: bool = False  # exact to the canvas pixel: drawn before the canvas is scaled
+    under: bool = False  # drawn before the other layers, since it fills areas
+
+    def begin(self, views: int = 1) -> None:
+        """Start a picture of so many views, which share the layer's budget evenly."""
+
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
+        """Draw one world through one lens, where `on_canvas` is False."""
+
+    def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
+        """Draw one world on the canvas, where `on_canvas` is True."""
+
+    def draw_labels(self, frame: Frame) -> None:
+        """Write text that follows things, where there is room."""
+
+    def notes(self) -> list[LegendLine]:
+        """(color, text) lines for the legend."""
+        return []

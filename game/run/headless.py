@@ -1,0 +1,93 @@
+"""A run without window, sound or waiting. It draws only when something asks for pictures."""
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from time import perf_counter
+
+import pygame
+
+from game.errors import UsageError
+from game.overlays.stack import Overlays
+from game.registry import Registry
+from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
+from game.run.outcome import Check, RunReport, judge, not_judged
+from game.run.picture import Picture, save_png
+from game.run.replay import Recorder
+from game.run.session import Session
+from game.run.sources import BotSource, IdleSource
+from game.run.warmup import warm_up_scene
+from game.scene import Scene, set_loaded_aside
+
+
+def start_dummy_display() -> None:
+    """Let pygame draw without any display or sound device."""
+    os.environ["SDL_VIDEODRIVER"] = "dummy"
+    os.environ["SDL_AUDIODRIVER"] = "dummy"
+    os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would make an event of SIGTERM, and nobody reads events here
+    pygame.display.init()
+    pygame.display.set_mode((480, 270))  # so that convert_alpha() has a format to convert to
+
+
+def run_headless(options: Options, registry: Registry) -> int:
+    """Run --frames steps and report. Returns the exit code."""
+    start_dummy_display()
+    # Kernels first, so that the times below are of steps and not of the compiler.
+    warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
+    scene = make_scene(options, registry)
+    recording = options.recording
+    frames = options.last_frame or DEFAULT_FRAMES
+    source = recording or (BotSource() if options.bot else IdleSource())
+    recorder = Recorder(scene, options.bot) if options.record else None
+    session = Session(scene, source, recorder, recording)
+    overlays = Overlays(scene.overlays if options.overlay is None else options.overlay)
+    picture = Picture()
+    draws = bool(options.overlay) or options.profile
+    set_loaded_aside()
+    try:
+        for frame in range(frames):
+            session.step()
+            overlays.times.note(scene)
+            if draws or (options.screenshot and frame == frames - 1):
+                started = perf_counter()
+                picture.draw_scene(scene, overlays)
+                session.report.note_drawing(perf_counter() - started)
+    finally:
+        if recorder is not None and options.record:
+            save_or_fail(recorder.save, options.record)
+    if options.screenshot:
+        save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)
+    return finish(scene, session.report, options)
+
+
+def save_or_fail(save: Callable[[str], object], path: str) -> None:
+    """Write an output file; a path that cannot be written is wrong use."""
+    try:
+        save(path)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def finish(scene: Scene, report: RunReport, options: Options) -> int:
+    """Print what was asked for and return the exit code."""
+    played = options.played_by_bot
+    extra = report.strict_failures() if options.strict else []
+    check = judge(scene, report.steps, extra) if played else not_judged(scene, extra)
+    if options.profile:
+        # With --json, standard output holds the one object and nothing else.
+        print("\n".join(report.profile_lines()), file=sys.stderr if options.json else sys.stdout)
+    if options.json:
+        print(json.dumps(report.to_json(scene, check)))
+    else:
+        print(summary_line(scene, report, check, played))
+        for failure in check["failures"]:
+            print(f"  failed: {failure}")
+    return 0 if check["ok"] else 1
+
+
+def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
+    """One line about the run, for people."""
+    verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
+    pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""
+    return f"{scene.name}: {report.steps} frames, seed {scene.seed}, {scene.broadphase}: {verdict}{pending}"

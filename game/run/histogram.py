@@ -1,0 +1,38 @@
+"""A histogram of times whose memory does not grow: bins a hundredth wide, and the exact mean and maximum."""
+
+from math import floor, log
+
+SHORTEST, LONGEST = 1e-7, 1e3  # [s] what lies outside counts in the first or the last bin
+WIDTH = log(1.01)  # of a bin, in the logarithm of the time: a quantile is exact to half a percent
+BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
+
+
+class Histogram:
+    """Of times [s] that are added one by one."""
+
+    def __init__(self) -> None:
+        self.bins = [0] * BINS
+        self.count = 0
+        self.total = self.largest = 0.0
+
+    def add(self, seconds: float) -> None:
+        """Count one time."""
+        place = floor(log(max(seconds, SHORTEST) / SHORTEST) / WIDTH)
+        self.bins[min(place, BINS - 1)] += 1
+        self.count += 1
+        self.total += seconds
+        self.largest = max(self.largest, seconds)
+
+    @property
+    def mean(self) -> float:
+        """Exact; 0 when nothing was added."""
+        return self.total / self.count if self.count else 0.0
+
+    def quantile(self, share: float) -> float:
+        """The time that a share 0..1 of all is not longer than; 0 when nothing was added."""
+        left = share * (self.count - 1) + 1.0
+        for place, count in enumerate(self.bins):
+            left -= count
+            if count and left < 1.0:
+                return min(SHORTEST * 1.01 ** (place + 0.5), self.largest)
+        return self.largest

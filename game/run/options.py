@@ -1,0 +1,64 @@
+"""What a run is asked to be, as the command line reads it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from game.registry import Registry
+from game.run.replay import Replay
+from game.scene import Scene
+
+DEFAULT_FRAMES = 600  # of a headless run that names no number: ten seconds
+
+
+@dataclass
+class Options:
+    """One field per flag, checked; `recording` is the file of --replay, read."""
+
+    list: bool = False
+    scene: str | None = None
+    headless: bool = False
+    frames: int | None = None
+    seed: int | None = None
+    json: bool = False
+    bot: bool = False
+    record: str | None = None
+    replay: str | None = None
+    overlay: tuple[str, ...] | None = None  # None: the scene's own
+    broadphase: str | None = None
+    solver: str | None = None
+    tier: str | None = None
+    level: Path | None = None
+    screenshot: str | None = None
+    profile: bool = False
+    warmup: bool = False
+    strict: bool = False
+    version: bool = False
+    recording: Replay | None = None
+
+    @property
+    def is_a_run(self) -> bool:
+        """True for a run that is measured or saved: it is about one scene, and ends with it."""
+        return bool(self.frames or self.record or self.json or self.profile or self.screenshot)
+
+    @property
+    def played_by_bot(self) -> bool:
+        """True where the scene's own player plays, or played what is replayed: its goals are then checked."""
+        return self.bot or bool(self.recording and self.recording.bot)
+
+    @property
+    def last_frame(self) -> int | None:
+        """The frame that the run ends with, None where it goes on for as long as somebody plays."""
+        return self.frames or (self.recording.frames if self.recording else None)
+
+
+def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
+    """The class of the scene that the options name; they must name one."""
+    assert options.scene is not None
+    return registry.scene_class(options.scene)
+
+
+def make_scene(options: Options, registry: Registry) -> Scene:
+    """The scene that the options ask for. Raises FileError for a level with a mistake."""
+    return scene_class_of(options, registry)(
+        options.seed or 0, options.broadphase, options.solver, options.tier, options.level
+    )

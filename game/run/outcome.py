@@ -1,0 +1,127 @@
+"""What a run measured: per stage, per frame, counters and events, summed over the scene's worlds."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from game.run.digest import scene_digest
+from game.run.histogram import Histogram
+from game.scene import Scene
+
+Check = dict[str, Any]  # ok, failures, pending
+
+EVENTS = ("begin", "persist", "end", "hits")
+
+
+class RunReport:
+    """Filled step by step. Times are seconds inside and milliseconds in to_json."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.frames = Histogram()  # update, and drawing where there was any; the last one is still open
+        self.last = None  # [s] the frame that drawing may still be added to
+        self.updates = Histogram()  # update alone
+        self.stages = {}  # name -> Histogram of the times per step
+        self.counters = {}
+        self.events = dict.fromkeys(EVENTS, 0)
+        self.quarantined = 0
+
+    def note_step(self, scene: Scene, seconds: float) -> None:
+        """Take what the worlds measured in the step just made, which took that long."""
+        self.steps += 1
+        self._close_frame()
+        self.last = seconds
+        self.updates.add(seconds)
+        step_stages = {}
+        for world in scene.worlds:
+            for name, spent in world.profile.stages.items():
+                step_stages[name] = step_stages.get(name, 0.0) + spent
+            for name, count in world.profile.counters.items():
+                self.counters[name] = self.counters.get(name, 0) + int(count)
+            for name in EVENTS:
+                self.events[name] += len(getattr(world.events, name))
+            self.quarantined += len(world.events.quarantined)
+        for name, spent in step_stages.items():
+            self.stages.setdefault(name, Histogram()).add(spent)
+
+    def note_drawing(self, seconds: float) -> None:
+        """Add drawing time to the frame of the last step."""
+        if self.last is not None:
+            self.last += seconds
+
+    def _close_frame(self):
+        if self.last is not None:
+            self.frames.add(self.last)
+            self.last = None
+
+    def strict_failures(self) -> list[str]:
+        """What --strict objects to: quarantined bodies and any cap that was hit."""
+        failures = []
+        if self.quarantined:
+            failures.append(f"{self.quarantined} bodies were quarantined")
+        if self.counters.get("cap_hits"):
+            failures.append(f"{self.counters['cap_hits']} cap hits")
+        return failures
+
+    def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
+        """The object that --json prints; `check` comes from judge()."""
+        self._close_frame()
+        return {
+            "scene": scene.name,
+            "frames": self.steps,
+            "seed": scene.seed,
+            "effects": scene.effects.names(),
+            "broadphase": scene.broadphase,
+            "solver": solver_name(scene),
+            "tier": scene.tier,
+            "digest": scene_digest(scene),
+            "check": check,
+            "counters": self.counters,
+            "stages_ms": {name: summary(spent, ("mean", "p99")) for name, spent in self.stages.items()},
+            "frame_ms": summary(self.frames, ("mean", "p50", "p99")),
+            "events": self.events,
+        }
+
+    def profile_lines(self) -> list[str]:
+        """The table that --profile prints."""
+        self._close_frame()
+        lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
+        rows = {"frame": self.frames, "  update": self.updates}
+        rows |= {f"    {name}": spent for name, spent in self.stages.items()}
+        for name, spent in rows.items():
+            found = summary(spent, ("mean", "p50", "p99", "max"))
+            lines.append(f"{name:24}" + "".join(f"{value:9.3f}" for value in found.values()))
+        lines.append(
+            "per step: "
+            + ", ".join(f"{name} {total / max(self.steps, 1):.1f}" for name, total in self.counters.items() if total)
+        )
+        return lines
+
+
+def solver_name(scene: Scene) -> str | None:
+    """The solver that runs, also where the scene left the choice to the World."""
+    return scene.worlds[0].solver if scene.worlds else scene.solver
+
+
+def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
+    """{mean, p50, p99, max} in milliseconds, of what is wanted; zeros when nothing was measured."""
+    found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
+    return {name: round(1000.0 * found[name], 4) for name in wanted}
+
+
+def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
+    """{ok, failures, pending} from the scene's goals: one due after the last frame is pending, not failed."""
+    failures, pending = list(extra), []
+    for goal in scene.check():
+        if goal.met:
+            continue
+        line = f"{goal.name}: {goal.detail}" if goal.detail else goal.name
+        if goal.due > frames:
+            pending.append(f"{line} (due {goal.due})")
+        else:
+            failures.append(f"{line} (was due {goal.due})")
+    return {"ok": not failures, "failures": failures, "pending": pending}
+
+
+def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
+    """The check of a run that nobody played: its goals are all pending; only --strict can fail it."""
+    return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

@@ -1,0 +1,113 @@
+"""One finished picture of a scene: canvas, scaling, overlays, panel. The same for a window and a screenshot."""
+
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+from typing import Protocol
+
+import pygame
+
+from game.drawing.canvas import Canvas
+from game.drawing.colors import INK, SHADE
+from game.drawing.drag_line import draw_drag
+from game.drawing.presenter import SCREENSHOT_SCALE, Frame, Presenter
+from game.files.data_folder import write_atomically
+from game.overlays.stack import Overlays, draw_legend, legend_columns, legend_size
+from game.scene import Scene
+
+GRAPH_LEAST = 120  # [text px] of the strip's width are kept for the stage times when they are on
+
+
+class Drawable(Protocol):
+    """What can be shown on the canvas by itself."""
+
+    def draw(self, canvas: Canvas, alpha: float) -> None:
+        """Draw the picture."""
+        ...
+
+
+class Docked(Protocol):
+    """What stands beside a scene: the panel."""
+
+    def draw(self, frame: Frame, rect: pygame.Rect) -> None:
+        """Paint into a frame rect."""
+        ...
+
+
+class Picture:
+    """Draws onto `surface`: the window's, or one of screenshot size."""
+
+    def __init__(self, surface: pygame.Surface | None = None) -> None:
+        if surface is None:
+            surface = pygame.Surface((480 * SCREENSHOT_SCALE, 270 * SCREENSHOT_SCALE))
+        self.canvas = Canvas()
+        self.presenter = Presenter(surface)
+
+    def draw_scene(
+        self,
+        scene: Scene,
+        overlays: Overlays,
+        alpha: float = 1.0,
+        panel: Docked | None = None,
+        reserve: Callable[[Frame], None] | None = None,
+    ) -> Frame:
+        """Draw everything and return the frame. With geometry shown, sprites stand where the step left them.
+
+        reserve(frame): called before the overlays' text is placed, to keep it away from what is drawn later.
+        """
+        if overlays.shows_geometry():
+            alpha = 1.0
+        self.canvas.begin(INK)
+        self.canvas.palette = self.presenter.frame.palette = scene.accessibility.palette
+        scene.draw(self.canvas, alpha)
+        if scene.accessibility.flashing:
+            scene.flash.draw(self.canvas.surface)
+        if scene.accessibility.palette == "contrast" and overlays.shows_geometry():
+            self.canvas.surface.fill((SHADE,) * 3, special_flags=pygame.BLEND_RGB_MULT)
+        overlays.draw_on_canvas(self.canvas, scene)
+        self.presenter.docked = panel is not None
+        frame = self.presenter.present(self.canvas)
+        if reserve is not None:
+            reserve(frame)
+        scene.draw_on_frame(frame)
+        draw_drag(frame, scene.drag, scene.pointer)
+        overlays.draw_on_frame(frame, scene)
+        if panel is None:
+            overlays.draw_floating(frame, scene.legend_at)
+        else:
+            if self.presenter.crowded:
+                frame.begin()  # the panel covers the whole picture, and with it all text so far
+            panel.draw(frame, self.presenter.panel_rect)
+            draw_strip(frame, self.presenter.strip_rect, overlays)
+        overlays.draw_labels(frame)
+        return frame
+
+    def draw_screen(self, screen: Drawable, alpha: float = 1.0) -> Frame:
+        """Draw a title or menu screen."""
+        self.canvas.begin(INK)
+        screen.draw(self.canvas, alpha)
+        self.presenter.docked = False
+        return self.presenter.present(self.canvas)
+
+
+def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
+    """The strip under a docked game: legend on the left, stage times on the right, whatever is on."""
+    scale = frame.text_scale
+    if rect.height < 40 * scale:
+        return
+    left = rect.x + 4 * scale
+    wanted = (GRAPH_LEAST + 8) * scale if "times" in overlays.on else 0
+    for column in legend_columns(frame, overlays.legend(), rect.width - wanted, rect.height - 2 * scale, scale):
+        draw_legend(frame, column, left, rect.y + 2 * scale, scale)
+        left += legend_size(frame, column, scale)[0] + 2 * scale
+    graph = pygame.Rect(left, rect.y + 4 * scale, rect.right - left - 4 * scale, rect.height - 8 * scale)
+    if "times" in overlays.on and graph.width > GRAPH_LEAST * scale:
+        overlays.times.draw_graph(frame, graph)
+    frame.reserve(rect)
+
+
+def save_png(surface: pygame.Surface, path: str | Path) -> None:
+    """Write a surface as PNG, whatever the file is called, whole or not at all. Raises OSError where it cannot."""
+    picture = BytesIO()
+    pygame.image.save(surface, picture, "picture.png")
+    write_atomically(path, picture.getvalue(), makes_folder=False)

@@ -1,0 +1,234 @@
+"""Recordings: the inputs of every step, the seed, and a digest after every step.
+
+A replay runs the scene again and names the first frame whose digest differs. The file is JSON with one
+line per run of equal input, so that it can be read, compared and repaired by hand. Version 2 also says which level
+was played, when, and how it ended; version 1 is still read.
+"""
+
+import json
+from pathlib import Path
+from time import strftime
+from typing import Any
+
+from game.errors import FileError, ReplayDiverged
+from game.files.data_folder import write_atomically
+from game.files.json_file import read_json
+from game.files.own_levels import level_digest
+from game.input.inputs import ACTIONS, NOTHING, InputFrame
+from game.run.digest import scene_digest
+from game.scene import Result, Scene
+
+FORMAT, VERSION = "hitbox replay", 2
+DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
+KEPT_EVERY = 30  # frames between the digests of runs that are kept unasked: half a second is exact enough
+DIGITS = 16  # hex digits kept per frame: 64 bits
+LONGEST = 24 * 60 * 60 * 60  # frames: a day; a file of a few bytes could ask for all memory there is
+LARGEST_SEED = 2**62  # the physics takes 63 bits, and each further world of a scene counts on by one
+FARTHEST = 1_000_000  # canvas px of the pointer, and notches of the wheel
+LONGEST_DATE = 40  # letters
+MOST_POINTS = 10**15
+
+
+class Recorder:
+    """Notes what went in and what came out of each step. every: frames between two digests."""
+
+    def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
+        level = scene.level_file
+        self.every = every
+        self.head = {
+            "format": FORMAT,
+            "version": VERSION,
+            "scene": scene.name,
+            "seed": scene.seed,
+            "broadphase": scene.broadphase,
+            "solver": scene.solver,
+            "tier": scene.tier,
+            "level": None if level is None else {"path": str(level), "digest": level_digest(level)},
+            "bot": bot,
+            "date": strftime("%Y-%m-%d %H:%M"),
+            "every": every,
+        }
+        self.frames = 0
+        self.runs = []  # [repeats, InputFrame]
+        self.digests = []
+
+    def note(self, frame: InputFrame, scene: Scene) -> None:
+        """Call after each step with the input it had."""
+        self.frames += 1
+        if self.runs and self.runs[-1][1] == frame:
+            self.runs[-1][0] += 1
+        else:
+            self.runs.append([1, frame])
+        if self.frames % self.every == 0:
+            self.digests.append(scene_digest(scene)[:DIGITS])
+
+    def save(self, path: str | Path, result: Result | None = None) -> None:
+        """Write the recording, with the game.scene.Result it ended in; raises OSError when that is not possible."""
+        ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
+        head = {**self.head, "result": ended, "frames": self.frames}
+        lines = [json.dumps(head)[:-1] + ",", '"inputs": [']
+        lines.append(",\n".join(json.dumps([count, _to_json(frame)]) for count, frame in self.runs))
+        lines += ["],", '"digests": [', ",\n".join(json.dumps(digest) for digest in self.digests), "]}"]
+        write_atomically(path, "\n".join(lines) + "\n")
+
+
+class Replay:
+    """A recording read back: a source of input (`next`) and a judge (`verify`)."""
+
+    def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
+        self.path = path
+        self.scene, self.seed = data["scene"], data["seed"]
+        self.broadphase, self.solver, self.tier = data["broadphase"], data["solver"], data["tier"]
+        self.bot, self.every = data["bot"], data["every"]
+        self.level, self.date, self.result = data["level"], data["date"], data["result"]
+        self.digests = data["digests"]
+        self.inputs = frames
+        self.index = 0
+
+    @property
+    def frames(self) -> int:
+        """How many steps were recorded."""
+        return len(self.inputs)
+
+    def level_path(self) -> Path | None:
+        """The file of the level that was played, None for the scene's own. Raises FileError if it is another now."""
+        if self.level is None:
+            return None
+        path = Path(self.level["path"])
+        found = level_digest(path)
+        if found != self.level["digest"]:
+            raise FileError(
+                self.path, "level", f"{path} has changed since: digest {found}, recorded {self.level['digest']}"
+            )
+        return path
+
+    def next(self, scene: object) -> InputFrame:
+        """The input of the next step; nothing after the last."""
+        self.index += 1
+        return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
+
+    def verify(self, scene: Scene) -> None:
+        """Compare after a step. Raises ReplayDiverged naming the frame."""
+        frame = self.index
+        if frame % self.every or frame // self.every > len(self.digests):
+            return
+        expected, found = self.digests[frame // self.every - 1], scene_digest(scene)[:DIGITS]
+        if found != expected:
+            since = "" if self.every == 1 else f" (since frame {frame - self.every})"
+            raise ReplayDiverged(f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}")
+
+
+def load_replay(path: str | Path) -> Replay:
+    """Read a recording. Raises FileError naming the file, the place and the reason."""
+    data = read_json(path)
+    if isinstance(data, dict) and data.get("version") == 1:
+        data = {**data, "level": None, "date": "", "result": None}
+    _check_head(path, data)
+    frames = []
+    for index, run in enumerate(data["inputs"]):
+        place = f"inputs[{index}]"
+        if not (isinstance(run, list) and len(run) == 2 and _whole(run[0]) and run[0] > 0):
+            raise FileError(path, place, "must be [repeats, input] with repeats of at least 1")
+        if run[0] > data["frames"] - len(frames):
+            raise FileError(path, "inputs", f"hold more than the {data['frames']} frames that the head says")
+        frames += [_from_json(path, place, run[1])] * run[0]
+    if len(frames) != data["frames"]:
+        raise FileError(path, "inputs", f"hold {len(frames)} frames, the head says {data['frames']}")
+    if len(data["digests"]) != data["frames"] // data["every"]:
+        raise FileError(path, "digests", f"must be {data['frames'] // data['every']}, are {len(data['digests'])}")
+    return Replay(path, data, frames)
+
+
+def _whole(value):
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _near(value):
+    return _whole(value) and abs(value) <= FARTHEST
+
+
+def _is_result(result):
+    if set(result) != {"won", "points", "seconds"} or not isinstance(result["won"], bool):
+        return False
+    seconds = result["seconds"]
+    points = result["points"]
+    return _whole(points) and abs(points) <= MOST_POINTS and isinstance(seconds, (int, float)) and 0 <= seconds < 1e6
+
+
+def _check_head(path, data):
+    if not isinstance(data, dict) or data.get("format") != FORMAT:
+        raise FileError(path, "format", f"is not {FORMAT!r}")
+    if data.get("version") not in (1, VERSION) or isinstance(data["version"], bool):
+        raise FileError(
+            path, "version", f"{data.get('version')!r:.40} cannot be read here; this program reads 1 to {VERSION}"
+        )
+    kinds = {
+        "scene": str,
+        "seed": int,
+        "broadphase": str,
+        "solver": (str, type(None)),
+        "tier": (str, type(None)),
+        "level": (dict, type(None)),
+        "date": str,
+        "result": (dict, type(None)),
+        "bot": bool,
+        "every": int,
+        "frames": int,
+        "inputs": list,
+        "digests": list,
+    }
+    for name, kind in kinds.items():
+        if name not in data:
+            raise FileError(path, name, "is missing")
+        if not isinstance(data[name], kind) or (kind is int and not _whole(data[name])):
+            raise FileError(path, name, f"has the wrong kind of value: {data[name]!r:.60}")
+    for name, least, most in (("every", 1, None), ("frames", 0, LONGEST), ("seed", 0, LARGEST_SEED)):
+        if data[name] < least or (most is not None and data[name] > most):
+            must = f"at least {least}" if most is None else f"{least} to {most}"
+            raise FileError(path, name, f"must be {must} (got {data[name]!r:.40})")
+    if len(data["date"]) > LONGEST_DATE:
+        raise FileError(path, "date", f"must be at most {LONGEST_DATE} letters")
+    level, result = data["level"], data["result"]
+    if level is not None and not (set(level) == {"path", "digest"} and all(isinstance(v, str) for v in level.values())):
+        raise FileError(path, "level", "must be null or have path and digest, both text")
+    if result is not None and not _is_result(result):
+        raise FileError(path, "result", "must be null or have won (true or false), points and seconds (numbers)")
+    for index, digest in enumerate(data["digests"]):
+        if not (isinstance(digest, str) and len(digest) == DIGITS):
+            raise FileError(path, f"digests[{index}]", f"must be {DIGITS} hex digits")
+
+
+def _to_json(frame):
+    data = {}
+    if frame.actions:
+        data["actions"] = sorted(frame.actions)
+    if frame.pointer != (0, 0):
+        data["pointer"] = list(frame.pointer)
+    if frame.pointer_down:
+        data["down"] = True
+    if frame.wheel:
+        data["wheel"] = frame.wheel
+    if frame.changes:
+        data["changes"] = [list(change) for change in frame.changes]
+    return data
+
+
+def _from_json(path, place, data):
+    if not isinstance(data, dict):
+        raise FileError(path, place, "must be an object")
+    actions = data.get("actions", [])
+    pointer = data.get("pointer", [0, 0])
+    changes = data.get("changes", [])
+    down, wheel = data.get("down", False), data.get("wheel", 0)
+    unknown = set(data) - {"actions", "pointer", "down", "wheel", "changes"}
+    if unknown:
+        raise FileError(path, place, f"has unknown entries: {', '.join(sorted(unknown))}")
+    if not isinstance(actions, list) or any(action not in ACTIONS for action in actions):
+        raise FileError(path, place, f"actions must be among {', '.join(ACTIONS)}")
+    if not (isinstance(pointer, list) and len(pointer) == 2 and all(_near(v) for v in pointer)):
+        raise FileError(path, place, f"pointer must be two whole numbers up to {FARTHEST}")
+    if not isinstance(down, bool) or not _near(wheel):
+        raise FileError(path, place, f"down must be true or false, wheel a whole number up to {FARTHEST}")
+    if not isinstance(changes, list) or any(not (isinstance(c, list) and len(c) == 2) for c in changes):
+        raise FileError(path, place, "changes must be a list of [name, value]")
+    return InputFrame(frozenset(actions), tuple(pointer), down, wheel, tuple((c[0], c[1]) for c in changes))

@@ -1,0 +1,96 @@
+"""A recording being played: forward step by step, and to any frame by key frames.
+
+A key frame is a deep copy of the scene and its input; no rule of a game paints, so its pictures may be shared. They
+lie KEY_SECONDS apart, further in a recording so long that there would be more than MOST_KEYS: `spacing` says how far.
+"""
+
+import copy
+import copyreg
+from collections.abc import Callable
+from time import perf_counter
+
+import pygame
+
+from game.errors import ReplayDiverged
+from game.run.replay import Replay
+from game.run.session import Session
+from game.scene import Scene
+
+if not hasattr(pygame.Surface, "__deepcopy__"):
+    # pygame 2.6.1 cannot copy pictures. A reduction that is a name tells copy to hand on the thing itself.
+    copyreg.pickle(pygame.Surface, lambda picture: "picture")
+
+KEY_SECONDS = 5
+MOST_KEYS = 48
+
+
+class Tape:
+    """`make()` builds the scene as it was at the start; `recording` is a Replay."""
+
+    def __init__(self, make: Callable[[], Scene], recording: Replay) -> None:
+        self.recording = recording
+        self.length = recording.frames
+        seconds = max(KEY_SECONDS, -(-self.length // (60 * MOST_KEYS)))
+        self.spacing = 60 * seconds  # [frames] between two key frames
+        self.session = Session(make(), recording, replay=recording)
+        self.diverged = ""  # the line that names the frame, once it happened
+        self.diverged_at = None
+        self.goal = None  # the frame that is being sought
+        self.keys = {}
+        recording.index = 0
+        self._note_key()
+
+    @property
+    def scene(self) -> Scene:
+        """The scene as it stands."""
+        return self.session.scene
+
+    @property
+    def position(self) -> int:
+        """How many frames were played up to here."""
+        return self.recording.index
+
+    @property
+    def ended(self) -> bool:
+        """True after the last frame."""
+        return self.position >= self.length
+
+    def step(self) -> None:
+        """Play one frame; nothing after the last. A divergence is noted and the tape plays on."""
+        if self.ended:
+            return
+        try:
+            self.session.step()
+        except ReplayDiverged as error:
+            if self.diverged_at is None or self.position <= self.diverged_at:
+                self.diverged, self.diverged_at = str(error), self.position
+        self._note_key()
+
+    def _note_key(self):
+        if self.position % self.spacing == 0 and self.position not in self.keys:
+            self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
+
+    def seek(self, frame: int) -> None:
+        """Go to a frame, whatever it takes."""
+        self.begin_seek(frame)
+        while self.goal is not None:
+            self.seek_on(60.0)
+
+    def begin_seek(self, frame: int) -> None:
+        """Go to the nearest key frame; seek_on() goes the rest. An earlier search is given up."""
+        frame = max(0, min(self.length, frame))
+        nearest = max(key for key in self.keys if key <= frame)
+        if frame < self.position or nearest > self.position:
+            self.session.scene, self.session.inputs = copy.deepcopy(self.keys[nearest])
+            self.recording.index = nearest
+        self.goal = frame if frame != self.position else None
+
+    def seek_on(self, seconds: float) -> None:
+        """Play on towards the frame that is sought, for so long at most."""
+        started = perf_counter()
+        while self.goal is not None and self.position < self.goal:
+            self.step()
+            if perf_counter() - started > seconds:
+                break
+        if self.goal is not None and self.position >= self.goal:
+            self.goal = None

@@ -1,0 +1,41 @@
+"""A scene that its own bot plays on a screen: for the title's idle minutes and for the tour."""
+
+from collections.abc import Callable
+
+from game.drawing.presenter import Frame
+from game.files.accessibility import Accessibility
+from game.overlays.stack import Overlays
+from game.run.loop import FixedStep
+from game.run.picture import Docked, Picture
+from game.run.session import Session
+from game.run.sources import BotSource
+from game.scene import Scene
+
+
+class Demo:
+    """A scene, its bot, its clock and its overlays; the panel may be shown beside it."""
+
+    def __init__(self, scene: Scene, accessibility: Accessibility) -> None:
+        self.scene = scene
+        scene.set_accessibility(accessibility)
+        self.session = Session(scene, BotSource())
+        self.clock = FixedStep()
+        self.overlays = Overlays(())
+
+    def advance(self, now: float) -> int:
+        """Make the steps that are due at `now` [s]; how many these were."""
+        due = self.clock.advance(now)
+        for _ in range(due):
+            self.step()
+        return due
+
+    def step(self) -> None:
+        """One fixed step."""
+        self.session.step()
+        self.overlays.times.note(self.scene)
+
+    def draw(
+        self, picture: Picture, panel: Docked | None = None, reserve: Callable[[Frame], None] | None = None
+    ) -> Frame:
+        """Draw the scene and return the frame; see Picture.draw_scene."""
+        return picture.draw_scene(self.scene, self.overlays, self.clock.alpha, panel, reserve)

@@ -1,0 +1,145 @@
+"""Which rows the panel has while a scene is played. Everything that changes the simulation goes through
+devices.change, so that a recording holds it."""
+
+from collections.abc import Sequence
+
+from game.overlays.stack import Overlays
+from game.run.loop import SPEEDS
+from game.run.outcome import solver_name
+from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
+from game.screens.parts.played import Played
+from physics import BROADPHASES
+
+
+def play_rows(play: Played) -> list[Row]:
+    """Rows for a Play screen."""
+    scene = play.scene
+    return [
+        Row(HEAD, scene.title),
+        *_switches(play, scene),
+        Row(HEAD, "See"),
+        *layer_rows(play.overlays),
+        Row(HEAD, "Time"),
+        *_time(play),
+        *_sliders(play, scene),
+        Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none")),
+    ]
+
+
+def _switches(play, scene):
+    rows = []
+    change = play.devices.change
+    if scene.switches_broadphase:
+        rows.append(
+            Row(
+                CHOICE,
+                "Broad phase",
+                scene.broadphase,
+                "B",
+                turn=lambda way: change("broadphase", following(tuple(BROADPHASES), scene.broadphase, way)),
+                hint="how pairs that may touch are found",
+            )
+        )
+    if scene.solver_choices():
+        rows.append(
+            Row(
+                CHOICE,
+                "Solver",
+                (solver_name(scene) or "").replace("_", " "),
+                "V",
+                turn=lambda way: play.switch_solver(way),
+                hint="how overlaps are resolved",
+            )
+        )
+    if scene.tiers:
+        rows.append(
+            Row(
+                CHOICE,
+                "Tested as",
+                scene.tier,
+                "T",
+                turn=lambda way: change("tier", following(scene.tiers, scene.tier, way)),
+                hint="the shape that stands for a sprite",
+            )
+        )
+    rows.append(
+        Row(
+            CHECK,
+            "Narrow phase",
+            key="N",
+            on=scene.narrowphase,
+            press=lambda: change("narrowphase", not scene.narrowphase),
+            hint="off: two boxes that meet are a hit",
+        )
+    )
+    return rows
+
+
+def layer_rows(overlays: Overlays) -> list[Row]:
+    """A check box per overlay layer."""
+    return [
+        Row(
+            CHECK,
+            layer.title,
+            key=layer.key.upper(),
+            color=layer.color,
+            on=layer.name in overlays.on,
+            press=lambda name=layer.name: overlays.toggle(name),
+        )
+        for layer in overlays.layers
+    ]
+
+
+def _time(play):
+    clock = play.clock
+    return [
+        Row(CHECK, "Freeze", key="P", on=clock.paused, press=play.toggle_pause),
+        Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
+        Row(
+            CHOICE,
+            "Speed",
+            f"{clock.speed:.0%}",
+            "- +",
+            turn=lambda way: clock.faster() if way > 0 else clock.slower(),
+            hint=f"down to {SPEEDS[-1]:.0%}",
+        ),
+        Row(BUTTON, "Restart", key="R", press=play.wish_restart),
+    ]
+
+
+def _sliders(play, scene):
+    if not scene.sliders:
+        return []
+    return [Row(HEAD, "This scene"), *(_slider(play, scene, slider) for slider in scene.sliders)]
+
+
+def _slider(play, scene, slider):
+    value = scene.values[slider.name]
+    change = play.devices.change
+
+    def set_value(new):
+        if slider.clamp(new) != scene.values[slider.name]:
+            change(f"slider:{slider.name}", slider.clamp(new))
+
+    if slider.choices:
+        return Row(
+            CHOICE,
+            slider.name,
+            slider.show(value),
+            turn=lambda way: set_value(slider.low + (value - slider.low + way) % len(slider.choices)),
+        )
+    span = slider.high - slider.low
+    nudge = max(slider.step, round(span / 50 / slider.step) * slider.step)
+    return Row(
+        SLIDER,
+        slider.name,
+        slider.show(value),
+        share=(value - slider.low) / span,
+        turn=lambda way: set_value(value + way * nudge),
+        put=lambda share: set_value(slider.low + share * span),
+    )
+
+
+def following(names: Sequence[str], name: str | None, way: int) -> str:
+    """The name `way` places on, around the end."""
+    return names[(names.index(name) + way) % len(names)]

@@ -1,0 +1,119 @@
+"""What flies in the platformer: dust, grit, sparks and confetti, each with its colours; seen and never felt.
+
+Every function takes the scene's Particles and a place in the world [px]; speeds are px/s, lives s.
+"""
+
+from math import pi
+
+DUST = ((214, 200, 190), (160, 142, 140), (104, 90, 100))
+GRIT = ((190, 196, 214), (128, 128, 158), (74, 70, 100))
+GOLDEN = ((255, 255, 235), (255, 226, 120), (240, 164, 50), (150, 84, 40))
+EMBER = ((255, 244, 190), (255, 178, 70), (214, 84, 40), (90, 40, 52))
+MOTES = {
+    "meadow": ((255, 226, 150), (226, 150, 110), (130, 84, 120)),
+    "cave": ((190, 255, 240), (90, 190, 200), (50, 90, 130)),
+    "keep": ((255, 214, 190), (214, 130, 140), (110, 70, 120)),
+}
+CONFETTI = (
+    ((255, 92, 92), (180, 50, 80)),
+    ((120, 220, 232), (60, 130, 190)),
+    ((255, 222, 110), (214, 140, 60)),
+    ((190, 236, 120), (90, 160, 80)),
+)
+GEM = ((255, 255, 255), (170, 255, 236), (80, 200, 220), (60, 90, 170))
+BLOOD = ((255, 255, 255), (255, 150, 150), (190, 50, 80), (80, 30, 60))
+UP, DOWN = -pi / 2, pi / 2  # [rad] headings
+
+
+def dust(particles, x, y, count, speed):
+    """Kicked up from the ground by feet."""
+    particles.burst(x, y, count, DUST, speed=speed, life=(0.15, 0.4), angle=UP, spread=2.8, drag=3.0, gravity=40.0)
+
+
+def slide(particles, x, y, side):
+    """Rubbed off a wall at the side -1 or 1 of a hero at (x, y)."""
+    x, y, heading = x + 5 * side, y + 4, DOWN * (1 + side)
+    particles.burst(x, y, 2, DUST, speed=(5, 26), life=(0.2, 0.4), angle=heading, spread=1.6, gravity=60.0)
+
+
+def wall_jump(particles, x, y, away):
+    """Kicked off a wall; the hero at (x, y) leaps to the side `away`, -1 or 1."""
+    x, y, heading = x - 6 * away, y + 4, 0.0 if away > 0 else pi
+    particles.burst(x, y, 10, DUST, speed=(20, 90), life=(0.2, 0.45), angle=heading, spread=1.8, gravity=120.0)
+
+
+def launch(particles, x, y):
+    """A spring lets go."""
+    particles.burst(x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=UP, spread=1.4)
+
+
+def squash(particles, x, y):
+    """An enemy is flattened."""
+    particles.burst(x, y, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=UP, spread=2.6, gravity=200.0)
+
+
+def knock(particles, x, y, force):
+    """Two things hit each other with a force 0..1."""
+    count, speed, life = 2 + round(16 * force), (10, 30 + 80 * force), (0.2, 0.3 + 0.4 * force)
+    particles.burst(x, y, count, DUST, speed=speed, life=life, angle=UP, spread=2.6, gravity=60.0)
+
+
+def trickle(particles, box):
+    """From the underside of a stone (left, top, right, bottom) that shakes."""
+    left, _, right, bottom = box
+    x = left + (right - left) * particles.random.uniform(0, 1)
+    particles.burst(
+        x, bottom, 1, GRIT, speed=(4, 18), life=(0.2, 0.5), angle=DOWN, spread=0.8, size=(1, 1), gravity=240.0
+    )
+
+
+def rubble(particles, x, y):
+    """A stone breaks."""
+    particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
+
+
+def mote(particles, view, act):
+    """One speck in the air of an act, somewhere in the view (left, top, width, height)."""
+    left, top, width, height = view
+    x = left + width * particles.random.uniform(0, 1)
+    y = top + height * particles.random.uniform(0.2, 1)
+    particles.burst(x, y, 1, MOTES[act], speed=(4, 14), life=(1.5, 3.2), size=(1, 1), drag=0.2, gravity=-3.0)
+
+
+def ember(particles, x, y):
+    """One spark rises from a flame."""
+    particles.burst(
+        x, y - 1, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=UP, spread=1.2, size=(1, 1), gravity=-30.0
+    )
+
+
+def kindle(particles, x, y):
+    """A lantern is lit."""
+    particles.burst(x, y, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
+
+
+def coin(particles, x, y):
+    """A coin is taken."""
+    particles.burst(x, y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
+
+
+def gem(particles, x, y):
+    """A secret is found: a slow ring and a fast one."""
+    for speed in ((30, 60), (90, 150)):
+        particles.burst(x, y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
+
+
+def hurt(particles, x, y):
+    """The hero is hit."""
+    particles.burst(x, y, 24, BLOOD, speed=(30, 170), life=(0.25, 0.7))
+
+
+def vanish(particles, x, y):
+    """He is put back to where he stood."""
+    particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
+
+
+def confetti(particles, x, y):
+    """The level is won."""
+    for ramp in CONFETTI:
+        particles.burst(x, y, 34, ramp, speed=(60, 240), life=(0.8, 2.0), angle=UP, spread=2.2, drag=1.6, gravity=150.0)
