@@ -38,9 +38,9 @@ class Diverged(AssertionError):
     """Two runs that should be the same are not; says which, from which frame on, and in what."""
 
 
-def make_scene(name, few=False, **chosen):
+def make_scene(name, few=False, seed=1, **chosen):
     """A scene of the game, with few bodies where it lets one choose."""
-    scene = Registry(SCENES).scene_class(name)(seed=1, **chosen)
+    scene = Registry(SCENES).scene_class(name)(seed, **chosen)
     if few and "bodies" in scene.values:
         scene.change("slider:bodies", FEW)
     return scene
@@ -118,17 +118,17 @@ class PlainRun:
         self.process.communicate()
 
 
-def ways_to_run(name, recorder=None, few=False):
+def ways_to_run(name, recorder=None, few=False, seed=1):
     """All that must not matter: the first run is the one that the others are held against.
 
     recorder(scene) makes what notes the first run. One broad phase is the scene's own: that run is the same twice.
     """
-    first = make_scene(name, few)
+    first = make_scene(name, few, seed)
     yield Run("the scene", first, recorder=recorder and recorder(first))
-    yield DrawnRun("drawn with every overlay", make_scene(name, few))
-    yield Run("with the broad phase switched mid-game", make_scene(name, few), ChangingBot(SWITCHES))
+    yield DrawnRun("drawn with every overlay", make_scene(name, few, seed))
+    yield Run("with the broad phase switched mid-game", make_scene(name, few, seed), ChangingBot(SWITCHES))
     for strategy in BROADPHASES:
-        yield Run(f"under broad phase {strategy}", make_scene(name, few, broadphase=strategy))
+        yield Run(f"under broad phase {strategy}", make_scene(name, few, seed, broadphase=strategy))
 
 
 def lockstep(runs, frames):

@@ -16,7 +16,10 @@ from tests.lockstep import ChangingBot, PlainRun, Run, failures_of, first_differ
 PLAIN_FRAMES = 40  # without compiled kernels
 FRAMES = {"shooter": 3600, "platformer": 3600}  # the games' first minute, goals included
 LAB_FRAMES = 600
+QUICK = "lab/filters"  # the one that stands for all in `pytest -m quick`
 FEW = not physics.JIT
+REGISTRY = Registry(SCENES)
+scene_class = REGISTRY.scene_class
 TURNED = 20  # the frame before which a setting is changed
 needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here depends on who runs the kernels")
 
@@ -34,7 +37,7 @@ def play(scene, frames, source=None):
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.quick) if n == QUICK else n for n in SCENES])
 def test_one_digest_however_it_is_run_and_the_goals_are_reached(name, tmp_path):
     frames = FRAMES.get(name, LAB_FRAMES) if physics.JIT else PLAIN_FRAMES
     runs = list(ways_to_run(name, lambda scene: Recorder(scene, bot=True), FEW))
@@ -43,7 +46,7 @@ def test_one_digest_however_it_is_run_and_the_goals_are_reached(name, tmp_path):
         assert not failures_of(run, frames), run.label
     path = tmp_path / "recording.json"
     runs[0].session.recorder.save(path)
-    recording, _ = load_replay_for(path, Registry(SCENES))
+    recording, _ = load_replay_for(path, REGISTRY)
     replayed = Session(make_scene(name, FEW), recording, replay=recording)
     for _ in range(recording.frames):
         replayed.step()
@@ -55,6 +58,22 @@ def test_one_digest_however_it_is_run_and_the_goals_are_reached(name, tmp_path):
 def test_compiled_and_plain_kernels_give_one_digest(name):
     with closing(PlainRun("without compiled kernels", name, PLAIN_FRAMES)) as plain:
         lockstep([Run("with compiled kernels", make_scene(name, few=True)), plain], PLAIN_FRAMES)
+
+
+@pytest.mark.nightly
+@needs_speed
+@pytest.mark.parametrize("seed", [2, 3])
+@pytest.mark.parametrize("name", SCENES)
+def test_one_digest_however_it_is_run_on_other_seeds(name, seed):
+    lockstep(list(ways_to_run(name, seed=seed)), FRAMES.get(name, LAB_FRAMES))
+
+
+@pytest.mark.nightly
+@needs_speed
+@pytest.mark.parametrize("name", SCENES)
+def test_compiled_and_plain_kernels_give_one_digest_for_ten_seconds(name):
+    with closing(PlainRun("without compiled kernels", name, LAB_FRAMES)) as plain:
+        lockstep([Run("with compiled kernels", make_scene(name, few=True)), plain], LAB_FRAMES)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -102,7 +121,7 @@ def worlds_differ(one, other, frames):
 
 
 @needs_speed
-@pytest.mark.parametrize("name, slider", [(name, each.name) for name in SCENES for each in make_scene(name).sliders])
+@pytest.mark.parametrize("name, slider", [(name, each.name) for name in SCENES for each in scene_class(name).sliders])
 def test_every_slider_can_be_turned_mid_game_and_does_something(name, slider):
     untouched = play(make_scene(name, True), TURNED)
     known = next(each for each in untouched.scene.sliders if each.name == slider)
@@ -119,7 +138,7 @@ def test_every_slider_can_be_turned_mid_game_and_does_something(name, slider):
 
 
 @needs_speed
-@pytest.mark.parametrize("name, tier", [(name, tier) for name in SCENES for tier in make_scene(name).tiers])
+@pytest.mark.parametrize("name, tier", [(name, tier) for name in SCENES for tier in scene_class(name).tiers])
 def test_every_tier_can_be_chosen_mid_game(name, tier):
     runs = changed(name, {TURNED: (("tier", tier),)})
     lockstep(runs, 300)  # bodies that came before the change and after it
@@ -129,10 +148,10 @@ def test_every_tier_can_be_chosen_mid_game(name, tier):
 
 
 @needs_speed
-@pytest.mark.parametrize("name", [name for name in SCENES if make_scene(name).tiers])
+@pytest.mark.parametrize("name", [name for name in SCENES if scene_class(name).tiers])
 def test_tiers_are_felt(name):
     ends = {}
-    for tier in make_scene(name).tiers:
+    for tier in scene_class(name).tiers:
         digest = play(make_scene(name, True, tier=tier), 1500).step()
         assert digest not in ends, f"{tier} and {ends[digest]} come to the same"
         ends[digest] = tier

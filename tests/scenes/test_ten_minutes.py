@@ -57,7 +57,8 @@ def test_memory_is_flat(name):
     found = json.loads(run.stdout.splitlines()[-1])
     first, *later = found["pages"]
     assert found["games"] >= 1, "the bot ended no game in ten minutes"
-    # A thousand and more bullets, met in the fourth minute only, keep two or three megabytes of the allocators' arenas (1.0
-    # to 1.5 % of the shooter's 175 MB, as the process happens to lie in memory); then nothing grows, over two and more games.
+    # A thousand and more bullets, met in the fourth minute only, keep two or three megabytes of the allocators' arenas
+    # (1.0 to 1.5 % of the shooter's 175 MB, as the process happens to lie in memory); then nothing grows, over two and
+    # more games.
     assert max(later) <= 1.02 * first, f"{name}: resident pages after each minute: {found['pages']}"
     assert max(later[5:]) <= 1.004 * max(later[:5]), f"{name}: it goes on growing: {found['pages']}"
