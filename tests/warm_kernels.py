@@ -1,7 +1,7 @@
 """`python -m tests.warm_kernels PART OF`: compile what the scenes need, in one of several processes side by side.
 
-Two workers of a test run would each compile most of the kernels: 240 s of processor time where the cache is empty. Two of
-these share the work: 160 s, and nothing is left for the workers. With a warm cache each takes two seconds.
+Two workers of a test run would each compile most of the kernels: 240 s of processor time where the cache is empty. Two
+of these share the work: 160 s, and nothing is left for the workers. With a warm cache each takes two seconds.
 """
 
 import importlib.util

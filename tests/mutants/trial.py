@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 COPIED = ("physics", "tests")  # the named tests need no more
-SECONDS = 90  # for tests that take less than 30 on an idle machine
+SECONDS = 300  # for tests that take less than 30 on an idle machine
 
 
 def copy_sources(folder):
@@ -20,7 +20,7 @@ def copy_sources(folder):
     return folder
 
 
-def test_ids(names):
+def ids_of(names):
     """The pytest ids of test functions, wherever they stand. Raises LookupError for a name that is not there."""
     found = []
     for name in names:
@@ -35,7 +35,7 @@ def test_ids(names):
 def run_tests(folder, names):
     """(exit code of pytest, its output) for the named tests in a copy. Raises subprocess.TimeoutExpired."""
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *test_ids(names)],
+        [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *ids_of(names)],
         cwd=folder,
         env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(folder)},
         capture_output=True,
