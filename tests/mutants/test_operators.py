@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.mutants.operators import KINDS, change, find_kernel, places
-from tests.mutants.table import MUTANTS
+from tests.mutants.table import EQUIVALENT, MUTANTS
 from tests.mutants.trial import ROOT, ids_of
 
 SOURCE = '''"""A module."""
@@ -99,6 +99,8 @@ def test_the_table_holds_twenty_different_mutants_of_kernels_that_are_there():
     made = {(each.path, each.line, each.after) for each in (change(ROOT / "physics", *m.key) for m in MUTANTS)}
     assert len(made) == len(MUTANTS) >= 20
     assert {mutant.kind for mutant in MUTANTS} >= set(KINDS) - {"number"}
+    assert not EQUIVALENT.keys() & {mutant.key for mutant in MUTANTS}
+    assert all(change(ROOT / "physics", *key).before != change(ROOT / "physics", *key).after for key in EQUIVALENT)
     for mutant in MUTANTS:
         assert places(find_kernel(ROOT / "physics", mutant.kernel)[2], mutant.kind)
         assert all((ROOT / each.split("::")[0]).is_file() for each in ids_of(mutant.tests))
