@@ -7,7 +7,6 @@ from physics.tables.counters import CANDIDATES, COUNTERS
 from physics.tables.proxy import PROXY
 from physics.tables.step_state import stage
 
-
 NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 

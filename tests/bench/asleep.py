@@ -69,7 +69,11 @@ def measure(count: int = BOXES, steps: int = STEPS) -> dict:
         none = median_steps({"empty": blank, "full": world}, steps)
         world.add_body(Circle(4.0), position=(-1e4, 0.0), velocity=(20.0, 0.0), gravity_scale=0.0)
         one = median_steps({"empty": blank, "full": world}, steps)
-        found[name] = {"none": none["full"] / none["empty"], "one": one["full"] / one["empty"], "empty_ms": none["empty"]}
+        found[name] = {
+            "none": none["full"] / none["empty"],
+            "one": one["full"] / one["empty"],
+            "empty_ms": none["empty"],
+        }
     return found
 
 

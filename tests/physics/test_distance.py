@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, collide, distance
-from physics.queries.pair_distance import gjk_steps
 from physics.proximity.gjk import AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_room, walk_to_nearest
 from physics.proximity.separation import separate
+from physics.queries.pair_distance import gjk_steps
 from tests.oracles import hulls
 
 ORIGIN = (0.0, 0.0, 0.0)

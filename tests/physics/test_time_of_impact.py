@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
-from physics.shapes.library import Library
-from physics.jit import kernel
 from physics.ccd.advance import advance, new_advance_room, separate_at
 from physics.ccd.rotational import new_turning_room, sweep_turning
-from physics.tables.counters import CAP_HITS, COUNTERS, GJK_ITERATIONS
+from physics.jit import kernel
+from physics.shapes.library import Library
 from physics.shapes.rows import rounding_of
 from physics.tables.body import BODY
+from physics.tables.counters import CAP_HITS, COUNTERS, GJK_ITERATIONS
 from physics.tables.shape import SHAPE
 from tests.oracles import hulls
 

@@ -1,9 +1,10 @@
 """The ledger of the games: an effect that a scene declares changes what happens, one that it does not call for nothing.
 
-The same recorded keys are played with one effect taken out, or put in. What cannot even be built without it is called
-for.
+The same recorded keys are played with one effect taken out, or put in. An effect goes with all that needs it, and comes
+with what it needs. What cannot even be built without an effect is called for, and says so by the effect's name.
 """
 
+import re
 from dataclasses import fields
 
 import pytest
@@ -14,12 +15,55 @@ from game.run.digest import scene_digest
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
 from physics import Effects
+from physics.effects import NEEDS_RESPONSE
 from scenes import SCENES
 
 FRAMES = {"shooter": 900, "platformer": 2400}
 EFFECTS = [field.name for field in fields(Effects)]
-# Not one that could be added unused: what falls, turns or is pushed at once is used as soon as it is there.
-ADDED = ("drag", "wind", "restitution", "persist", "conveyor", "one_way", "friction")
+NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}
+
+# What becomes of an effect that is taken out of a game that declares it, or put into one that does not.
+REFUSED = "the scene cannot be built, or played on, without it: the error names it"
+DIFFERS = "something else happens"
+NEUTRAL = "not used by anything: the same happens"
+LEDGER = {
+    "shooter": {
+        "narrowphase": DIFFERS,
+        "sensors": REFUSED,
+        # Put in: what is pushed apart flies elsewhere; nothing falls, turns, rubs or rests, and nobody is swept.
+        "response": DIFFERS,
+        "gravity": NEUTRAL,
+        "drag": NEUTRAL,
+        "wind": NEUTRAL,
+        "rotation": NEUTRAL,
+        "friction": NEUTRAL,
+        "restitution": NEUTRAL,
+        "stacking": DIFFERS,
+        "continuous": NEUTRAL,
+        "sleeping": NEUTRAL,
+        "persist": NEUTRAL,
+        "one_way": NEUTRAL,
+        "conveyor": NEUTRAL,
+    },
+    "platformer": {
+        "narrowphase": DIFFERS,
+        "response": REFUSED,
+        "gravity": DIFFERS,
+        "rotation": REFUSED,
+        "friction": DIFFERS,
+        "stacking": REFUSED,
+        "continuous": REFUSED,
+        "sleeping": DIFFERS,
+        "sensors": REFUSED,
+        "one_way": DIFFERS,
+        "conveyor": DIFFERS,
+        # Put in: no material bounces, the world has neither drag nor wind, nobody reads who goes on touching.
+        "drag": NEUTRAL,
+        "wind": NEUTRAL,
+        "restitution": NEUTRAL,
+        "persist": NEUTRAL,
+    },
+}
 
 
 class Noting:
@@ -33,41 +77,69 @@ class Noting:
         return self.frames[-1]
 
 
-def play(scene_class, source, frames):
+def digests(scene_class, source):
+    """The digest after each frame, as it is played."""
     scene = scene_class(seed=1)
     session = Session(scene, source)
-    for _ in range(frames):
+    for _ in range(FRAMES[scene_class.name]):
         session.step()
-    return scene_digest(scene)
+        yield scene_digest(scene)
 
 
-@pytest.fixture(scope="module", params=FRAMES)
-def played(request):
-    """(scene class, keys, digest) of a game by its bot."""
-    scene_class = Registry(SCENES).scene_class(request.param)
-    source = Noting()
-    digest = play(scene_class, source, FRAMES[request.param])
-    return scene_class, source.frames, digest
+@pytest.fixture(scope="module")
+def played():
+    """played(name): (scene class, keys, digests) of a game by its bot, played once."""
+    kept = {}
+
+    def play(name):
+        if name not in kept:
+            source = Noting()
+            scene_class = Registry(SCENES).scene_class(name)
+            kept[name] = scene_class, source.frames, [*digests(scene_class, source)]
+        return kept[name]
+
+    return play
 
 
-def with_effects(scene_class, **changes):
-    return type(scene_class.__name__, (scene_class,), {"effects": scene_class.effects.with_(**changes)})
+def with_effects(scene_class, names, wanted):
+    """The scene with these effects declared, or not."""
+    effects = scene_class.effects.with_(**dict.fromkeys(names, wanted))
+    return type(scene_class.__name__, (scene_class,), {"effects": effects})
 
 
-@pytest.mark.deep
+def first_difference(one, other):
+    """The first frame after which two lists of digests differ, None if there is none."""
+    return next((frame for frame, (a, b) in enumerate(zip(one, other, strict=True), 1) if a != b), None)
+
+
+def test_the_ledger_names_every_effect():
+    assert all(sorted(ledger) == sorted(EFFECTS) for ledger in LEDGER.values()) and set(LEDGER) == set(FRAMES)
+
+
 @pytest.mark.skipif(not physics.JIT, reason="minutes of uncompiled physics")
-@pytest.mark.parametrize("effect", EFFECTS)
-def test_what_is_declared_matters_and_nothing_else_does(played, effect):
-    scene_class, keys, digest = played
+@pytest.mark.parametrize("name, effect", [(name, effect) for name in FRAMES for effect in EFFECTS])
+def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
+    scene_class, keys, standard = played(name)
+    verdict = LEDGER[name][effect]
     if getattr(scene_class.effects, effect):
-        try:
-            found = play(with_effects(scene_class, **{effect: False}), ScriptSource(keys), len(keys))
-        except ValueError as error:
-            assert effect in str(error) or "needs" in str(error)
-            return
-        assert found != digest, f"{scene_class.name} declares {effect}, and does not call for it"
-    elif effect in ADDED and (
-        scene_class.effects.response or effect not in ("restitution", "conveyor", "one_way", "friction")
-    ):
-        found = play(with_effects(scene_class, **{effect: True}), ScriptSource(keys), len(keys))
-        assert found == digest, f"{scene_class.name} does not declare {effect}; added, it changes what happens"
+        assert verdict != NEUTRAL, f"{name} declares {effect} and does not call for it"
+        changed = with_effects(
+            scene_class, [effect, *(each for each in EFFECTS if effect in NEEDS.get(each, ()))], False
+        )
+    else:
+        assert verdict != REFUSED, f"{name} does without {effect}"
+        needed = [each for each in NEEDS.get(effect, ()) if not getattr(scene_class.effects, each)]
+        if needed:
+            with pytest.raises(ValueError, match=rf"effect {effect} needs \w+"):
+                with_effects(scene_class, [effect], True)
+            scene_class = with_effects(scene_class, needed, True)
+            standard = [*digests(scene_class, ScriptSource(keys))]
+        changed = with_effects(scene_class, [effect], True)
+    found = digests(changed, ScriptSource(keys))
+    if verdict == REFUSED:
+        with pytest.raises(ValueError, match=rf"\b{re.escape(effect)}\b"):
+            list(found)
+    elif verdict == NEUTRAL:
+        assert first_difference(found, standard) is None, f"{effect} changes what happens in {name}"
+    else:
+        assert first_difference(found, standard) is not None, f"{effect} changes nothing in {name}"

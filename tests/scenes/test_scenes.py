@@ -1,109 +1,163 @@
-"""Every scene: its bot reaches its goals, and nothing that must not matter changes the digest."""
+"""Every scene: its bot reaches its goals, what must not matter does not, and what a player may turn does something."""
+
+import copy
+from contextlib import closing
 
 import pytest
 
 import physics
-from game.drawing.canvas import Canvas
 from game.registry import Registry
-from game.run.digest import scene_digest
-from game.run.outcome import judge
+from game.run.replay import Recorder
+from game.run.replay_check import load_replay_for
 from game.run.session import Session
-from game.run.sources import BotSource
 from scenes import SCENES
+from tests.lockstep import ChangingBot, PlainRun, Run, failures_of, first_difference, lockstep, make_scene, ways_to_run
 
-FRAMES = 600 if physics.JIT else 90
-FEW = 100  # bodies where a scene lets one choose
+PLAIN_FRAMES = 40  # without compiled kernels
+FRAMES = {"shooter": 3600, "platformer": 3600}  # the games' first minute, goals included
+LAB_FRAMES = 600
+QUICK = "lab/filters"  # the one that stands for all in `pytest -m quick`
+FEW = not physics.JIT
+REGISTRY = Registry(SCENES)
+scene_class = REGISTRY.scene_class
+TURNED = 20  # the frame before which a setting is changed
+needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here depends on who runs the kernels")
+
+# Thin lines and an upright box: whoever touches their bounds touches them.
+SAME_WITHOUT_NARROW_PHASE = {"lab/sensors"}
+# What these change is no matter of a world: the rules, the picture.
+BESIDE_THE_WORLDS = {("shooter", "hurts"), ("lab/shapes", "step")}
 
 
-def make(name, **chosen):
-    scene = Registry(SCENES).scene_class(name)(seed=1, **chosen)
-    if "bodies" in scene.values:
-        scene.change("slider:bodies", FEW)
-    return scene
-
-
-def play(scene, frames, draw=False):
-    session = Session(scene, BotSource())
-    canvas = Canvas()
+def play(scene, frames, source=None):
+    run = Run("the scene", scene, source)
     for _ in range(frames):
-        session.step()
-        if draw:
-            canvas.begin()
-            scene.draw(canvas, 0.5)
-    return session
+        run.step()
+    return run
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.quick) if n == QUICK else n for n in SCENES])
+def test_one_digest_however_it_is_run_and_the_goals_are_reached(name, tmp_path):
+    frames = FRAMES.get(name, LAB_FRAMES) if physics.JIT else PLAIN_FRAMES
+    runs = list(ways_to_run(name, lambda scene: Recorder(scene, bot=True), FEW))
+    lockstep(runs, frames)
+    for run in runs:
+        assert not failures_of(run, frames), run.label
+    path = tmp_path / "recording.json"
+    runs[0].session.recorder.save(path)
+    recording, _ = load_replay_for(path, REGISTRY)
+    replayed = Session(make_scene(name, FEW), recording, replay=recording)
+    for _ in range(recording.frames):
+        replayed.step()
+    assert recording.frames == frames and replayed.scene.state() == runs[0].scene.state()
+
+
+@pytest.mark.skipif(not physics.JIT, reason="nothing to compare with")
 @pytest.mark.parametrize("name", SCENES)
-def test_the_bot_reaches_what_is_due(name):
-    scene = make(name)
-    session = play(scene, FRAMES)
-    check = judge(scene, FRAMES)
-    assert check["ok"], check["failures"]
-    assert session.report.quarantined == 0 and not session.report.counters.get("cap_hits")
+def test_compiled_and_plain_kernels_give_one_digest(name):
+    with closing(PlainRun("without compiled kernels", name, PLAIN_FRAMES)) as plain:
+        lockstep([Run("with compiled kernels", make_scene(name, few=True)), plain], PLAIN_FRAMES)
 
 
+@pytest.mark.nightly
+@needs_speed
+@pytest.mark.parametrize("seed", [2, 3])
 @pytest.mark.parametrize("name", SCENES)
-def test_twice_and_drawn_and_under_every_broad_phase_the_same(name):
-    frames = min(FRAMES, 150)
-    first = make(name)
-    play(first, frames)
-    digest = scene_digest(first)
-    drawn = make(name)
-    play(drawn, frames, draw=True)
-    assert scene_digest(drawn) == digest, "drawing changed the simulation"
-    for strategy in physics.BROADPHASES:
-        other = make(name, broadphase=strategy)
-        play(other, frames)
-        assert scene_digest(other) == digest, f"differs under {strategy}"
+def test_one_digest_however_it_is_run_on_other_seeds(name, seed):
+    lockstep(list(ways_to_run(name, seed=seed)), FRAMES.get(name, LAB_FRAMES))
 
 
+@pytest.mark.nightly
+@needs_speed
 @pytest.mark.parametrize("name", SCENES)
-def test_switching_the_broad_phase_mid_game_changes_nothing(name):
-    frames = min(FRAMES, 120)
-    first, switched = make(name), make(name)
-    play(first, frames)
-    session = Session(switched, BotSource())
-    for frame in range(frames):
-        if frame % 20 == 10:
-            switched.set_broadphase(tuple(physics.BROADPHASES)[frame // 20 % 4])
-        session.step()
-    assert scene_digest(first) == scene_digest(switched)
+def test_compiled_and_plain_kernels_give_one_digest_for_ten_seconds(name):
+    with closing(PlainRun("without compiled kernels", name, LAB_FRAMES)) as plain:
+        lockstep([Run("with compiled kernels", make_scene(name, few=True)), plain], LAB_FRAMES)
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_restart_goes_back_to_the_start(name):
-    scene = make(name)
-    play(scene, 60)
+    frames = 60 if physics.JIT else 10
+    scene = make_scene(name, few=True)
+    play(scene, frames)
     scene.restart()
-    again = make(name)
-    play(scene, 60)
-    play(again, 60)
-    assert scene_digest(scene) == scene_digest(again)
+    lockstep([Run("a new scene", make_scene(name, few=True)), Run("the scene after a restart", scene)], frames)
 
 
+def changed(name, changes):
+    """The scene with settings changed mid-game, under two broad phases."""
+    return [
+        Run(f"changed under broad phase {strategy}", make_scene(name, True, broadphase=strategy), ChangingBot(changes))
+        for strategy in ("hash", "sweep")
+    ]
+
+
+@needs_speed
 @pytest.mark.parametrize("name", SCENES)
 def test_the_narrow_phase_switches_mid_game(name):
-    scene = make(name)
-    play(scene, 20)
-    scene.change("narrowphase", not scene.narrowphase)
-    play(scene, 20)
-    scene.change("narrowphase", not scene.narrowphase)
-    play(scene, 20)
+    start = make_scene(name).narrowphase
+    off, on = {TURNED: (("narrowphase", not start),)}, {2 * TURNED: (("narrowphase", start),)}
+    runs = changed(name, off | on)
+    for found in (not start, start):
+        lockstep(runs, TURNED + 1)
+        assert {world.effects.narrowphase for run in runs for world in run.scene.worlds} == {found}
+    untouched, switched = (Run("", make_scene(name, True), ChangingBot(changes)) for changes in ({}, off))
+    frame = first_difference(untouched, switched, LAB_FRAMES)
+    if name in SAME_WITHOUT_NARROW_PHASE:
+        assert frame is None
+    else:
+        assert frame is not None and frame > TURNED, "it goes on as if nothing had been switched"
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_every_slider_and_tier_can_be_turned_mid_game(name):
-    scene = make(name)
-    for slider in scene.sliders:
-        for value in (slider.low, slider.clamp(slider.low * 1.3 + 20), slider.start):
-            scene.change(f"slider:{slider.name}", value)
-            play(scene, 3)
-    for tier in scene.tiers:
-        scene.change("tier", tier)
-        play(scene, 10)
+def worlds_differ(one, other, frames):
+    """True if within so many frames something in their worlds is not the same."""
+    for _ in range(frames):
+        if [world.digest() for world in one.scene.worlds] != [world.digest() for world in other.scene.worlds]:
+            return True
+        one.step()
+        other.step()
+    return False
+
+
+@needs_speed
+@pytest.mark.parametrize("name, slider", [(name, each.name) for name in SCENES for each in scene_class(name).sliders])
+def test_every_slider_can_be_turned_mid_game_and_does_something(name, slider):
+    untouched = play(make_scene(name, True), TURNED)
+    known = next(each for each in untouched.scene.sliders if each.name == slider)
+    values = {known.low, known.clamp(1.3 * known.low + 20), known.high} - {untouched.scene.values[slider]}
+    untouched.step()
+    for value in sorted(values):
+        runs = changed(name, {TURNED: ((f"slider:{slider}", value),)})
+        lockstep(runs, TURNED + 1)
+        assert runs[0].scene.values[slider] == value
+        if (name, slider) not in BESIDE_THE_WORLDS:
+            one, other = copy.deepcopy((runs[0], untouched))
+            assert worlds_differ(one, other, 30), f"{slider} at {value} changes nothing"
+        lockstep(runs, 9)
+
+
+@needs_speed
+@pytest.mark.parametrize("name, tier", [(name, tier) for name in SCENES for tier in scene_class(name).tiers])
+def test_every_tier_can_be_chosen_mid_game(name, tier):
+    runs = changed(name, {TURNED: (("tier", tier),)})
+    lockstep(runs, 300)  # bodies that came before the change and after it
+    for world in runs[0].scene.worlds:
+        tiers = {world.body(identity).tier for identity in world.bodies["id"].tolist()}
+        assert tier in tiers and tiers <= {tier, None}
+
+
+@needs_speed
+@pytest.mark.parametrize("name", [name for name in SCENES if scene_class(name).tiers])
+def test_tiers_are_felt(name):
+    ends = {}
+    for tier in scene_class(name).tiers:
+        digest = play(make_scene(name, True, tier=tier), 1500).step()
+        assert digest not in ends, f"{tier} and {ends[digest]} come to the same"
+        ends[digest] = tier
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_an_unknown_change_is_refused(name):
     with pytest.raises(ValueError, match="gravity"):
-        make(name).change("gravity", 3)
+        make_scene(name, few=True).change("gravity", 3)

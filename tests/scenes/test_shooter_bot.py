@@ -23,7 +23,7 @@ def play(scene, frames):
     return session
 
 
-@pytest.mark.parametrize("seed", [1, 2, *(pytest.param(seed, marks=pytest.mark.deep) for seed in (3, 4, 5))])
+@pytest.mark.parametrize("seed", [2, *(pytest.param(seed, marks=pytest.mark.deep) for seed in (3, 4, 5))])
 def test_the_bot_fights_through_a_minute(seed):
     scene = Shooter(seed=seed)
     session = play(scene, 3600)

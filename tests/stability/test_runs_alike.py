@@ -380,7 +380,7 @@ def test_awake_stack_does_not_creep_for_a_minute(solver):
     hour(3600, solver)
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @needs_speed
 def test_awake_stack_does_not_creep_for_an_hour():
     hour(216_000)

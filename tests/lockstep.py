@@ -1,0 +1,188 @@
+"""Variants of one scene stepped side by side, their digests compared after every frame.
+
+Twice, drawn, under each broad phase, with the broad phase switched, compiled and plain: none of it may change what
+happens, and where it does the first frame that differs is named, and the part of the scene.
+
+`python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line: that is how a
+process without compiled kernels takes part, and how two versions of the sources are compared (with `diff`).
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+from itertools import cycle
+from pathlib import Path
+
+from game.input.inputs import InputFrame
+from game.overlays.layer import LAYER_NAMES
+from game.overlays.stack import Overlays
+from game.registry import Registry
+from game.run.digest import scene_digest
+from game.run.headless import start_dummy_display
+from game.run.outcome import judge
+from game.run.picture import Picture
+from game.run.session import Session
+from game.run.sources import BotSource
+from physics import BROADPHASES
+from scenes import SCENES
+
+ROOT = Path(__file__).resolve().parent.parent
+FEW = 100  # bodies of a world without compiled kernels, where its scene lets one choose
+DRAWN_EVERY = 3  # frames; drawing everything costs ten steps, and every kind of frame has its turn
+SWITCHES = {
+    frame: (("broadphase", name),) for frame, name in zip(range(10, 4000, 20), cycle(BROADPHASES), strict=False)
+}
+
+
+class Diverged(AssertionError):
+    """Two runs that should be the same are not; says which, from which frame on, and in what."""
+
+
+def make_scene(name, few=False, seed=1, **chosen):
+    """A scene of the game, with few bodies where it lets one choose."""
+    scene = Registry(SCENES).scene_class(name)(seed, **chosen)
+    if few and "bodies" in scene.values:
+        scene.change("slider:bodies", FEW)
+    return scene
+
+
+class Run:
+    """A scene being played, by its bot unless told. step() returns the digest after the step."""
+
+    def __init__(self, label, scene, source=None, recorder=None):
+        self.label, self.scene = label, scene
+        self.session = Session(scene, source or BotSource(), recorder)
+
+    def step(self):
+        """Make one step."""
+        self.session.step()
+        return scene_digest(self.scene)
+
+
+class DrawnRun(Run):
+    """The whole picture is drawn with every overlay, now and then between two steps."""
+
+    def __init__(self, label, scene):
+        super().__init__(label, scene)
+        self.picture, self.overlays = Picture(), Overlays(LAYER_NAMES)
+
+    def step(self):
+        """Make one step, and draw after it."""
+        self.session.step()
+        self.overlays.times.note(self.scene)
+        if self.scene.frame % DRAWN_EVERY == 0:
+            self.picture.draw_scene(self.scene, self.overlays)
+        return scene_digest(self.scene)
+
+
+class ChangingBot(BotSource):
+    """The scene's bot, while somebody else changes settings: {frame: ((name, value), ...)}, frames counted from 0."""
+
+    def __init__(self, changes):
+        super().__init__()
+        self.changes = changes
+
+    def next(self, scene):
+        """The input of the next step."""
+        frame = super().next(scene)
+        more = self.changes.get(scene.frame, ())
+        return InputFrame(frame.actions, frame.pointer, frame.pointer_down, frame.wheel, (*frame.changes, *more))
+
+
+class PlainRun:
+    """The scene with few bodies in a process without compiled kernels, a pipe's length ahead. To be closed."""
+
+    scene = None
+
+    def __init__(self, label, name, frames):
+        self.label = label
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "tests.lockstep", name, str(frames), "--few"],
+            cwd=ROOT,
+            env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def step(self):
+        """The digest that the process printed next. Raises RuntimeError with its last words when it has ended."""
+        line = self.process.stdout.readline()
+        if not line:
+            raise RuntimeError(f"{self.label} ended early: {self.process.stderr.read()}")
+        return line.strip()
+
+    def close(self):
+        """End the process, whether it is done or not."""
+        self.process.kill()
+        self.process.communicate()
+
+
+def ways_to_run(name, recorder=None, few=False, seed=1):
+    """All that must not matter: the first run is the one that the others are held against.
+
+    recorder(scene) makes what notes the first run. One broad phase is the scene's own: that run is the same twice.
+    """
+    first = make_scene(name, few, seed)
+    yield Run("the scene", first, recorder=recorder and recorder(first))
+    yield DrawnRun("drawn with every overlay", make_scene(name, few, seed))
+    yield Run("with the broad phase switched mid-game", make_scene(name, few, seed), ChangingBot(SWITCHES))
+    for strategy in BROADPHASES:
+        yield Run(f"under broad phase {strategy}", make_scene(name, few, seed, broadphase=strategy))
+
+
+def lockstep(runs, frames):
+    """Step all runs; raises Diverged at the first frame after which one differs from the first run."""
+    first, *others = runs
+    for frame in range(1, frames + 1):
+        wanted = first.step()
+        for run in others:
+            found = run.step()
+            if found != wanted:
+                raise Diverged(
+                    f"{run.label} differs from {first.label} since frame {frame}{place_of(first.scene, run.scene)}: "
+                    f"digest {found}, not {wanted}"
+                )
+
+
+def first_difference(one, other, frames):
+    """The first frame after which two runs differ, None if they are the same to the end."""
+    return next((frame for frame in range(1, frames + 1) if one.step() != other.step()), None)
+
+
+def place_of(scene, other):
+    """ " in world 0, the scene's state": the parts whose digests differ; empty where one of them is elsewhere."""
+    if scene is None or other is None:
+        return ""
+    places = [
+        f"world {number}"
+        for number, (one, two) in enumerate(zip(scene.worlds, other.worlds, strict=False))
+        if one.digest() != two.digest()
+    ]
+    places += ["the number of worlds"] * (len(scene.worlds) != len(other.worlds))
+    places += ["the scene's state"] * (repr(scene.state()) != repr(other.state()))
+    places += ["its random numbers"] * (scene.random.getstate() != other.random.getstate())
+    return " in " + ", ".join(places)
+
+
+def failures_of(run, frames):
+    """Goals that were due and are not met, and what --strict objects to, of a run in this process."""
+    return judge(run.scene, frames, run.session.report.strict_failures())["failures"]
+
+
+def main():
+    """Print the digests of a scene, one a line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("name", choices=SCENES, metavar="NAME")
+    parser.add_argument("frames", type=int, metavar="FRAMES")
+    parser.add_argument("--few", action="store_true", help="with few bodies, where the scene lets one choose")
+    options = parser.parse_args()
+    start_dummy_display()
+    run = Run("the scene", make_scene(options.name, options.few))
+    for _ in range(options.frames):
+        print(run.step(), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,75 @@
+"""Thirty-two slips of the hand in the kernels, and the tests that catch each.
+
+The seed is 1 unless another is said: the change that 1 picks may come to the same (EQUIVALENT).
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One operator of a kernel changed: see operators.change. tests: names of those that must fail."""
+
+    kernel: str
+    kind: str
+    tests: tuple
+    seed: int = 1
+
+    @property
+    def key(self):
+        """What operators.change asks for."""
+        return self.kernel, self.kind, self.seed
+
+    def __str__(self):
+        return "-".join(map(str, self.key))
+
+
+MUTANTS = (
+    # finding pairs
+    Mutant("overlaps", "edge", ("test_awkward_boxes_pair_as_the_double_loop_says",)),
+    Mutant("may_meet", "both", ("test_two_statics_and_one_bodys_own_shapes_never_pair",)),
+    Mutant("sweep_intervals", "turn", ("test_random_boxes_pair_as_the_double_loop_says",)),
+    Mutant("rotate", "turn", ("test_tree_stays_low_through_sorted_insertions_and_removals",)),
+    Mutant("level_of", "turn", ("test_giant_ground_under_small_boxes_pairs_with_each",)),
+    # testing pairs
+    Mutant("collide_circles", "sign", ("test_circles_in_closed_form",)),
+    Mutant("collide_polygon_circle", "sign", ("test_circle_and_polygon_hit_with_the_exact_depth",)),
+    Mutant("edge_normal", "minus", ("test_polygons_hit_with_the_least_push_as_depth",)),
+    Mutant("best_edge", "turn", ("test_polygons_hit_with_the_least_push_as_depth",)),
+    Mutant("clip_edges", "edge", ("test_boxes_face_to_face_have_two_points",)),
+    Mutant("support", "turn", ("test_disc_and_box_in_closed_form",)),
+    Mutant("reduce_simplex", "turn", ("test_boxes_that_share_an_edge",), seed=3),
+    Mutant("measure_edge", "sign", ("test_unit_box_in_a_big_one_leaves_by_the_least_translation",)),
+    Mutant("least_separation", "turn", ("test_depth_and_gap_are_exact_and_the_points_lie_between_the_surfaces",)),
+    Mutant("owns_start", "turn", ("test_a_convex_corner_is_met_between_the_two_normals_and_once",)),
+    # pixels
+    Mutant("columns_up_to", "sign", ("test_every_offset_across_a_word_border",)),
+    Mutant("shared_rectangle", "side", ("test_random_masks_hit_as_the_double_loop_says",)),
+    Mutant("way_out", "sign", ("test_symmetric_full_overlap_has_a_unit_normal_and_a_depth_that_parts",), seed=2),
+    # sweeps, rays
+    Mutant("cast_on_polygon", "turn", ("test_ray_against_a_box",)),
+    Mutant("sweep_circles", "minus", ("test_two_discs_in_closed_form",)),
+    # motion, solvers
+    Mutant("integrate_velocities", "sign", ("test_free_fall_is_its_own_recurrence",), seed=4),
+    Mutant("integrate_velocities", "factor", ("test_drag_and_wind_follow_the_implicit_recurrence",), seed=2),
+    Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
+    Mutant("warm_start", "sign", ("test_pyramid_that_starts_a_quarter_inside_itself",)),
+    Mutant("gather_motions", "factor", ("test_sliding_disc_rolls_after_two_thirds",)),
+    Mutant("mix_materials", "factor", ("test_stopping_distance",)),
+    Mutant("solve_soft", "sign", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
+    Mutant("push_pair", "sign", ("test_cradle_hands_on_the_velocity",), seed=2),
+    Mutant("bounce_once", "side", ("test_bounces_rise_by_the_square_of_restitution",)),
+    # what is told, characters
+    Mutant("compare_pairs", "turn", ("test_every_begin_has_exactly_one_end",)),
+    Mutant("in_tiles", "edge", ("test_one_way_opens_from_below_and_drops_on_demand",)),
+    Mutant("whole_pixels", "sign", ("test_remainder_is_carried_exactly",)),
+)
+
+# (kernel, kind, seed) of changes that come to the same, and why.
+EQUIVALENT = {
+    (
+        "reduce_simplex",
+        "turn",
+        1,
+    ): "the walk goes on from the other corner of an edge, and ends at the same, rounds later"
+}

@@ -1,0 +1,45 @@
+"""A scratch copy of the sources in which one kernel is changed, and the tests that are run there, uncompiled."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+COPIED = ("physics", "tests")  # the named tests need no more
+SECONDS = 300  # for tests that take less than 30 on an idle machine
+
+
+def copy_sources(folder):
+    """A copy of what the physics' tests need."""
+    for name in COPIED:
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    return folder
+
+
+def ids_of(names):
+    """The pytest ids of test functions, wherever they stand. Raises LookupError for a name that is not there."""
+    found = []
+    for name in names:
+        definition = re.compile(rf"^def {name}\(", re.M)
+        holding = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if definition.search(path.read_text())]
+        if not holding:
+            raise LookupError(f"there is no test called {name}")
+        found += [f"{path.relative_to(ROOT)}::{name}" for path in holding]
+    return found
+
+
+def run_tests(folder, names):
+    """(exit code of pytest, its output) for the named tests in a copy. Raises subprocess.TimeoutExpired."""
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *ids_of(names)],
+        cwd=folder,
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(folder)},
+        capture_output=True,
+        text=True,
+        timeout=SECONDS,
+    )
+    return done.returncode, done.stdout + done.stderr
