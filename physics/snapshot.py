@@ -11,7 +11,7 @@ import numpy as np
 
 from physics import checks
 from physics.dynamics.awake import Awake
-from physics.dynamics.sleep import Island, Sleepers
+from physics.dynamics.sleepers import Island, Sleepers
 from physics.shapes.convex import Capsule, Polygon
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment

@@ -19,7 +19,7 @@ from physics.collision.dispatch import NarrowPhase
 from physics.collision.manifold import new_workspace
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
-from physics.dynamics.sleep import IslandRoom, rest, wake_disturbed
+from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import Motions
@@ -94,7 +94,7 @@ class Workspace:
         self.walk, self.walked = new_workspace(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None
         self.sets = [ContactSet()] if stacks else [PushSet()]
-        self.islands = IslandRoom() if effects.sleeping else None
+        self.islands = IslandWorkspace() if effects.sleeping else None
         self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else None
         self._rows = np.zeros(16, np.int64)
 

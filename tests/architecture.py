@@ -1,4 +1,4 @@
-"""The tree and its imports, read from the source: `python -m tests.architecture` prints it; test_architecture.py checks it."""
+"""The tree and its imports, read from the source; `python -m tests.architecture` prints them."""
 
 import ast
 from collections import defaultdict
@@ -44,8 +44,10 @@ def is_module(name: str) -> bool:
 
 
 def imports_of(path: Path) -> set[str]:
-    """Full names of the modules that a file imports, wherever the statement stands; `from p import m` names p.m if that is
-    a module, else p."""
+    """Full names of the modules that a file imports, wherever the statement stands.
+
+    `from p import m` names p.m if that is a module, else p.
+    """
     found = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):

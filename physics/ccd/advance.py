@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.ccd.linear import MISS
+from physics.ccd.closed_form import MISS
 from physics.jit import subkernel
 from physics.math2d import length_of, turned
-from physics.proximity.gjk import AX, AY, CAPPED, FIRST_A, FIRST_B, NX, NY, ROUNDS, GapRoom, new_gap_room
+from physics.proximity.gjk import AX, AY, CAPPED, FIRST_A, FIRST_B, NX, NY, ROUNDS, GapWorkspace, new_gap_workspace
 from physics.proximity.separation import separate
 
 ADVANCE_CAP = 256  # stops; transversal impacts take under ten, grazes some forty
@@ -26,7 +26,7 @@ RESTING = 2.0**-42  # of the speed: a slide, whose approach is but rounding
 CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
 
 
-class AdvanceRoom(NamedTuple):
+class AdvanceWorkspace(NamedTuple):
     """Room for one pair on its way."""
 
     local_a: np.ndarray  # (16, 2) corners from the point that each side turns about [px], at angle 0
@@ -36,11 +36,11 @@ class AdvanceRoom(NamedTuple):
     motion_a: np.ndarray  # (6,) point it turns about and angle at the start; what they change by until the end
     motion_b: np.ndarray
     totals: np.ndarray  # (2,) rounds of GJK and EPA, caps hit
-    gap: GapRoom
+    gap: GapWorkspace
 
 
-def new_advance_room() -> AdvanceRoom:
-    return AdvanceRoom(
+def new_advance_workspace() -> AdvanceWorkspace:
+    return AdvanceWorkspace(
         np.zeros((16, 2)),
         np.zeros((16, 2)),
         np.zeros((16, 2)),
@@ -48,7 +48,7 @@ def new_advance_room() -> AdvanceRoom:
         np.zeros(6),
         np.zeros(6),
         np.zeros(2),
-        new_gap_room(),
+        new_gap_workspace(),
     )
 
 
@@ -67,17 +67,17 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 
 
 @subkernel
-def separate_at(a_count, a_radius, b_count, b_radius, fraction, room):
-    """Separation [px] at a fraction of the motion; room.gap.gap has the normal, room.a and room.b the corners."""
-    x = room.motion_a[CENTER_X]
-    y = room.motion_a[CENTER_Y]
-    place_at(room.local_a, a_count, room.motion_a, fraction, x, y, room.a)
-    place_at(room.local_b, b_count, room.motion_b, fraction, x, y, room.b)
-    i = min(int(room.gap.gap[FIRST_A]), a_count - 1)
-    j = min(int(room.gap.gap[FIRST_B]), b_count - 1)
-    separation = separate(room.a, a_count, a_radius, room.b, b_count, b_radius, i, j, room.gap)
-    room.totals[0] += room.gap.state[ROUNDS]
-    room.totals[1] += room.gap.state[CAPPED]
+def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
+    """Separation [px] at a fraction of the motion; workspace.gap.gap has the normal, workspace.a and workspace.b the corners."""
+    x = workspace.motion_a[CENTER_X]
+    y = workspace.motion_a[CENTER_Y]
+    place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
+    place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
+    i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1)
+    j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1)
+    separation = separate(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, i, j, workspace.gap)
+    workspace.totals[0] += workspace.gap.state[ROUNDS]
+    workspace.totals[1] += workspace.gap.state[CAPPED]
     return separation
 
 
@@ -114,32 +114,38 @@ def free_until(gap, speed, bend):
 
 
 @subkernel
-def free_motion(a_count, b_count, radii, fraction, separation, room):
+def free_motion(a_count, b_count, radii, fraction, separation, workspace):
     """How much further the motion is free at least: until a pair of corners can meet along the present normal.
 
     separation [px]: pairs that are nearer than 0 count as touching. O(corners of A · corners of B).
     """
-    nx = room.gap.gap[NX]
-    ny = room.gap.gap[NY]
-    x = room.motion_a[CENTER_X]
-    y = room.motion_a[CENTER_Y]
+    nx = workspace.gap.gap[NX]
+    ny = workspace.gap.gap[NY]
+    x = workspace.motion_a[CENTER_X]
+    y = workspace.motion_a[CENTER_Y]
     until = math.inf
     for i in range(a_count):
-        at_a, speed_a, bend_a = along(room.a, room.motion_a, fraction, i, x, y, nx, ny)
+        at_a, speed_a, bend_a = along(workspace.a, workspace.motion_a, fraction, i, x, y, nx, ny)
         for j in range(b_count):
-            at_b, speed_b, bend_b = along(room.b, room.motion_b, fraction, j, x, y, nx, ny)
+            at_b, speed_b, bend_b = along(workspace.b, workspace.motion_b, fraction, j, x, y, nx, ny)
             # No pair is nearer than the separation; what rounding makes of it must not be.
             gap = max(separation, at_b - at_a - radii)
             until = min(until, free_until(max(0.0, gap), speed_b - speed_a, bend_a + bend_b))
     if separation > 0.0:
         # Far apart and turning fast: no corner leaves its circle.
         center = nx * (
-            (room.motion_b[CENTER_X] - x) + fraction * room.motion_b[MOVE_X] - fraction * room.motion_a[MOVE_X]
-        ) + ny * ((room.motion_b[CENTER_Y] - y) + fraction * room.motion_b[MOVE_Y] - fraction * room.motion_a[MOVE_Y])
-        gap = center - reach_of(room.local_a, a_count) - reach_of(room.local_b, b_count) - radii
+            (workspace.motion_b[CENTER_X] - x)
+            + fraction * workspace.motion_b[MOVE_X]
+            - fraction * workspace.motion_a[MOVE_X]
+        ) + ny * (
+            (workspace.motion_b[CENTER_Y] - y)
+            + fraction * workspace.motion_b[MOVE_Y]
+            - fraction * workspace.motion_a[MOVE_Y]
+        )
+        gap = center - reach_of(workspace.local_a, a_count) - reach_of(workspace.local_b, b_count) - radii
         if gap > 0.0:
-            speed = nx * (room.motion_b[MOVE_X] - room.motion_a[MOVE_X]) + ny * (
-                room.motion_b[MOVE_Y] - room.motion_a[MOVE_Y]
+            speed = nx * (workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X]) + ny * (
+                workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
             )
             until = max(until, free_until(gap, speed, 0.0))
     return until
@@ -170,22 +176,22 @@ def touching_span(corners, count, nx, ny, side, band):
 
 
 @subkernel
-def approach_at(a_count, b_count, fraction, band, room):
+def approach_at(a_count, b_count, fraction, band, workspace):
     """The greatest speed along the normal [px per motion] at which the two surfaces come nearer where they touch.
 
     They touch at a point, or along the part of two faces that lie on each other within a band [px]: there the speed is
     greatest at an end.
     """
-    nx = room.gap.gap[NX]
-    ny = room.gap.gap[NY]
-    a_low, a_high = touching_span(room.a, a_count, nx, ny, 1.0, band)
-    b_low, b_high = touching_span(room.b, b_count, nx, ny, -1.0, band)
+    nx = workspace.gap.gap[NX]
+    ny = workspace.gap.gap[NY]
+    a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
+    b_low, b_high = touching_span(workspace.b, b_count, nx, ny, -1.0, band)
     low = max(a_low, b_low)
     high = min(a_high, b_high)
     if low > high:
         low = 0.5 * (low + high)
         high = low
-    across = nx * room.gap.gap[AX] + ny * room.gap.gap[AY]
+    across = nx * workspace.gap.gap[AX] + ny * workspace.gap.gap[AY]
     most = -math.inf
     for end in range(2):
         at = low if end == 0 else high
@@ -193,46 +199,48 @@ def approach_at(a_count, b_count, fraction, band, room):
         y = across * ny + at * nx
         most = max(
             most,
-            speed_of(room.motion_a, room.motion_a, fraction, x, y, nx, ny)
-            - speed_of(room.motion_b, room.motion_a, fraction, x, y, nx, ny),
+            speed_of(workspace.motion_a, workspace.motion_a, fraction, x, y, nx, ny)
+            - speed_of(workspace.motion_b, workspace.motion_a, fraction, x, y, nx, ny),
         )
     return most
 
 
 @subkernel
-def advance(a_count, a_radius, b_count, b_radius, room):
-    """The first fraction at which two hulls meet on their way, or MISS; room.gap.gap has normal and points at it.
+def advance(a_count, a_radius, b_count, b_radius, workspace):
+    """The first fraction at which two hulls meet on their way, or MISS; workspace.gap.gap has normal and points at it.
 
-    room: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the start
-    counts only when they approach: 0. When they part they are looked at until they approach again. room.totals counts
+    workspace: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the start
+    counts only when they approach: 0. When they part they are looked at until they approach again. workspace.totals counts
     GJK's rounds and caps; when ADVANCE_CAP is hit it counts too, and the motion ends there, before the impact.
     """
-    turn_a = abs(room.motion_a[TURN])
-    turn_b = abs(room.motion_b[TURN])
-    reach_a = reach_of(room.local_a, a_count)
-    reach_b = reach_of(room.local_b, b_count)
-    path = length_of(room.motion_b[MOVE_X] - room.motion_a[MOVE_X], room.motion_b[MOVE_Y] - room.motion_a[MOVE_Y])
+    turn_a = abs(workspace.motion_a[TURN])
+    turn_b = abs(workspace.motion_b[TURN])
+    reach_a = reach_of(workspace.local_a, a_count)
+    reach_b = reach_of(workspace.local_b, b_count)
+    path = length_of(
+        workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X], workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
+    )
     size = reach_a + reach_b + a_radius + b_radius
     speed = path + turn_a * reach_a + turn_b * reach_b
     tolerance = TOLERANCE * (size + path)
     radii = a_radius + b_radius
-    room.gap.gap[FIRST_A] = 0.0
-    room.gap.gap[FIRST_B] = 0.0
+    workspace.gap.gap[FIRST_A] = 0.0
+    workspace.gap.gap[FIRST_B] = 0.0
     fraction = 0.0
     stops = 0
     leaving = 0
     was_apart = False
     while stops < ADVANCE_CAP and leaving <= LEAVING_CAP:
-        separation = separate_at(a_count, a_radius, b_count, b_radius, fraction, room)
+        separation = separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace)
         if separation <= tolerance:
             if was_apart:
                 return fraction
-            if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, room) > RESTING * speed:
+            if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, workspace) > RESTING * speed:
                 return fraction
             if turn_a * reach_a + turn_b * reach_b == 0.0:
                 return MISS  # convex and not turning: they part for good
             leaving += 1
-            fraction += max(free_motion(a_count, b_count, radii, fraction, separation, room), 1.0 / LEAVING_CAP)
+            fraction += max(free_motion(a_count, b_count, radii, fraction, separation, workspace), 1.0 / LEAVING_CAP)
             if fraction >= 1.0:
                 return MISS
             continue
@@ -241,9 +249,9 @@ def advance(a_count, a_radius, b_count, b_radius, room):
         if fraction == 1.0:
             return MISS
         # A rounding beyond the end may still touch at the end.
-        fraction += free_motion(a_count, b_count, radii, fraction, separation, room)
+        fraction += free_motion(a_count, b_count, radii, fraction, separation, workspace)
         if fraction > 1.0 + TOUCHING_BAND:
             return MISS
         fraction = min(fraction, 1.0)
-    room.totals[1] += 1.0
+    workspace.totals[1] += 1.0
     return fraction

@@ -7,8 +7,9 @@ Mirtich, Timewarp Rigid Body Simulation, 2000 (conservative rounds).
 
 import math
 
-from physics.ccd.linear import MISS, has_closed_form, write_impact
-from physics.ccd.rotational import sweep_turning
+from physics.ccd.closed_form import MISS
+from physics.ccd.linear import has_closed_form, write_impact
+from physics.ccd.rotational_pairs import sweep_rotational
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
@@ -108,7 +109,7 @@ def cut_path(paths, row, start, end, cut_out):
 
 
 @subkernel
-def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts, room, work_inout):
+def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts_out, workspace, work_inout):
     """Fraction of the step at which `mover` first meets `other`, each going as far as its body's fraction and resting then.
 
     Returns (fraction or MISS, normal from other to mover).
@@ -119,20 +120,20 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
     far_q = bodies[q].fraction
     both = min(far_p, far_q)
     if both > 0.0:
-        cut_path(paths, p, 0.0, both, cuts)
-        cut_path(paths, q, 0.0, both, cuts)
-        fraction, nx, ny, core = sweep_turning(
-            geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout
+        cut_path(paths, p, 0.0, both, cuts_out)
+        cut_path(paths, q, 0.0, both, cuts_out)
+        fraction, nx, ny, core = sweep_rotational(
+            geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
         )
         if fraction <= 1.0:
             return fraction * both, nx, ny
     last = max(far_p, far_q)
     if last == both:
         return MISS, 0.0, -1.0
-    cut_path(paths, p, min(both, far_p), far_p, cuts)
-    cut_path(paths, q, min(both, far_q), far_q, cuts)
-    fraction, nx, ny, core = sweep_turning(
-        geometry, bodies, shapes, cuts, mover, other, slack, one_way, room, work_inout
+    cut_path(paths, p, min(both, far_p), far_p, cuts_out)
+    cut_path(paths, q, min(both, far_q), far_q, cuts_out)
+    fraction, nx, ny, core = sweep_rotational(
+        geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
     )
     if fraction <= 1.0:
         return both + fraction * (last - both), nx, ny
@@ -161,7 +162,7 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 
 
 @kernel
-def find_turning_impacts(
+def find_rotational_impacts(
     # read
     geometry,
     bodies,
@@ -173,16 +174,16 @@ def find_turning_impacts(
     slack,
     one_way,
     # write
-    paths,
-    fast,
-    cuts,
-    room,
+    paths_inout,
+    fast_inout,
+    cuts_out,
+    workspace,
     impacts_out,
     work_inout,
 ):
     """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets on its path.
 
-    paths (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for the
+    paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for the
     others; everyone: 0 where only bullets mind what moves, 1 where all do, 2 where besides nothing turns and what has a
     closed form was found by it; slack [px]: closer at the start
     is in contact already. Without a stacking solver motion into the other by less than a quarter of the half size stops
@@ -192,16 +193,16 @@ def find_turning_impacts(
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        rest_where_it_is(bodies, a.body_row, paths, fast)
-        rest_where_it_is(bodies, b.body_row, paths, fast)
-        if not (fast[a.body_row] or fast[b.body_row]):
+        rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
+        rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
+        if not (fast_inout[a.body_row] or fast_inout[b.body_row]):
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        still = stands_still(bodies, paths, a.body_row) or stands_still(bodies, paths, b.body_row)
+        still = stands_still(bodies, paths_inout, a.body_row) or stands_still(bodies, paths_inout, b.body_row)
         if still == (moving == 1) or not (still or everyone > 0 or p.bullet or q.bullet):
             continue
-        from_a = fast[a.body_row] and a.kind != TILES and a.kind != CHAIN and a.kind != MASK
+        from_a = fast_inout[a.body_row] and a.kind != TILES and a.kind != CHAIN and a.kind != MASK
         mover = candidates[i, 0] if from_a else candidates[i, 1]
         other = candidates[i, 1] if from_a else candidates[i, 0]
         kind = shapes[mover].kind
@@ -213,7 +214,7 @@ def find_turning_impacts(
             continue
         work_inout[TOI_CALLS] += 1
         fraction, nx, ny = first_meeting(
-            geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts, room, work_inout
+            geometry, bodies, shapes, paths_inout, mover, other, slack, one_way, cuts_out, workspace, work_inout
         )
         if fraction > 1.0:
             continue
@@ -222,10 +223,13 @@ def find_turning_impacts(
         # What either has still to go when they meet.
         left_m = max(0.0, bodies[m].fraction - fraction)
         left_o = max(0.0, bodies[o].fraction - fraction)
-        dx = left_m * (paths[m, 3] - paths[m, 0]) - left_o * (paths[o, 3] - paths[o, 0])
-        dy = left_m * (paths[m, 4] - paths[m, 1]) - left_o * (paths[o, 4] - paths[o, 1])
+        dx = left_m * (paths_inout[m, 3] - paths_inout[m, 0]) - left_o * (paths_inout[o, 3] - paths_inout[o, 0])
+        dy = left_m * (paths_inout[m, 4] - paths_inout[m, 1]) - left_o * (paths_inout[o, 4] - paths_inout[o, 1])
         room_left = 0.25 * bodies[m].smallest_half
-        turns = abs(paths[m, 5] - paths[m, 2]) * bodies[m].extent + abs(paths[o, 5] - paths[o, 2]) * bodies[o].extent
+        turns = (
+            abs(paths_inout[m, 5] - paths_inout[m, 2]) * bodies[m].extent
+            + abs(paths_inout[o, 5] - paths_inout[o, 2]) * bodies[o].extent
+        )
         stops = everyone == 0 or -(nx * dx + ny * dy) > room_left or turns > room_left
         found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
     return found

@@ -1,8 +1,8 @@
 """The first impact of shapes made of parts, on their way between two poses."""
 
 from physics.ccd.advance import CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, advance, place_at, reach_of
-from physics.ccd.linear import MISS
-from physics.ccd.rotational import sweep_chain, sweep_tiles
+from physics.ccd.closed_form import MISS
+from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.proximity.gjk import NX, NY
@@ -17,17 +17,17 @@ def advance_parts(
     motion_a,
     motion_b,
     # write
-    room,
+    workspace,
     impact_out,
     totals_out,
 ):
     """Write (fraction or MISS, normal from A to B) of the first impact of any part of A with any of B to impact_out (3,).
 
-    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceRoom; room: TurningRoom; totals_out (2,):
+    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceWorkspace; workspace: RotationalWorkspace; totals_out (2,):
     rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are skipped. O(parts of
     A · parts of B).
     """
-    r = room.advance
+    r = workspace.advance
     for k in range(6):
         r.motion_a[k] = motion_a[k]
         r.motion_b[k] = motion_b[k]
@@ -73,7 +73,7 @@ def advance_on_ground(
     motion_a,
     motion_b,
     # write
-    room,
+    workspace,
     impact_out,
     totals_out,
 ):
@@ -81,7 +81,7 @@ def advance_on_ground(
 
     ground: row of the grid or chain.
     """
-    r = room.advance
+    r = workspace.advance
     r.totals[0] = 0.0
     r.totals[1] = 0.0
     impact_out[0] = MISS
@@ -91,11 +91,15 @@ def advance_on_ground(
         for k in range(6):
             r.motion_a[k] = motion_a[k]
             r.motion_b[k] = motion_b[k]
-        copy_part(a.corners, i, a.counts[i], room.mover)
+        copy_part(a.corners, i, a.counts[i], workspace.mover)
         if is_chain == 1:
-            fraction, nx, ny, _ = sweep_chain(geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, 0.0, room)
+            fraction, nx, ny, _ = sweep_chain(
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, 0.0, workspace
+            )
         else:
-            fraction, nx, ny, _ = sweep_tiles(geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, True, room)
+            fraction, nx, ny, _ = sweep_tiles(
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, True, workspace
+            )
         if fraction < impact_out[0]:
             impact_out[0] = fraction
             impact_out[1] = -nx

@@ -7,15 +7,15 @@ something, and keeps its velocity: the contact of the next step takes the impact
 
 import numpy as np
 
-from physics.ccd.impacts import find_fast, find_turning_impacts, foresee_paths, list_paths, move_back, write_impacts
+from physics.ccd.impacts import find_fast, find_rotational_impacts, foresee_paths, list_paths, move_back, write_impacts
 from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
-from physics.ccd.rotational import new_turning_room
+from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.approach import measure_approach
 from physics.collision.detect import detect
 from physics.collision.manifold import new_workspace
 from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
-from physics.dynamics.sleep import in_order, order_of
+from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS
 from physics.tables.body import DYNAMIC, RAY, SWEPT
 from physics.tables.counters import CAP_HITS
@@ -33,7 +33,7 @@ class Sweeper:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
         self.impacts = np.zeros((16, 5))
-        self.turning, self.workspace = new_turning_room(), new_workspace()
+        self.turning, self.workspace = new_rotational_workspace(), new_workspace()
 
     def grow(self, state):
         """Make room for the bodies and the candidates of a step."""
@@ -46,10 +46,10 @@ class Sweeper:
 
 
 def _look(state, moving, everyone) -> np.ndarray:
-    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1). everyone: see find_turning_impacts."""
+    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1). everyone: see find_rotational_impacts."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
-    found = find_turning_impacts(
+    found = find_rotational_impacts(
         state.library.tables,
         state.bodies,
         state.shapes,
@@ -132,10 +132,12 @@ def detect_moved(state):
 
 def _written(state, impacts, response) -> np.ndarray:
     """MANIFOLD rows of the impacts that are the first of a body, with the speeds of approach."""
-    room = np.zeros(len(impacts), MANIFOLD)
-    found = write_impacts(state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, room)
-    measure_approach(state.bodies, room[:found])
-    return room[:found]
+    workspace = np.zeros(len(impacts), MANIFOLD)
+    found = write_impacts(
+        state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, workspace
+    )
+    measure_approach(state.bodies, workspace[:found])
+    return workspace[:found]
 
 
 @stage(
@@ -170,7 +172,7 @@ def sweep_piles(state):
     _cover(state)
     met = _sweep_straight(state) if straight else NO_IMPACTS
     if found:
-        met = np.concatenate([met, _sweep_turning(state)])
+        met = np.concatenate([met, _sweep_rotational(state)])
     stopped = rows[bodies["fraction"][rows] < 1.0]
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
@@ -211,7 +213,7 @@ def _sweep_straight(state) -> np.ndarray:
     return impacts
 
 
-def _sweep_turning(state) -> np.ndarray:
+def _sweep_rotational(state) -> np.ndarray:
     """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
     met = _look(state, 0, 0)
     stop_at_impacts(state.shapes, state.pairs.rows, met, len(met), state.bodies)

@@ -6,7 +6,7 @@ from physics.collision.approach import measure_approach
 from physics.collision.dispatch import SENSORS, SOLIDS
 from physics.collision.materials import mix_materials
 from physics.collision.persist import carry_over
-from physics.dynamics.sleep import in_order
+from physics.dynamics.sleepers import in_order
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import stage

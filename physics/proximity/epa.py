@@ -119,21 +119,21 @@ def write_depth(a, b, count, polytope, gap_out):
 
 
 @subkernel
-def measure_depth(a, a_count, b, b_count, room):
-    """Write to room.gap how far, and along which normal, B has to move until it only touches A. O(corners squared).
+def measure_depth(a, a_count, b, b_count, workspace):
+    """Write to workspace.gap how far, and along which normal, B has to move until it only touches A. O(corners squared).
 
-    Rounds are added to room.state, and whether they hit EPA_CAP.
+    Rounds are added to workspace.state, and whether they hit EPA_CAP.
     """
-    count = start_polytope(a, a_count, b, b_count, room.polytope)
+    count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
         capped = True
         for k in range(EPA_CAP):
-            room.state[ROUNDS] += 1.0
-            grown = grow_polytope(a, a_count, b, b_count, count, room.polytope)
+            workspace.state[ROUNDS] += 1.0
+            grown = grow_polytope(a, a_count, b, b_count, count, workspace.polytope)
             if grown == count:
                 capped = False
                 break
             count = grown
         if capped:
-            room.state[CAPPED] += 1.0
-    write_depth(a, b, count, room.polytope, room.gap)
+            workspace.state[CAPPED] += 1.0
+    write_depth(a, b, count, workspace.polytope, workspace.gap)

@@ -22,7 +22,7 @@ COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # of a walk's state
 SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # of a gap
 
 
-class GapRoom(NamedTuple):
+class GapWorkspace(NamedTuple):
     """Room for one pair in flight."""
 
     state: np.ndarray  # (5,) corners kept, direction of the search, rounds, rounds that hit the cap
@@ -31,8 +31,8 @@ class GapRoom(NamedTuple):
     gap: np.ndarray  # (11,) separation, normal, nearest points, corners they lie between
 
 
-def new_gap_room() -> GapRoom:
-    return GapRoom(np.zeros(5), np.zeros((3, 4)), np.zeros((64, 5)), np.zeros(11))
+def new_gap_workspace() -> GapWorkspace:
+    return GapWorkspace(np.zeros(5), np.zeros((3, 4)), np.zeros((64, 5)), np.zeros(11))
 
 
 @subkernel
@@ -237,22 +237,22 @@ def write_nearest(a, b, state, simplex, gap_out):
 
 
 @subkernel
-def walk_to_nearest(a, a_count, b, b_count, i, j, room):
-    """Walk until A and B are known to be APART, with room.gap written, or TOUCHING. At most GJK_CAP rounds.
+def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
+    """Walk until A and B are known to be APART, with workspace.gap written, or TOUCHING. At most GJK_CAP rounds.
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: corners to start from. When the cap is hit, what it had is
-    given and room.state counts it.
+    given and workspace.state counts it.
     """
-    start_walk(a, b, i, j, room.state, room.simplex)
+    start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
-    while status == SEARCHING and room.state[ROUNDS] < GJK_CAP:
-        status = walk_on(a, a_count, b, b_count, room.state, room.simplex)
+    while status == SEARCHING and workspace.state[ROUNDS] < GJK_CAP:
+        status = walk_on(a, a_count, b, b_count, workspace.state, workspace.simplex)
     if status == SEARCHING:
-        room.state[CAPPED] += 1.0
-        status = reduce_simplex(a, b, room.state, room.simplex)
+        workspace.state[CAPPED] += 1.0
+        status = reduce_simplex(a, b, workspace.state, workspace.simplex)
     if status != TOUCHING:
-        write_nearest(a, b, room.state, room.simplex, room.gap)
-        if room.gap[SEPARATION] <= 0.0:
+        write_nearest(a, b, workspace.state, workspace.simplex, workspace.gap)
+        if workspace.gap[SEPARATION] <= 0.0:
             return TOUCHING
         return APART
     return TOUCHING

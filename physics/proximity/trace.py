@@ -16,7 +16,7 @@ from physics.proximity.gjk import (
     SEARCHING,
     SEPARATION,
     TOUCHING,
-    new_gap_room,
+    new_gap_workspace,
     reduce_simplex,
     start_walk,
     walk_on,
@@ -31,53 +31,53 @@ def steps_of(a, b) -> list[dict]:
     nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
-    room = new_gap_room()
+    workspace = new_gap_workspace()
     found, status = [], SEARCHING
-    start_walk(a, b, 0, 0, room.state, room.simplex)
+    start_walk(a, b, 0, 0, workspace.state, workspace.simplex)
     for _ in range(GJK_CAP):
-        before = room.simplex[: int(room.state[COUNT]), 2:].copy()
-        status = walk_on(a, len(a), b, len(b), room.state, room.simplex)
+        before = workspace.simplex[: int(workspace.state[COUNT]), 2:].copy()
+        status = walk_on(a, len(a), b, len(b), workspace.state, workspace.simplex)
         if status == TOUCHING:
-            found.append(_step("gjk", before, room, 0.0))
+            found.append(_step("gjk", before, workspace, 0.0))
             break
         # The round may have added a corner behind what it measured: that belongs to the next round.
-        kept = room.simplex.copy(), room.state.copy()
+        kept = workspace.simplex.copy(), workspace.state.copy()
         if status == SEARCHING:
-            room.state[COUNT] -= 1.0
-        write_nearest(a, b, room.state, room.simplex, room.gap)
-        found.append(_step("gjk", before, room, room.gap[SEPARATION]))
-        room.simplex[:], room.state[:] = kept
+            workspace.state[COUNT] -= 1.0
+        write_nearest(a, b, workspace.state, workspace.simplex, workspace.gap)
+        found.append(_step("gjk", before, workspace, workspace.gap[SEPARATION]))
+        workspace.simplex[:], workspace.state[:] = kept
         if status == APART:
             break
     if status == SEARCHING:
-        status = reduce_simplex(a, b, room.state, room.simplex)
-    if status == TOUCHING or room.gap[SEPARATION] <= 0.0:
-        found += _depth_steps(a, b, room)
+        status = reduce_simplex(a, b, workspace.state, workspace.simplex)
+    if status == TOUCHING or workspace.gap[SEPARATION] <= 0.0:
+        found += _depth_steps(a, b, workspace)
     return found
 
 
-def _depth_steps(a, b, room):
-    count, found = start_polytope(a, len(a), b, len(b), room.polytope), []
+def _depth_steps(a, b, workspace):
+    count, found = start_polytope(a, len(a), b, len(b), workspace.polytope), []
     for _ in range(EPA_CAP):
-        i, j = room.polytope[:count, 0].astype(int), room.polytope[:count, 1].astype(int)
-        write_depth(a, b, count, room.polytope, room.gap)
-        room.state[NORMAL_X], room.state[NORMAL_Y] = room.gap[NX], room.gap[NY]
-        step = _step("epa", np.zeros((0, 2)), room, room.gap[SEPARATION])
+        i, j = workspace.polytope[:count, 0].astype(int), workspace.polytope[:count, 1].astype(int)
+        write_depth(a, b, count, workspace.polytope, workspace.gap)
+        workspace.state[NORMAL_X], workspace.state[NORMAL_Y] = workspace.gap[NX], workspace.gap[NY]
+        step = _step("epa", np.zeros((0, 2)), workspace, workspace.gap[SEPARATION])
         step["polytope"] = a[i] - b[j]
         found.append(step)
-        grown = count if count < 2 else grow_polytope(a, len(a), b, len(b), count, room.polytope)
+        grown = count if count < 2 else grow_polytope(a, len(a), b, len(b), count, workspace.polytope)
         if grown == count:
             break
         count = grown
     return found
 
 
-def _step(phase, simplex, room, distance):
-    ax, ay, bx, by = room.gap[AX : BY + 1].tolist()
+def _step(phase, simplex, workspace, distance):
+    ax, ay, bx, by = workspace.gap[AX : BY + 1].tolist()
     return {
         "phase": phase,
         "simplex": simplex,
         "witness": ((ax, ay), (bx, by)),
-        "direction": (float(room.state[NORMAL_X]), float(room.state[NORMAL_Y])),
+        "direction": (float(workspace.state[NORMAL_X]), float(workspace.state[NORMAL_Y])),
         "distance": float(distance),
     }

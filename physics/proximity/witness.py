@@ -32,10 +32,10 @@ def separate_parts(
     # write
     corners_a_out,
     corners_b_out,
-    room,
+    workspace,
     totals_out,
 ):
-    """Write separation, normal and points of the nearest two parts to room.gap. Returns the separation [px].
+    """Write separation, normal and points of the nearest two parts to workspace.gap. Returns the separation [px].
 
     a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts
     whose boxes are further apart than the nearest so far are skipped. Infinite when one side has none. O(parts of A ·
@@ -53,10 +53,10 @@ def separate_parts(
                 continue
             copy_part(b.corners, j, b.counts[j], corners_b_out)
             separation = separate(
-                corners_a_out, a.counts[i], a.radius, corners_b_out, b.counts[j], b.radius, 0, 0, room
+                corners_a_out, a.counts[i], a.radius, corners_b_out, b.counts[j], b.radius, 0, 0, workspace
             )
-            totals_out[0] += room.state[ROUNDS]
-            totals_out[1] += room.state[CAPPED]
+            totals_out[0] += workspace.state[ROUNDS]
+            totals_out[1] += workspace.state[CAPPED]
             if separation < best:
                 best = separation
                 best_i = i
@@ -64,5 +64,5 @@ def separate_parts(
     if best_i >= 0 and len(a.counts) * len(b.counts) > 1:
         copy_part(a.corners, best_i, a.counts[best_i], corners_a_out)
         copy_part(b.corners, best_j, b.counts[best_j], corners_b_out)
-        separate(corners_a_out, a.counts[best_i], a.radius, corners_b_out, b.counts[best_j], b.radius, 0, 0, room)
+        separate(corners_a_out, a.counts[best_i], a.radius, corners_b_out, b.counts[best_j], b.radius, 0, 0, workspace)
     return best

@@ -3,8 +3,9 @@
 import math
 
 from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN
-from physics.ccd.linear import MISS
-from physics.ccd.rotational import sweep_at, sweep_chain, sweep_tiles
+from physics.ccd.closed_form import MISS
+from physics.ccd.rotational import sweep_at
+from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
 from physics.jit import kernel
 from physics.proximity.gjk import BX, BY, NX, NY, ROUNDS
 from physics.proximity.separation import separate
@@ -62,16 +63,16 @@ def cast_hull_at_rows(
     dx,
     dy,
     # write
-    room,
+    workspace,
     hits_out,
     work_inout,
 ):
     """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
 
     Returns their number. rows: SHAPE rows, of which masks are left out; corners (16, 2) [px] from (x, y), `count` of
-    them, moved by (dx, dy); room: TurningRoom; hits_out (rows, 4). Touching at the start counts when it approaches: 0.
+    them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it approaches: 0.
     """
-    r = room.advance
+    r = workspace.advance
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -94,15 +95,15 @@ def cast_hull_at_rows(
         r.totals[0] = 0.0
         r.totals[1] = 0.0
         for i in range(count):
-            room.mover[i, 0] = corners[i, 0]
-            room.mover[i, 1] = corners[i, 1]
+            workspace.mover[i, 0] = corners[i, 0]
+            workspace.mover[i, 1] = corners[i, 1]
         if s.kind == TILES:
-            fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, room)
+            fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, workspace)
         elif s.kind == CHAIN:
-            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, 0.0, room)
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, 0.0, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
-            fraction, _ = sweep_at(count, radius, n, rounding(shapes, rows[k]), 0.0, 0.0, room)
+            fraction, _ = sweep_at(count, radius, n, rounding(shapes, rows[k]), 0.0, 0.0, workspace)
             nx = -r.gap.gap[NX]
             ny = -r.gap.gap[NY]
         work_inout[GJK_ITERATIONS] += int(r.totals[0])
@@ -128,14 +129,14 @@ def nearest_hull(
     # write
     point_inout,
     corners_inout,
-    room,
+    workspace,
     nearest_out,
     work_inout,
 ):
     """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Returns its row, -1 without any.
 
     rows: SHAPE rows in order, of which tiles, masks and chains are left out; 0 and the point itself when it is inside;
-    point_inout, corners_inout (16, 2): scratch; room: GapRoom.
+    point_inout, corners_inout (16, 2): scratch; workspace: GapWorkspace.
     """
     best = -1
     nearest_out[0] = math.inf
@@ -148,12 +149,12 @@ def nearest_hull(
         point_inout[0, 0] = 0.0
         point_inout[0, 1] = 0.0
         n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
-        distance = max(0.0, separate(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, room))
+        distance = max(0.0, separate(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, workspace))
         work_inout[NARROW_TESTS] += 1
-        work_inout[GJK_ITERATIONS] += int(room.state[ROUNDS])
+        work_inout[GJK_ITERATIONS] += int(workspace.state[ROUNDS])
         if distance < nearest_out[0]:
             best = rows[k]
             nearest_out[0] = distance
-            nearest_out[1] = x + (room.gap[BX] if distance > 0.0 else 0.0)
-            nearest_out[2] = y + (room.gap[BY] if distance > 0.0 else 0.0)
+            nearest_out[1] = x + (workspace.gap[BX] if distance > 0.0 else 0.0)
+            nearest_out[2] = y + (workspace.gap[BY] if distance > 0.0 else 0.0)
     return best

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics import checks
-from physics.ccd.linear import MISS
+from physics.ccd.closed_form import MISS
 from physics.ccd.parts import advance_parts
-from physics.ccd.rotational import new_turning_room
+from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.dispatch import narrow_phase_for_queries
-from physics.proximity.gjk import AX, AY, BX, BY, new_gap_room
+from physics.proximity.gjk import AX, AY, BX, BY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_rows, nearest_hull
 from physics.shapes.filter import Filter
@@ -57,11 +57,11 @@ def ray_cast_all(world, origin, translation, filter, sensors, first=False) -> li
         rows = _allowed(world, index.rows_in(world, *_box_around(*ends)), filter, sensors)
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
-        room = np.zeros((len(rows), 4))
+        workspace = np.zeros((len(rows), 4))
         found = cast_ray_at_rows(
-            world.library.tables, world.bodies, world.shapes, rows, x, y, dx, dy, corners, room, index.work
+            world.library.tables, world.bodies, world.shapes, rows, x, y, dx, dy, corners, workspace, index.work
         )
-        hits = np.concatenate([hits, room[:found]])
+        hits = np.concatenate([hits, workspace[:found]])
         # What is met within the pieces so far has been asked: nothing nearer is left.
         if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
             break
@@ -105,17 +105,17 @@ def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
             return None
         row, fraction, nx, ny = hits[np.lexsort((hits[:, 0], hits[:, 1]))][0].tolist()
         x, y = pose[0] + fraction * dx, pose[1] + fraction * dy
-        room = new_gap_room()
+        workspace = new_gap_workspace()
         other = placed_parts(world.library, world.bodies, world.shapes, int(row), x, y, box[3])
-        separate_parts(probe, other, np.zeros((16, 2)), np.zeros((16, 2)), room, np.zeros(2))
-        gap = room.gap.tolist()
+        separate_parts(probe, other, np.zeros((16, 2)), np.zeros((16, 2)), workspace, np.zeros(2))
+        gap = workspace.gap.tolist()
         return _hit(world, row, fraction, nx, ny, (x + 0.5 * (gap[AX] + gap[BX]), y + 0.5 * (gap[AY] + gap[BY])))
 
 
 def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
     """(row, fraction, normal to the probe) of the shapes that a probe meets, by its parts where masks or more are in play."""
     x, y, dx, dy = motion
-    room, hits, found, work = new_turning_room(), np.zeros((len(rows), 4)), 0, world.queries.work
+    workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     kinds = world.shapes["kind"][rows]
     by_parts = kinds == MASK if is_one_hull else np.ones(len(rows), bool)
     if is_one_hull:
@@ -131,7 +131,7 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
             y,
             dx,
             dy,
-            room,
+            workspace,
             hits,
             work,
         )
@@ -139,7 +139,7 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
     for row in rows[by_parts].tolist():
         impact = np.zeros(3)
         other = placed_parts(world.library, world.bodies, world.shapes, row, x, y, feet)
-        advance_parts(probe, other, moving, still, room, impact, np.zeros(2))
+        advance_parts(probe, other, moving, still, workspace, impact, np.zeros(2))
         if impact[0] < MISS:
             hits[found] = row, impact[0], -impact[1], -impact[2]
             found += 1
@@ -172,20 +172,24 @@ def closest(world, point, filter):
 
 def _nearest(world, rows, x, y):
     """(row, distance, point) of the nearest point of the shapes in these rows, or None."""
-    nearest, room, work = np.zeros(3), new_gap_room(), world.queries.work
+    nearest, workspace, work = np.zeros(3), new_gap_workspace(), world.queries.work
     point, corners = np.zeros((16, 2)), np.zeros((16, 2))
     best = nearest_hull(
-        world.library.tables, world.bodies, world.shapes, rows, x, y, point, corners, room, nearest, work
+        world.library.tables, world.bodies, world.shapes, rows, x, y, point, corners, workspace, nearest, work
     )
     found = [(float(nearest[0]), best, (float(nearest[1]), float(nearest[2])))] if best >= 0 else []
     alone = parts_of([[(0.0, 0.0)]])
     for row in rows.tolist():
         if not is_hull(int(world.shapes["kind"][row])):
             parts: Parts = placed_parts(world.library, world.bodies, world.shapes, row, x, y, y)
-            gap = separate_parts(alone, parts, point, corners, room, np.zeros(2))
+            gap = separate_parts(alone, parts, point, corners, workspace, np.zeros(2))
             if math.isfinite(gap):
                 found.append(
-                    (max(gap, 0.0), row, (x + float(room.gap[BX]), y + float(room.gap[BY])) if gap > 0.0 else (x, y))
+                    (
+                        max(gap, 0.0),
+                        row,
+                        (x + float(workspace.gap[BX]), y + float(workspace.gap[BY])) if gap > 0.0 else (x, y),
+                    )
                 )
     if not found:
         return None

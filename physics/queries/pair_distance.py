@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics import checks
-from physics.proximity.gjk import AX, AY, NX, NY, new_gap_room
+from physics.proximity.gjk import AX, AY, NX, NY, new_gap_workspace
 from physics.proximity.trace import steps_of
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_manifold import collide
@@ -66,11 +66,11 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     # Seen from A, so that far from the origin no digits are lost.
     x, y = pose_a[0], pose_a[1]
     parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, x, y)
-    room, totals = new_gap_room(), np.zeros(2)
-    found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), room, totals)
+    workspace, totals = new_gap_workspace(), np.zeros(2)
+    found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
     if math.isinf(found):
         return Distance(math.inf, pose_a[:2], pose_b[:2], (1.0, 0.0), 0)
-    nx, ny, ax, ay = (float(room.gap[k]) for k in (NX, NY, AX, AY))
+    nx, ny, ax, ay = (float(workspace.gap[k]) for k in (NX, NY, AX, AY))
     size = float(
         max(
             np.ptp(parts_a.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(),

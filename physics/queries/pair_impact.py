@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics.ccd.advance import TOLERANCE
-from physics.ccd.linear import MISS, sweep_circles
+from physics.ccd.closed_form import MISS, sweep_circles
 from physics.ccd.parts import advance_on_ground, advance_parts
-from physics.ccd.rotational import new_turning_room
-from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_room
+from physics.ccd.rotational import new_rotational_workspace
+from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_distance import checked, order_of
 from physics.shapes.bounds import Bounds
@@ -74,17 +74,17 @@ def _first(a, move_a, b, move_b):
         x, y = (move_b[0][0] - move_a[0][0]) + (bx - ax), (move_b[0][1] - move_a[0][1]) + (by - ay)
         dx, dy = ((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1))
         return sweep_circles(x, y, dx, dy, a.radius + b.radius)
-    room, found, totals = new_turning_room(), np.zeros(3), np.zeros(2)
+    workspace, found, totals = new_rotational_workspace(), np.zeros(3), np.zeros(2)
     parts_a, motion_a = _local(a, move_a)
     if isinstance(b, (TileGrid, Chain)):
         library = Library()
         row = library.add(b)[1]
         advance_on_ground(
-            library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), room, found, totals
+            library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), workspace, found, totals
         )
     else:
         parts_b, motion_b = _local(b, move_b)
-        advance_parts(parts_a, parts_b, motion_a, motion_b, room, found, totals)
+        advance_parts(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
     return found.tolist()
 
 
@@ -171,9 +171,9 @@ def _point(a, move_a, b, move_b, fraction):
 
 
 def _gap_at(parts_a, parts_b):
-    room = new_gap_room()
-    separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), room, np.zeros(2))
-    return room.gap
+    workspace = new_gap_workspace()
+    separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, np.zeros(2))
+    return workspace.gap
 
 
 def _advance_boxes(a, move_a, b, move_b):

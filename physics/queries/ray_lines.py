@@ -1,6 +1,6 @@
 """A ray against lines and rounded hulls: segments from both sides, the links of a chain from the front, capsules."""
 
-from physics.ccd.linear import MISS, cast_on_polygon, sweep_circles
+from physics.ccd.closed_form import MISS, cast_on_polygon, sweep_circles
 from physics.collision.clipping import ALL_EDGES, edge_normal
 from physics.collision.hulls import collide_hull_circle, edge_gap
 from physics.jit import subkernel

@@ -5,7 +5,7 @@ Source of the cell walk: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1
 
 import math
 
-from physics.ccd.linear import MISS, sweep_circle_polygon, sweep_circles
+from physics.ccd.closed_form import MISS, sweep_circle_polygon, sweep_circles
 from physics.collision.clipping import ALL_EDGES
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel

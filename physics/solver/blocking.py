@@ -10,7 +10,7 @@ import numpy as np
 from physics.collision.approach import closing_speed
 from physics.collision.detect import detect
 from physics.dynamics.integrate import place_shapes
-from physics.dynamics.sleep import in_order
+from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC
 from physics.tables.counters import SOLVER_ROWS

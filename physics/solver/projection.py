@@ -13,12 +13,12 @@ from physics.tables.step_state import stage
 
 
 @subkernel
-def push(body, x, y, anchor_x, anchor_y, rotation):
+def push(x, y, anchor_x, anchor_y, rotation, body_inout):
     """Change a body's velocity by an impulse (x, y) at an arm from its centre of mass [px]."""
-    body.vx += body.inverse_mass * x
-    body.vy += body.inverse_mass * y
+    body_inout.vx += body_inout.inverse_mass * x
+    body_inout.vy += body_inout.inverse_mass * y
     if rotation:
-        body.angular_velocity += body.inverse_inertia * (anchor_x * y - anchor_y * x)
+        body_inout.angular_velocity += body_inout.inverse_inertia * (anchor_x * y - anchor_y * x)
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
@@ -73,8 +73,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
             impulse = max(c.normal_impulse + change, 0.0)
             change = impulse - c.normal_impulse
             c.normal_impulse = impulse
-            push(a, -change * nx, -change * ny, ax, ay, rotation)
-            push(b, change * nx, change * ny, bx, by, rotation)
+            push(-change * nx, -change * ny, ax, ay, rotation, a)
+            push(change * nx, change * ny, bx, by, rotation, b)
             if friction and c.friction > 0.0:
                 work_inout[TANGENT_ROWS] += 1
                 tx = -ny
@@ -93,8 +93,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
                 impulse = max(-limit, min(limit, c.tangent_impulse + change))
                 change = impulse - c.tangent_impulse
                 c.tangent_impulse = impulse
-                push(a, -change * tx, -change * ty, ax, ay, rotation)
-                push(b, change * tx, change * ty, bx, by, rotation)
+                push(-change * tx, -change * ty, ax, ay, rotation, a)
+                push(change * tx, change * ty, bx, by, rotation, b)
             if separation < 0.0:
                 share = -separation / inverse_masses
                 x = share * nx

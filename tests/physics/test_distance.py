@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, collide, distance
-from physics.proximity.gjk import AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_room, walk_to_nearest
+from physics.proximity.gjk import AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_workspace, walk_to_nearest
 from physics.proximity.separation import separate
 from physics.queries.pair_distance import gjk_steps
 from tests.oracles import hulls
@@ -22,7 +22,7 @@ def room_for(points):
 
 def gap_of(a, b, room=None, start=(0, 0)):
     """(separation, normal, point on A, point on B) of two outlines, by the kernel."""
-    room = new_gap_room() if room is None else room
+    room = new_gap_workspace() if room is None else room
     found = separate(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, *start, room)
     gap = room.gap
     assert room.state[CAPPED] == 0
@@ -50,7 +50,7 @@ def check_certificates(a, b, room):
 
 def fuzz(seed, pairs, slimmest):
     """C13: random pairs; returns the share of hits and the rounds of those that are apart."""
-    rng, room, hits, rounds = np.random.default_rng(seed), new_gap_room(), 0, []
+    rng, room, hits, rounds = np.random.default_rng(seed), new_gap_workspace(), 0, []
     for _ in range(pairs):
         a, b = (
             hulls.random_outline(
@@ -182,7 +182,7 @@ def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
 
 def test_near_parallel_planes_end_soon():
     """C12: no endless loop, no cap."""
-    room, rounds = new_gap_room(), []
+    room, rounds = new_gap_workspace(), []
     for k in range(400):
         tilt = 10.0 ** -(k % 17) * (1 if k % 2 else -1)
         a = np.array([(-10.0, -1.0), (10.0, -1.0), (10.0, 1.0), (-10.0, 1.0)])
@@ -340,7 +340,7 @@ def test_chain_has_only_a_front_and_an_empty_mask_is_nowhere():
 @pytest.mark.parametrize("exponent", [-20, -3, 20])
 def test_scaled_by_a_power_of_two_distances_scale_to_the_bit(exponent):
     rng, scale = np.random.default_rng(9), 2.0**exponent
-    room = new_gap_room()
+    room = new_gap_workspace()
     for _ in range(300 if JIT else 40):
         a, b = (hulls.random_outline(rng, rng.integers(1, 17), 10.0 ** -rng.uniform(0, 3)) for _ in range(2))
         b += rng.uniform(-1.2, 1.2, 2)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
-from physics.ccd.advance import advance, new_advance_room, separate_at
-from physics.ccd.rotational import new_turning_room, sweep_turning
+from physics.ccd.advance import advance, new_advance_workspace, separate_at
+from physics.ccd.rotational import new_rotational_workspace
+from physics.ccd.rotational_pairs import sweep_rotational
 from physics.jit import kernel
 from physics.shapes.library import Library
 from physics.shapes.rows import rounding_of
@@ -111,7 +112,7 @@ def random_motion(rng):
 @pytest.mark.parametrize("seed", range(3))
 def test_turning_hulls_meet_where_dense_sampling_sees_it(seed):
     """Never later than the first sample that overlaps, and at a separation of 0, however they turn."""
-    rng, room, hits = np.random.default_rng(seed), new_advance_room(), 0
+    rng, room, hits = np.random.default_rng(seed), new_advance_workspace(), 0
     for _ in range(120 if JIT else 8):
         outlines = [
             hulls.random_outline(rng, rng.integers(1, 10), 10.0 ** -rng.uniform(0, 3), rng.uniform(0.5, 3))
@@ -208,7 +209,7 @@ def test_bounds_that_grow_as_they_turn():
 @kernel
 def sweep(geometry, bodies, shapes, motions, slack, one_way, room, work_inout):
     """Row 0 against row 1."""
-    return sweep_turning(geometry, bodies, shapes, motions, 0, 1, slack, one_way, room, work_inout)
+    return sweep_rotational(geometry, bodies, shapes, motions, 0, 1, slack, one_way, room, work_inout)
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
@@ -221,7 +222,7 @@ def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
         s["body_row"] = row
     bodies["smallest_half"] = mover.smallest_half
     motions = np.array([motion, motion_b], np.float64)
-    found = sweep(library.tables, bodies, shapes, motions, slack, True, new_turning_room(), work)
+    found = sweep(library.tables, bodies, shapes, motions, slack, True, new_rotational_workspace(), work)
     assert work[CAP_HITS] == 0 and work[GJK_ITERATIONS] >= 0
     return found
 
