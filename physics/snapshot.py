@@ -201,6 +201,7 @@ def restore(world, taken):
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
     world.rebuild_proxies()
+    world.queries.seen = ()
 
 
 def _islands_apart(islands) -> dict:

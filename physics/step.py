@@ -137,3 +137,4 @@ def finish(world, state):
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.tell_contacts(*state.told)
+    world.steps += 1

@@ -87,7 +87,7 @@ class World(Environment):
         self.touching, self.sensing = Pairs(), Pairs()
         # What the last step told.
         self.tell_contacts(self.manifolds)
-        self.queries, self.events = QueryIndex(), Events()
+        self.queries, self.events, self.steps = QueryIndex(), Events(), 0
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
 

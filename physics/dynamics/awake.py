@@ -115,6 +115,15 @@ class Awake:
         self.order = np.argsort(owners, kind="stable")
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
 
+    def is_known(self, bodies, shapes) -> bool:
+        """Whether the lists are those of these tables."""
+        return not self.stale and self.known == (len(bodies), len(shapes))
+
+    def may_move(self, bodies, before) -> np.ndarray:
+        """Body rows that may stand elsewhere than where those of `before` were awake, a step ago or since."""
+        stirred = rows_of(bodies, np.array(self.stirred, np.int64))
+        return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, stirred[stirred >= 0]]))
+
     def shapes_of(self, rows) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
         first, counts = self.starts[rows], self.starts[rows + 1] - self.starts[rows]

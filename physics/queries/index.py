@@ -2,7 +2,8 @@
 
 The structure is as the last step left it. What has moved out of its box since then, was added, or was pushed there by
 the step itself is listed as loose and looked at one by one, so an answer is always that of a look at every shape.
-Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies.
+Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies that
+may have moved.
 """
 
 import numpy as np
@@ -16,10 +17,17 @@ ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates arou
 
 
 @kernel
-def same_poses(bodies, poses_inout):
-    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3). O(bodies), a line of memory each."""
+def same_poses(
+    # read
+    rows,
+    bodies,
+    # write
+    poses_inout,
+):
+    """Whether no body of these rows has moved since; writes what it sees. poses_inout (bodies, 3). O(rows)."""
     same = True
-    for k in range(len(bodies)):
+    for n in range(len(rows)):
+        k = rows[n]
         b = bodies[k]
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
             same = False
@@ -32,23 +40,24 @@ def same_poses(bodies, poses_inout):
 @kernel
 def find_loose(
     # read
+    rows,
     bodies,
     shapes,
     proxies,
     known,
     # write
-    row_of_slot_out,
+    row_of_slot_inout,
     loose_out,
 ):
-    """List the shape rows that the structure may not find, and write which row each slot stands for (-1: look elsewhere).
+    """List those of the shape rows that the structure may not find, and write which row each slot stands for (-1: look
+    elsewhere).
 
     A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
-    the number of loose rows; those of quarantined bodies are neither. O(shapes).
+    the number of loose rows; those of quarantined bodies are neither. O(rows).
     """
-    for slot in range(len(row_of_slot_out)):
-        row_of_slot_out[slot] = -1
     found = 0
-    for row in range(len(shapes)):
+    for n in range(len(rows)):
+        row = rows[n]
         s = shapes[row]
         if bodies[s.body_row].quarantined:
             continue
@@ -63,9 +72,9 @@ def find_loose(
                 and p.lower_y <= s.min_y
                 and p.upper_y >= s.max_y
             )
-        if held:
-            row_of_slot_out[s.proxy] = row
-        else:
+        if s.proxy >= 0:
+            row_of_slot_inout[s.proxy] = row if held else -1
+        if not held:
             loose_out[found] = row
             found += 1
     return found
@@ -110,7 +119,9 @@ class QueryIndex:
 
     def __init__(self):
         self.work = np.zeros(len(COUNTERS), np.int64)
-        self.seen = ()  # what the loose rows were found for: other tables or a step make it stale
+        self.seen = ()  # what everything was looked at for: other tables make it stale
+        self.step = -1  # the step after which it was last brought up to date
+        self.awake = np.zeros(0, np.int64)  # body rows that were awake then
         self.poses = np.zeros((0, 3))
         self.row_of_slot = np.zeros(0, np.int64)
         self.loose = self.rows = np.zeros(0, np.int64)
@@ -128,29 +139,39 @@ class QueryIndex:
         self.refresh(world)
 
     def refresh(self, world):
-        """Bring AABBs and loose rows up to date; where nothing has changed since the last time, that is all that is found."""
-        bodies, shapes = world.bodies, world.shapes
-        if len(self.poses) != len(bodies):
-            self.poses = np.full((len(bodies), 3), np.nan)
-        # A step makes new events; shapes that come, go or come back from quarantine take and leave places.
-        seen = (world.events, world.pairs, world.broadphase, len(shapes), world._next_shape, len(world.pairs.free))
-        same = len(seen) == len(self.seen) and all(
-            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen)
+        """Bring AABBs and loose rows up to date.
+
+        After a step of a world with sleeping that is what was awake before or after it, moved by itself or was touched;
+        else it is everything. Where nothing has moved since the last time, that is all that is found.
+        """
+        bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
+        seen = (pairs, world.broadphase, len(bodies), len(shapes), world._next_shape, len(pairs.free), pairs.everything)
+        known = len(seen) == len(self.seen) and all(
+            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen, strict=True)
         )
-        if same_poses(bodies, self.poses) and same:
+        some = known and awake.sleeping and awake.is_known(bodies, shapes) and world.steps - self.step <= 1
+        rows = awake.may_move(bodies, self.awake) if some else np.arange(len(bodies))
+        if not known:
+            self._grow(bodies, shapes, pairs)
+        if same_poses(rows, bodies, self.poses) and known and world.steps == self.step:
             return
-        self.seen = seen
-        rows = np.arange(len(shapes))
-        add_missing_rasters(world.library, rows, bodies, shapes, 0.0)
-        refresh_aabbs(rows, world.library.tables, bodies, shapes)
-        proxies = world.pairs.proxies
-        if len(self.row_of_slot) != len(proxies):
-            self.row_of_slot, self.slots = np.zeros(len(proxies), np.int64), np.zeros(len(proxies), np.int64)
+        self.seen, self.step, self.awake = seen, world.steps, awake.bodies
+        of = awake.shapes_of(rows) if some else np.arange(len(shapes))
+        if some:
+            of = np.union1d(of, self.loose[: self.loose_count])
+        else:
+            self.row_of_slot[:] = -1
+        add_missing_rasters(world.library, of, bodies, shapes, 0.0)
+        refresh_aabbs(of, world.library.tables, bodies, shapes)
+        self.loose_count = find_loose(
+            of, bodies, shapes, pairs.proxies, int(not pairs.everything), self.row_of_slot, self.loose
+        )
+
+    def _grow(self, bodies, shapes, pairs):
+        self.poses = np.full((len(bodies), 3), np.nan)
+        self.row_of_slot, self.slots = np.zeros(len(pairs.proxies), np.int64), np.zeros(len(pairs.proxies), np.int64)
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
-        self.loose_count = find_loose(
-            bodies, shapes, proxies, int(not world.pairs.everything), self.row_of_slot, self.loose
-        )
 
     def rows_in(self, world, lower, upper) -> np.ndarray:
         """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it; none quarantined."""
