@@ -6,12 +6,12 @@ Celeste and TowerFall Physics, 2018.
 
 import numpy as np
 
-from physics.character.ground import FREE, STEEPEST_CLIMB
+from physics.character.ground import FREE
 from physics.character.meet import box_corners, meet_hull, place_outline
 from physics.character.ride import give_way, note_feet, ride_bodies, take_back
 from physics.character.shift import carried_by, carry_riders, shift
 from physics.character.solids import aabb_of, in_shape, is_box, is_loose, round_half_up
-from physics.character.workspace import character_of, find_own_rows, new_scratch, walk_for
+from physics.character.workspace import character_of, find_own_rows, new_scratch, row_of, walk_for
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, refresh_aabbs
 from physics.tables.body import KINEMATIC, STATIC
@@ -111,17 +111,12 @@ def carry_one(me, row, along_x, box, walk_inout):
         c.squeezed = True
 
 
-@kernel
-def carry_and_push(
-    # read
-    movers,
-    # write
-    walk_inout,
-):
+@subkernel
+def carry_and_push(movers, walk_inout):
     """Let every kinematic solid that moved by whole pixels carry its riders and push what it ran into.
 
     movers: shape rows, in order, of which those count that keep to the pixel grid: upright boxes, tiles, masks; the
-    rest is left to ride_bodies. walk_inout: a Walk for the step. O(moved solids · characters).
+    rest is left to ride_bodies. O(moved solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -142,38 +137,80 @@ def carry_and_push(
 
 
 @kernel
-def greatest_motion(bodies):
-    """How far [px] any point of a body that is not static was moved by the step, at most. O(bodies)."""
+def carry_all(
+    # read
+    movers,
+    # write
+    walk_inout,
+):
+    """Carry, push and press characters by all that moved in the step. movers: see carry_and_push."""
+    carry_and_push(movers, walk_inout)
+    ride_bodies(walk_inout)
+    give_way(walk_inout)
+
+
+@subkernel
+def motion_of(b):
+    """How far [px] any point of a body was moved by the step, at most."""
+    turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
+    return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
+
+
+@kernel
+def find_stirred(
+    # read
+    bodies,
+    shapes,
+    characters,
+    pairs,
+    count,
+    # write
+    stirred_out,
+):
+    """Flag the characters that ride something, or stand on a belt, or that something which is not static may have met.
+
+    pairs (count, 2): shape rows out of the broad phase; stirred_out (characters,). Returns how far [px] any point of
+    what is ridden or may have been met was moved by the step. O(pairs · log characters).
+    """
     most = 0.0
-    for row in range(len(bodies)):
-        b = bodies[row]
-        if b.kind == STATIC or b.quarantined:
-            continue
-        turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
-        most = max(most, abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn)
+    for me in range(len(characters)):
+        c = characters[me]
+        stirred_out[me] = c.riding >= 0 or c.belt != 0.0
+        row = row_of(bodies, c.riding) if c.riding >= 0 else -1
+        if row >= 0:
+            most = max(most, motion_of(bodies[row]))
+    for k in range(count):
+        for side in range(2):
+            me = character_of(characters, shapes[pairs[k, side]].body)
+            b = bodies[shapes[pairs[k, 1 - side]].body_row]
+            if me >= 0 and b.kind != STATIC:
+                stirred_out[me] = True
+                most = max(most, motion_of(b))
     return most
 
 
 def near_characters(world, dt) -> tuple[np.ndarray, np.ndarray]:
     """(near, spans) of a Walk for a step of dt [s]: the shape rows that may carry, push or stop each character."""
-    rows = world.characters.rows
-    world.queries.begin(world)
-    runs = np.abs(rows["belt"]) * dt if world.effects.conveyor else np.zeros(len(rows))
-    # Carried as far as anything moved, or pressed out of it; up and down a slope on the way.
-    reach = 2.0 * greatest_motion(world.bodies) + runs + 8.0
-    climbs = reach * np.minimum(rows["climb"], STEEPEST_CLIMB)
-    lower_x, upper_x = rows["left"] - reach, rows["left"] + rows["width"] + reach
-    lower_y, upper_y = rows["top"] - reach - climbs, rows["top"] + rows["height"] + reach + climbs
-    near = [
-        world.queries.rows_in(world, (left, top), (right, bottom))
-        for left, top, right, bottom in zip(
-            lower_x.tolist(), lower_y.tolist(), upper_x.tolist(), upper_y.tolist(), strict=True
+    rows, pairs = world.characters.rows, world.pairs.rows
+    stirred = np.zeros(len(rows), bool)
+    motion = find_stirred(world.bodies, world.shapes, rows, pairs, len(pairs), stirred)
+    near, spans, start = [], np.zeros((len(rows), 2), np.int64), 0
+    for me in np.flatnonzero(stirred).tolist():
+        if not near:
+            world.queries.begin(world)
+        row = rows[me]
+        # Carried as far as anything moved, or pressed out of it; up and down a slope on the way.
+        reach = 2.0 * motion + abs(float(row["belt"])) * dt + 8.0
+        climb = reach * float(row["climb"])
+        left, top = float(row["left"]), float(row["top"])
+        right, bottom = left + float(row["width"]), top + float(row["height"])
+        found = world.queries.rows_in(
+            world, (left - reach, top - reach - climb), (right + reach, bottom + reach + climb)
         )
-    ]
-    spans = np.zeros((len(rows), 2), np.int64)
-    spans[:, 1] = [len(each) for each in near]
-    spans[1:, 0] = np.cumsum(spans[:-1, 1])
-    return np.concatenate(near), spans
+        near.append(found)
+        spans[me] = start, len(found)
+        start += len(found)
+    return np.concatenate(near) if near else np.zeros(0, np.int64), spans
 
 
 def carry_characters(world, dt):
@@ -189,10 +226,7 @@ def carry_characters(world, dt):
     else:
         note_feet(shapes, characters)
     near, spans = near_characters(world, dt)
-    walk = walk_for(world, near, spans, dt)
-    carry_and_push(np.unique(near), walk)
-    ride_bodies(walk)
-    give_way(walk)
+    carry_all(np.unique(near), walk_for(world, near, spans, dt))
     moved = characters["body"][before != world.bodies[characters["body_row"]][["x", "y"]]]
     if len(moved):
         refresh_aabbs(world.library.tables, world.bodies, world.shapes)

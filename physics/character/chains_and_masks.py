@@ -5,7 +5,6 @@ import math
 from physics.character.ground import BLOCKED, EVEN, FREE, ON_SLOPE, STEEP, allowed_depth, judge, pixels_along
 from physics.character.meet import meet_link, meet_mask, place_outline
 from physics.character.surface import mask_slope
-from physics.character.tiles import is_falling
 from physics.collision.chain_pairs import box_in_body, misses_box
 from physics.collision.chains import link_at
 from physics.jit import subkernel
@@ -14,18 +13,18 @@ from physics.tables.geometry import BLOCK_LINKS
 
 
 @subkernel
-def link_depth(walk, row, link, falling, count, radius):
+def link_depth(walk, row, link, drops, count, radius):
     """(depth [px], normal from the character) of scratch.mine in a link of a chain that holds it, else depth 0.
 
     A character moves by pixels and starts free, so what is deeper than that in a link came from its back, and passes;
-    so does what rises through a level link (falling 0).
+    so does what drops through a level link.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
     link_at(walk.geometry.links, link, b.x, b.y, math.cos(b.angle), math.sin(b.angle), scratch.theirs)
     run = scratch.theirs[1, 0] - scratch.theirs[0, 0]
     rise = scratch.theirs[1, 1] - scratch.theirs[0, 1]
-    if falling == 0 and run > 0.0 and abs(rise) <= 1e-9 * run:
+    if drops and run > 0.0 and abs(rise) <= 1e-9 * run:
         return 0.0, 0.0, 0.0
     most = 1.0 + 2.0 * walk.settings.slop
     if b.kind == KINEMATIC:
@@ -53,7 +52,6 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
         math.sin(b.angle),
     )
     count, radius = place_outline(walk, me, left, top)
-    falling = is_falling(c, way_x, way_y)
     result = FREE
     slope = 0.0
     for block in range(span.blocks):
@@ -64,9 +62,10 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
             link = links[k]
             if misses_box(link.ax, link.ay, link.bx, link.by, low_x, low_y, high_x, high_y):
                 continue
-            depth, nx, ny = link_depth(walk, row, k, falling, count, radius)
+            depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
             allowed = allowed_depth(c, b.kind == KINEMATIC, nx, ny, give, walk.settings.slop)
-            what, rise = judge(c, b.kind, depth - allowed, nx, ny, way_x, way_y)
+            # Open from its back, a link blocks only what leads deeper, like something that moves.
+            what, rise = judge(c, KINEMATIC, depth - allowed, nx, ny, way_x, way_y)
             if what == BLOCKED:
                 return BLOCKED, 0.0
             if what != FREE and what >= result:
@@ -85,7 +84,7 @@ def deepest_link(walk, me, row, left, top):
     best_x = 0.0
     best_y = 0.0
     for k in range(span.offset, span.offset + span.count):
-        depth, nx, ny = link_depth(walk, row, k, 0 if c.drop else 1, count, radius)
+        depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
         if depth > deepest:
             deepest = depth
             best_x = nx

@@ -2,7 +2,7 @@
 
 import math
 
-from physics.character.ground import BLOCKED, FREE, ON_SLOPE, pixels_along
+from physics.character.ground import BLOCKED, FREE, ON_SLOPE, STEEP, pixels_along
 from physics.character.solids import blocked_at
 from physics.jit import subkernel
 
@@ -63,6 +63,17 @@ def is_wedged(walk, me, rows, slope):
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
     return what != FREE
+
+
+@subkernel
+def steep_below(walk, me, rows, slope):
+    """The slope of the ground a character slides down, as far below as that falls on one pixel along; 0: none."""
+    c = walk.characters[me]
+    for drop in range(1, pixels_along(slope) + 1):
+        what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
+        if what != FREE:
+            return found if what == STEEP else 0.0
+    return 0.0
 
 
 @subkernel

@@ -2,7 +2,7 @@
 
 import math
 
-from physics.character.climb import is_wedged
+from physics.character.climb import is_wedged, steep_below
 from physics.character.ground import BLOCKED, FREE, STEEP
 from physics.character.solids import blocked_at
 from physics.character.tiles import on_pixels
@@ -73,13 +73,17 @@ def feel_ground(me, walk_inout):
     """Write whether a character stands, on what, and how that slopes and runs."""
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
+    was_grounded = c.grounded
     c.grounded = what != FREE and (what != STEEP or is_wedged(walk_inout, me, walk_inout.found, slope))
     c.riding = -1
     c.riding_shape = -1
-    c.slope = slope
     c.belt = 0.0
     if what == FREE:
+        # Sliding, it is above its ground for a moment, by less than that goes down on one pixel along.
+        sliding = abs(c.slope) >= 1.0 and not was_grounded
+        c.slope = steep_below(walk_inout, me, walk_inout.found, c.slope) if sliding else 0.0
         return
+    c.slope = slope
     s = walk_inout.shapes[by]
     c.belt = speed_under(walk_inout, by, c.left + 0.5 * c.width, float(c.top + c.height))
     if s.kind == TILES and c.is_box:

@@ -4,7 +4,7 @@ import math
 
 from physics.character.chains_and_masks import deepest_link
 from physics.character.climb import drop_onto
-from physics.character.ground import FEET
+from physics.character.ground import FEET, is_walkable
 from physics.character.meet import meet, place_outline
 from physics.character.push import foot_of
 from physics.character.shift import GIVE, carried_by, carry_riders, shift
@@ -98,7 +98,7 @@ def step_down(me, walk_inout):
         settle(me, walk_inout)
 
 
-@kernel
+@subkernel
 def ride_bodies(walk_inout):
     """Carry characters by what the point under their feet was moved by, in whole pixels with the remainder kept.
 
@@ -138,12 +138,15 @@ def move_out(me, row, walk_inout):
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
-    along_x = 1 if abs(nx) > abs(ny) else 0
+    along_x = 1 if abs(nx) > abs(ny) and not is_walkable(c, nx, ny) else 0
     into = nx if along_x == 1 else ny
     speed = walk_inout.bodies[body_row].vx
     if along_x == 1 and depth > 0.5 * walk_inout.settings.slop and speed * into < 0.0:
         c.push_vx = speed  # what is pressed against it need not stop: it goes along
-    pixels = math.ceil(depth - 1.5 * FEET)
+    too_deep = depth - 1.5 * FEET
+    if along_x == 0 and abs(nx) > ny > 0.0:
+        too_deep /= ny  # up a slope steeper than 45 degrees, which he walks
+    pixels = math.ceil(too_deep)
     if pixels <= 0:
         return
     way = -pixels if into > 0.0 else pixels
@@ -155,7 +158,7 @@ def move_out(me, row, walk_inout):
     c.wedged = c.wedged or (depth > GIVE and ny > abs(nx))
 
 
-@kernel
+@subkernel
 def give_way(walk_inout):
     """Move characters out of the loose bodies that came into them; squeezed are those in deep, and not less so.
 

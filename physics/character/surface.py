@@ -1,8 +1,8 @@
 """The slope of a mask's surface: a line over the outer corners of its staircase of pixels.
 
-Of a straight edge drawn in pixels that line has the edge's own slope wherever the edge's pattern repeats within the
-columns that are looked at, and is within 1 / columns² of it elsewhere (the upper hull of a digital line holds the best
-fractions below its slope: Klette and Rosenfeld, Digital straightness, 2004).
+Of a straight edge drawn in pixels that line has the edge's own slope where the pattern of the staircase repeats within
+half the columns that are looked at, and one within 0.03 rad of it elsewhere: the sides of the hull of a digital line are
+fractions near its slope (Klette and Rosenfeld, Digital straightness, 2004).
 """
 
 import math

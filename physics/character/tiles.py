@@ -7,10 +7,11 @@ import math
 
 from physics.character.ground import BLOCKED, EVEN, FREE, ON_SLOPE, STEEP, judge, pixels_along
 from physics.character.meet import manifold_depth, place_outline
-from physics.collision.clipping import ALL_EDGES
-from physics.collision.hulls import collide_hull_circle, collide_hulls
+from physics.collision.clipping import ALL_EDGES, edge_normal
+from physics.collision.hulls import collide_hull_circle, collide_hulls, is_free_corner
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import subkernel
+from physics.proximity.gjk import support
 from physics.tables.body import KINEMATIC
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE
 
@@ -80,7 +81,21 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 
 @subkernel
-def meet_tile(scratch, count, radius, corners, edges, deepest):
+def faces_of(mine, count, theirs, corners, edges):
+    """The edges of an outline that may push it out of a slope tile: those that meet a corner that sticks out.
+
+    edges: bits as tile_at gives them. The others meet a corner where the ground goes on: its neighbour has the surface.
+    """
+    found = 0xFFFF0000
+    for k in range(count):
+        nx, ny = edge_normal(mine, count, k)
+        if is_free_corner(edges, corners, support(theirs, corners, -nx, -ny)):
+            found |= 1 << k
+    return found
+
+
+@subkernel
+def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     """(depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free edges."""
     mine = scratch.mine
     if count == 1:
@@ -88,7 +103,12 @@ def meet_tile(scratch, count, radius, corners, edges, deepest):
             scratch.theirs, corners, edges, 0.0, mine[0, 0], mine[0, 1], radius
         )
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny
-    facing = edges_facing(mine, count, edges) if corners == 4 else ALL_EDGES
+    if edges == ALL_EDGES:
+        facing = edges
+    elif is_slope:
+        facing = faces_of(mine, count, scratch.theirs, corners, edges)
+    else:
+        facing = edges_facing(mine, count, edges)
     points = collide_hulls(
         scratch.theirs, corners, 0.0, edges, mine, count, radius, facing, 0.0, 0.0, deepest, scratch.manifold
     )
@@ -147,7 +167,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
                         scratch.theirs,
                     )
                 depth, nx, ny = meet_tile(
-                    scratch, count, radius, corners, edges if attempt == 0 else ALL_EDGES, deepest
+                    scratch, count, radius, corners, edges if attempt == 0 else ALL_EDGES, deepest, cell.kind == SLOPE
                 )
                 met = met or depth > 0.0
                 what, rise = judge(c, b.kind, depth - walk.settings.slop, nx, ny, way_x, way_y)

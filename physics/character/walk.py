@@ -7,7 +7,7 @@ impulses that it gives to the bodies it runs into and lands on.
 
 import math
 
-from physics.character.climb import drop_onto, is_wedged, slide_gently, slide_of, way_aside
+from physics.character.climb import drop_onto, is_wedged, slide_gently, slide_of, steep_below, way_aside
 from physics.character.feel import feel
 from physics.character.ground import FREE, STEEP, STEEPEST_CLIMB
 from physics.character.push import knock, shove
@@ -100,12 +100,18 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
     c = walk_inout.characters[me]
     rows = walk_inout.found
     settings = walk_inout.settings
-    c.remainder_y += dy
+    slides = False
+    way = dy
+    if dy > 0.0 and not c.grounded and abs(c.slope) >= 1.0:
+        slope = steep_below(walk_inout, me, rows, c.slope)
+        slides = abs(slope) >= 1.0
+        aside, down = slide_of(slope)
+        way = dy * down if slides else dy
+    c.remainder_y += way
     pixels = whole_pixels(c.remainder_y)
     c.remainder_y -= pixels
     direction = 1 if pixels > 0 else -1
     left = abs(pixels)
-    slides = False
     asides = 0  # since it last went down
     while left > 0:
         what, by, slope = blocked_at(walk_inout, me, rows, c.left, c.top + direction, 0, direction, 0.0)
@@ -121,6 +127,8 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
             if not slide_gently(me, rows, left, slope, walk_inout):
                 moved_out[3] = 1
             return
+        if what == STEEP:
+            c.slope = slope
         if what == STEEP and not slides:
             slides = True
             aside, down = slide_of(slope)
