@@ -115,10 +115,10 @@ def in_mask(walk, me, row, left, top, way_x, way_y):
     if not is_ground:
         return BLOCKED, 0.0
     if abs(slope) > c.climb + EVEN:
-        return BLOCKED if way_x != 0 else STEEP, slope
+        return STEEP, slope
     if way_x == 0:
         return ON_SLOPE, slope
-    for lift in range(1, pixels_along(slope) + 1):
+    for lift in range(1, pixels_along(abs(slope) + 0.5) + 1):
         if not is_in_mask(walk, me, row, left, top - lift):
             return ON_SLOPE, slope
     return BLOCKED, 0.0

@@ -9,17 +9,23 @@ from physics.jit import subkernel
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Pixels up by which a character is free one pixel to a side, where it is on ground of a slope; -1: by too many."""
+    """Pixels up by which a character is free one pixel to a side, where it is on ground of a slope; -1: by too many.
+
+    Half a pixel more than the slope rises: for corners of outlines on steps of pixels. Not onto what only holds it by
+    ground that is too steep.
+    """
     c = walk.characters[me]
-    most = pixels_along(slope)
+    most = pixels_along(abs(slope) + 0.5)
     lift = 1
+    before = ON_SLOPE
     while lift <= most:
         what, by, rise = blocked_at(walk, me, rows, c.left + direction, c.top - lift, direction, -lift, 0.0)
         if what == FREE:
-            return lift
+            return lift if before == ON_SLOPE else -1
         if what == BLOCKED:
             return -1
-        most = max(most, pixels_along(rise))
+        most = max(most, pixels_along(rise)) if what == ON_SLOPE else most
+        before = what
         lift += 1
     return -1
 
@@ -31,7 +37,7 @@ def way_aside(walk, me, rows, direction):
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
     if what == FREE:
         return 0, -1, 0.0
-    if what == BLOCKED:
+    if what != ON_SLOPE:
         return -1, by, 0.0
     return rise_onto(walk, me, rows, direction, slope), -1, slope
 

@@ -101,5 +101,5 @@ def feel(me, walk_inout):
     c.wall = 0
     for side in range(-1, 2, 2):
         what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
-        if what == BLOCKED and c.wall == 0:
+        if (what == BLOCKED or what == STEEP) and c.wall == 0:
             c.wall = side

@@ -29,14 +29,12 @@ def is_walkable(c, nx, ny):
 
 
 @subkernel
-def verdict(c, nx, ny, way_x):
-    """(what ground is to a character that moved by way_x pixels along x into it, rise per px to the right)."""
+def verdict(c, nx, ny):
+    """(what ground is to a character that is in it, rise per px to the right); (nx, ny): unit, into the ground."""
     if ny <= SHEER:
         return BLOCKED, 0.0
     slope = nx / ny + 0.0
-    if is_walkable(c, nx, ny):
-        return ON_SLOPE, slope
-    return BLOCKED if way_x != 0 else STEEP, slope
+    return ON_SLOPE if is_walkable(c, nx, ny) else STEEP, slope
 
 
 @subkernel
@@ -57,4 +55,4 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
         return FREE, 0.0
     if kind != STATIC and nx * way_x + ny * way_y <= (LEADS_DEEPER if kind == DYNAMIC else EVEN):
         return FREE, 0.0
-    return verdict(c, nx, ny, way_x)
+    return verdict(c, nx, ny)

@@ -4,7 +4,7 @@ A character has a mass but no velocity that a solver could change: it is moved b
 impulses of its own, and the solver leaves out what lies under its feet: to that it is a weight and no ceiling.
 """
 
-from physics.character.ground import BLOCKED
+from physics.character.ground import BLOCKED, STEEP
 from physics.character.meet import meet, place_outline
 from physics.character.solids import in_shape
 from physics.character.workspace import row_of
@@ -54,7 +54,7 @@ def shove(me, direction, speed, walk_inout):
         if b.kind != DYNAMIC or b.inverse_mass == 0.0:
             continue
         what, slope = in_shape(walk_inout, me, row, c.left + direction, c.top, direction, 0, 0.0)
-        if what == BLOCKED:
+        if what == BLOCKED or what == STEEP:
             left = push_body(me, row, direction, speed, left, walk_inout)
 
 

@@ -1,8 +1,8 @@
 """The slope of a mask's surface: a line over the outer corners of its staircase of pixels.
 
 Of a straight edge drawn in pixels that line has the edge's own slope where the pattern of the staircase repeats within
-half the columns that are looked at, and one within 0.03 rad of it elsewhere: the sides of the hull of a digital line are
-fractions near its slope (Klette and Rosenfeld, Digital straightness, 2004).
+half the columns that are looked at, and one within 0.03 rad of it elsewhere: the sides of the hull of a digital line
+are fractions near its slope (Klette and Rosenfeld, Digital straightness, 2004).
 """
 
 import math

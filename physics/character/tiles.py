@@ -29,13 +29,11 @@ def is_falling(c, way_x, way_y):
 
 
 @subkernel
-def slope_tile_verdict(c, slope, depth, way_x):
+def slope_tile_verdict(c, slope, depth):
     """What a slope tile is to a box that reaches `depth` [px] below its surface."""
     if depth > pixels_along(slope):
         return BLOCKED  # its side, or from inside
-    if abs(slope) <= c.climb + EVEN:
-        return ON_SLOPE
-    return BLOCKED if way_x != 0 else STEEP
+    return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
 
 
 @subkernel
@@ -69,7 +67,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
                 rise = max(cell.left + start * (cell.right - cell.left), cell.left + end * (cell.right - cell.left))
                 depth = top + c.height - (grid_y + (line + 1) * size - rise * size)
                 if depth > 0.0:
-                    what = slope_tile_verdict(c, cell.right - cell.left, depth, way_x)
+                    what = slope_tile_verdict(c, cell.right - cell.left, depth)
                     if what == BLOCKED:
                         return BLOCKED, 0.0
                     if what >= result:
