@@ -1,4 +1,4 @@
-"""Characters among the bodies of worlds that stack: they stand on them, are carried, push by impulses, weigh, are squeezed."""
+"""Characters among the bodies of worlds that stack: they stand on them, are carried, push, weigh, are squeezed."""
 
 import math
 
@@ -286,7 +286,7 @@ def test_a_piston_pushes_a_crate_and_the_crate_him_until_a_wall_squeezes_him():
 def test_a_crate_that_is_raised_under_a_ceiling_squeezes_him():
     world = place()
     lift = world.add_body(Polygon.box(96, 16), position=(0, -100), kind="kinematic")
-    crate = world.add_body(Polygon.box(32, 32), position=(0, -124))
+    world.add_body(Polygon.box(32, 32), position=(0, -124))
     hero = standing(world, 0, -140)
     world.add_body(Polygon.box(200, 20), position=(0, -190), kind="static")
     lift.velocity = (0.0, -30.0)
