@@ -63,6 +63,8 @@ WALK = (
     "remainder_x",
     "remainder_y",
     "riding",
+    "riding_shape",
+    "slope",
     "grounded",
     "squeezed",
     "pressed",

@@ -14,9 +14,9 @@ from physics.broadphase.pair_list import broad_phase
 from physics.broadphase.rectangles import motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
 from physics.character.carry import bear_characters, carry_characters
+from physics.character.workspace import new_scratch
 from physics.collision.detect import detect_ended, detect_piles, sense
 from physics.collision.dispatch import NarrowPhase
-from physics.collision.manifold import new_workspace
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
 from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
@@ -91,7 +91,7 @@ class Workspace:
         self.narrow = NarrowPhase(effects.response, one_way, boxes_only)
         self.sensing = NarrowPhase(False, one_way, boxes_only) if stacks and effects.sensors else None
         self.sweep = Sweeper() if effects.continuous else None
-        self.walk, self.walked = new_workspace(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
+        self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None
         self.sets = [ContactSet()] if stacks else [PushSet()]
         self.islands = IslandWorkspace() if effects.sleeping else None
@@ -120,6 +120,7 @@ def begin(world, dt) -> StepState:
     state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
     state.dt, state.substeps, state.broadphase = dt, world.substeps, world.broadphase
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
+    state.queries, state.steps = world.queries, world.steps
     state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers
     state.manifolds, state.anchors = world.manifolds, world.anchors
     state.touching, state.sensing = world.touching, world.sensing

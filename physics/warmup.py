@@ -142,6 +142,7 @@ def _character(effects, solver):
     world.add_body(Polygon.box(40, 8), position=(0, 20), kind="kinematic", velocity=(60.0, 0.0))
     hero = Character(world, Polygon.box(8, 8), (0, 0))
     hero.move(1.0, 20.0)
+    hero.blocked(1, 1)
     world.step()
 
 

@@ -18,8 +18,8 @@ from physics.effects import Effects
 from physics.environment import Environment
 from physics.events import Events, Pairs
 from physics.profile import Profile
-from physics.queries import casts as queries
 from physics.queries.index import QueryIndex
+from physics.questions import Questions
 from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes.filter import Filter
 from physics.shapes.library import Library
@@ -35,7 +35,7 @@ from physics.tables.table import Table
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
-class World(Environment):
+class World(Environment, Questions):
     """Bodies, the effects they live under, and the stages that those call for.
 
     effects: what the scene calls for, None = Effects.rigid_bodies(); broadphase: an instance of one of the four, None =
@@ -369,36 +369,7 @@ class World(Environment):
         if "integrate_velocities" not in self.stages and not self.stacks:
             raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
 
-    # --- queries, digest, snapshot -------------------------------------------------------------------------------------
-
-    def ray_cast(self, origin, translation, filter=Filter.ALL, sensors=False):
-        """The first shape that a ray [px] meets, or None. See queries.RayHit."""
-        hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
-        return hits[0] if hits else None
-
-    def ray_cast_all(self, origin, translation, filter=Filter.ALL, sensors=False) -> list:
-        """All shapes that a ray [px] meets, nearest first, ties by shape id."""
-        return queries.ray_cast_all(self, origin, translation, filter, sensors)
-
-    def shape_cast(self, shape, pose, translation, filter=Filter.ALL):
-        """The first shape that a shape at a pose (x, y, angle) touches on its way by a translation [px], or None."""
-        return queries.shape_cast(self, shape, pose, translation, filter)
-
-    def closest(self, point, filter=Filter.ALL):
-        """(body, point, distance) [px] of the nearest point of any shape, or None."""
-        return queries.closest(self, point, filter)
-
-    def overlap(self, shape, pose, filter=Filter.ALL) -> list[Body]:
-        """The bodies that a shape at a pose (x, y, angle) overlaps, in the order of ids."""
-        return queries.overlap(self, shape, pose, filter)
-
-    def query_aabb(self, lower, upper) -> list[Body]:
-        """The bodies with a shape whose AABB meets the closed box [px], in the order of ids."""
-        return queries.query_aabb(self, lower, upper)
-
-    def query_point(self, point) -> list[Body]:
-        """The bodies with a shape that holds the point [px], in the order of ids."""
-        return queries.query_point(self, point)
+    # --- digest, snapshot -------------------------------------------------------------------------------------
 
     def rebuild_proxies(self):
         """Give every shape a new place in the broad phase: the tables were replaced."""

@@ -1,24 +1,29 @@
 """Character: the player's body in a platformer, in whole pixels, with everything a jump needs to know."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from physics import checks
-from physics.character.walk import walk
+from physics.character.ground import STEEPEST_CLIMB
+from physics.character.walk import is_stopped, walk
+from physics.character.workspace import find_own_rows, walk_for
 from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Polygon
+from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.filter import Filter
 from physics.shapes.mask import PixelMask
 
 LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
 PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
+MAX_SLOPE = 0.8  # [rad] 46 degrees: a slope of one tile per tile is walked
 
 
 class Moved(NamedTuple):
     """What a move did: pixels moved, and what the character touches after it.
 
-    wall: -1 solid at its left, 1 at its right; slope: rise per px to the right (1: 45 degrees up to the right) of tiles;
+    grounded: on ground that it walks, or that holds it; wall: -1 solid at its left, 1 at its right; slope: rise of the
+    ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides down;
     riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
     move, and left no room.
     """
@@ -33,59 +38,85 @@ class Moved(NamedTuple):
 
 
 class Character:
-    """A box that is moved by the game, in whole pixels, and never overlaps a solid.
+    """A convex shape that is moved by the game, in whole pixels, and never overlaps a solid.
 
-    shape: Polygon.box without angle, or Bounds, of at least one pixel; position: centre of the box [px]; pushable:
-    solid for other characters, and pushed by them. Its `body` is kinematic: contacts and sensors see it. Needs the
-    effect response.
+    shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel; a box without angle
+    is rounded to whole pixels. position [px]: of the shape's origin; the left side and the feet of the shape stand on
+    the pixel grid, at the place nearest to it. max_slope [rad], 0 <= max_slope < pi/2: flatter ground is walked up and
+    down, steeper ground is slid down; whatever the ground is made of, up to 86 degrees. pushable: solid for other
+    characters, and pushed by them. Its `body` is kinematic: contacts and sensors see it. Needs the effect response.
     With the effect stacking, dynamic bodies stop and carry it too, and it acts on them: mass [density px2], None = that
-    of its box at density 1, weighs on what it stands on and lands with momentum; push [px/s2], None = PUSH: what it
+    of its shape at density 1, weighs on what it stands on and lands with momentum; push [px/s2], None = PUSH: what it
     runs into is accelerated towards the speed of its moves by at most mass * push. Raises TypeError, ValueError.
     """
 
-    def __init__(self, world, shape, position, filter=Filter.ALL, pushable=False, user=None, mass=None, push=None):
+    def __init__(
+        self,
+        world,
+        shape,
+        position,
+        filter=Filter.ALL,
+        pushable=False,
+        user=None,
+        mass=None,
+        push=None,
+        max_slope=MAX_SLOPE,
+    ):
         world._needs("response", "a Character", True)
         world._needs("stacking", "mass", mass is not None)
         world._needs("stacking", "push", push is not None)
-        width, height = _size(shape)
+        shape, min_x, min_y, max_x, max_y = _outline(shape)
         x, y = checks.position("position", position)
         pushable = checks.flag("pushable", pushable)
-        mass = float(width * height) if mass is None else checks.number("mass", mass, above=0.0)
+        mass = shape.mass_of(1.0).mass if mass is None else checks.number("mass", mass, above=0.0)
         push = PUSH if push is None else checks.number("push", push, low=0.0)
+        max_slope = checks.number("max_slope", max_slope, low=0.0)
+        if max_slope >= math.pi / 2:
+            raise ValueError(f"max_slope must be >= 0 and < pi/2 rad (got {max_slope!r})")
+        width, height = math.ceil(max_x - min_x), math.ceil(max_y - min_y)
+        offset_x, offset_y = -min_x, height - max_y
+        left, top = math.floor(x - offset_x + 0.5), math.floor(y - offset_y + 0.5)
         self.world = world
-        left, top = int(np.floor(x - width / 2.0 + 0.5)), int(np.floor(y - height / 2.0 + 0.5))
         self.body = world.add_body(
-            Polygon.box(width, height),
-            position=(left + width / 2.0, top + height / 2.0),
+            shape,
+            position=(left + offset_x, top + offset_y),
             kind="kinematic",
             filter=filter,
             continuous="off",
             user=user,
         )
         row = world.characters.append()
-        row["body"], row["riding"], row["pushable"] = self.body.id, -1, pushable
+        row["body"], row["shape"], row["pushable"] = self.body.id, int(world.shapes["id"][-1]), pushable
         row["left"], row["top"], row["width"], row["height"] = left, top, width, height
+        row["offset_x"], row["offset_y"], row["is_box"] = offset_x, offset_y, _is_upright_box(shape)
         row["previous_left"], row["previous_top"] = left, top
-        row["mass"], row["push"], row["pressed"] = mass, push, -1
+        row["mass"], row["push"] = mass, push
+        row["climb"] = min(math.tan(max_slope), STEEPEST_CLIMB)
+        row["riding"] = row["riding_shape"] = row["pressed"] = -1
 
     @property
     def _row(self):
         rows = self.world.characters.rows
-        at = np.flatnonzero(rows["body"] == self.body.id)
-        if not len(at):
+        at = int(np.searchsorted(rows["body"], self.body.id))
+        if at == len(rows) or rows["body"][at] != self.body.id:
             raise KeyError(f"character {self.body.id} was removed")
-        return int(at[0])
+        return at
 
     @property
     def position(self):
-        """Centre of the box [px]."""
+        """Of the shape's origin [px]."""
         return self.body.position
 
     @property
     def previous(self):
-        """Centre of the box before the last move [px], for interpolated drawing."""
+        """Of the shape's origin before the last move [px], for interpolated drawing."""
         row = self.world.characters.rows[self._row]
-        return (row["previous_left"] + row["width"] / 2.0, row["previous_top"] + row["height"] / 2.0)
+        return (float(row["previous_left"] + row["offset_x"]), float(row["previous_top"] + row["offset_y"]))
+
+    @property
+    def max_slope(self):
+        """The steepest ground that it walks [rad]."""
+        return math.atan(self.world.characters.rows["climb"][self._row])
 
     @property
     def surface_speed(self):
@@ -96,13 +127,13 @@ class Character:
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx, dy, drop=False) -> Moved:
-        """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError."""
+        """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
+
+        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope.
+        """
         world = self.world
         world._unlocked()
-        dx, dy = (
-            checks.number("dx", dx, high=LONGEST, low=-LONGEST),
-            checks.number("dy", dy, high=LONGEST, low=-LONGEST),
-        )
+        dx, dy = _checked_move(dx, dy)
         drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
@@ -110,25 +141,7 @@ class Character:
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])
         rows["squeezed"][me] = False
-        world.refresh_character_rows()
-        room = world.workspace.rows_for(2 * len(world.shapes))
-        walk(
-            world.library.tables,
-            world.shapes,
-            me,
-            dx,
-            dy,
-            int(world.effects.stacking),
-            int(world.effects.rotation),
-            world.dt,
-            world.tolerances.slop,
-            world.workspace.walk,
-            room[: len(world.shapes)],
-            room[len(world.shapes) : 2 * len(world.shapes)],
-            rows,
-            world.bodies,
-            world.workspace.walked,
-        )
+        walk(me, dx, dy, self._walk(me, dx, dy), world.workspace.walked)
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
         return Moved(
@@ -141,41 +154,100 @@ class Character:
             squeezed,
         )
 
+    def blocked(self, dx, dy) -> bool:
+        """Whether a move by (dx, dy) [px] would be stopped at once: not one pixel of it is free, along x or along y.
+
+        What can be pushed by walking, and slopes that it walks or slides down, stop nothing. Changes nothing. Raises
+        TypeError, ValueError, RuntimeError.
+        """
+        self.world._unlocked()
+        dx, dy = _checked_move(dx, dy)
+        me = self._row
+        return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
+
+    def _walk(self, me, dx, dy):
+        """What the kernels of a move read and write, with the shapes near its way."""
+        world = self.world
+        rows = world.characters.rows
+        find_own_rows(world.bodies, world.shapes, rows)
+        row = rows[me]
+        # As far as it may go, slide or be lifted, and around what it may push.
+        reach = abs(dx) + abs(dy) + 5.0
+        climb = STEEPEST_CLIMB + float(row["climb"]) * abs(dx)
+        if rows["pushable"].any():
+            reach += float(max(rows["width"][rows["pushable"]].max(), rows["height"][rows["pushable"]].max()))
+        left, top = float(row["left"]), float(row["top"])
+        world.queries.begin(world)
+        near = world.queries.rows_in(
+            world,
+            (left - reach, top - reach - climb),
+            (left + float(row["width"]) + reach, top + float(row["height"]) + reach + climb),
+        )
+        spans = np.zeros((len(rows), 2), np.int64)
+        spans[:, 1] = len(near)
+        return walk_for(world, rows, near, spans, world.dt)
+
     def move_to(self, position):
-        """Put the centre of the box at the nearest whole pixel to a position [px], without walking there."""
+        """Put the shape's origin at the place on the pixel grid nearest to a position [px], without walking there."""
         self.world._unlocked()
         x, y = checks.position("position", position)
         row = self.world.characters.rows[self._row : self._row + 1]
-        row["left"] = row["previous_left"] = np.floor(x - row["width"] / 2.0 + 0.5)
-        row["top"] = row["previous_top"] = np.floor(y - row["height"] / 2.0 + 0.5)
+        row["left"] = row["previous_left"] = np.floor(x - row["offset_x"] + 0.5)
+        row["top"] = row["previous_top"] = np.floor(y - row["offset_y"] + 0.5)
         for name in ("remainder_x", "remainder_y", "carry_x", "carry_y", "push_vx", "push_vy", "belt", "belt_x"):
             row[name] = 0.0
-        row["riding"], row["grounded"], row["squeezed"] = -1, False, False
-        self.body.move_to(
-            (float(row["left"][0] + row["width"][0] / 2.0), float(row["top"][0] + row["height"][0] / 2.0))
-        )
+        row["riding"] = row["riding_shape"] = -1
+        row["grounded"], row["squeezed"] = False, False
+        self.body.move_to((float(row["left"][0] + row["offset_x"][0]), float(row["top"][0] + row["offset_y"][0])))
 
     def remove(self):
         """Remove the character and its body."""
         self.world.remove_body(self.body)
 
 
-def _size(shape):
-    wrapped = isinstance(shape, Bounds) and isinstance(shape.shape, (Polygon, PixelMask))
-    shape = shape.shape if wrapped else shape
-    if wrapped and isinstance(shape, PixelMask) and shape.bounds is not None:
-        left, top, right, bottom = shape.bounds
-    elif (
+def _checked_move(dx, dy):
+    return (checks.number("dx", dx, high=LONGEST, low=-LONGEST), checks.number("dy", dy, high=LONGEST, low=-LONGEST))
+
+
+def _is_upright_box(shape):
+    return (
         isinstance(shape, Polygon)
+        and shape.radius == 0.0
         and len(shape.points) == 4
-        and all(len(set(each)) == 2 for each in zip(*shape.points))
-    ):
-        left, top, right, bottom = *map(min, zip(*shape.points)), *map(max, zip(*shape.points))
-    else:
+        and all(len(set(each)) == 2 for each in zip(*shape.points, strict=True))
+    )
+
+
+def _extent(shape):
+    """(left, top, right, bottom) [px] of a shape at its origin, or None of what has no inside."""
+    if isinstance(shape, PixelMask):
+        return shape.bounds
+    points = (shape.center,) if isinstance(shape, Circle) else shape.points
+    xs, ys = zip(*points, strict=True)
+    radius = shape.radius
+    return min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius
+
+
+def _outline(shape):
+    """(the shape of a character's body, left, top, right, bottom [px] of it at its origin)."""
+    wrapped = isinstance(shape, Bounds)
+    inner = shape.shape if wrapped else shape
+    if not isinstance(inner, (Polygon, Circle, Capsule)) and not (wrapped and isinstance(inner, PixelMask)):
         raise TypeError(
-            f"shape must be Polygon.box(width, height) without angle, or Bounds of a sprite (got {shape!r})"
+            "shape must be a Polygon, Circle or Capsule, or Bounds of one of them or of a sprite's PixelMask "
+            f"(got {shape!r})"
         )
+    extent = _extent(inner)
+    if extent is None:
+        raise ValueError(f"shape must have solid pixels (got {shape!r})")
+    left, top, right, bottom = map(float, extent)
+    if not (wrapped or _is_upright_box(inner)):
+        if min(right - left, bottom - top) < 1.0:
+            raise ValueError(f"shape must be at least 1 x 1 px (got {right - left} x {bottom - top})")
+        return inner, left, top, right, bottom
     width, height = round(right - left), round(bottom - top)
     if width < 1 or height < 1:
         raise ValueError(f"shape must be at least 1 x 1 px (got {right - left} x {bottom - top})")
-    return width, height
+    x, y = 0.5 * (left + right), 0.5 * (top + bottom)
+    box = Polygon.box(width, height, (x, y))
+    return box, x - width / 2.0, y - height / 2.0, x + width / 2.0, y + height / 2.0

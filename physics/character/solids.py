@@ -1,37 +1,22 @@
 """What stands in the way of a character: tiles, static and kinematic shapes, characters that can be pushed, bodies.
 
-A character's box has whole pixels, so touching never blocks and overlapping by one pixel does. Boxes that are not
-turned are rounded to whole pixels as they are drawn; everything else blocks where it overlaps by more than the slop.
-In a world that stacks, bodies that are pushed or turn are loose: they may have come into the character by themselves,
-so they block only a way that leads deeper, and nothing ever traps it.
+A character that is a box meets boxes that are not turned, and tiles, on the pixel grid, as they are drawn: touching
+never blocks, one shared pixel does. Everything else is met as it is: what stands still blocks what would be deeper in
+it than the slop. What is pushed, or moves and is no box, is loose: it may have come into the character by itself, so
+it blocks only a way that leads deeper, and nothing that moves ever traps it.
 """
 
 import math
 
-from physics.collision.chains import collide_link_hull, link_at
-from physics.collision.circles import collide_polygon_circle
-from physics.collision.clipping import ALL_EDGES
-from physics.collision.hulls import collide_hulls
-from physics.collision.mask_hulls import collide_mask_polygon
+from physics.character.chains_and_masks import in_chain, in_mask
+from physics.character.ground import BLOCKED, FREE, allowed_depth, judge
+from physics.character.meet import meet, meet_hull, place_outline
+from physics.character.tiles import in_tile_outlines, in_tiles, on_pixels
+from physics.character.workspace import character_of
 from physics.jit import subkernel
-from physics.math2d import turned
-from physics.shapes.placement import aabb_at, corners_at, raster_at, rounding, snapped
-from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE
-from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, MASK, SEGMENT, TILES
-
-FREE, BLOCKED, ON_SLOPE = 0, 1, 2
-FEET = 0.5  # [px] feet stand on the whole pixel nearest to a loose surface
-LEADS_DEEPER = 0.02  # cosine between a way and a normal from which the way leads into what it meets
-
-
-@subkernel
-def character_of(characters, body_row):
-    """The row of the character whose body stands in that row, or -1."""
-    for k in range(len(characters)):
-        if characters[k].body_row == body_row:
-            return k
-    return -1
+from physics.shapes.placement import aabb_at, corners_at
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
+from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON, TILES
 
 
 @subkernel
@@ -53,306 +38,165 @@ def round_half_up(value):
 
 
 @subkernel
-def in_tiles(geometry, grid, grid_x, grid_y, left, top, width, height, falling):
-    """FREE, BLOCKED or ON_SLOPE for a box of pixels in a tile grid. falling: 1 when it moved here from one pixel above."""
-    g = geometry.grids[grid]
-    size = g.tile_size
-    first_column = max(0, math.floor((left - grid_x) / size))
-    last_column = min(g.columns - 1, math.ceil((left + width - grid_x) / size) - 1)
-    first_row = max(0, math.floor((top - grid_y) / size))
-    last_row = min(g.rows - 1, math.ceil((top + height - grid_y) / size) - 1)
-    result = FREE
-    for row in range(first_row, last_row + 1):
-        for column in range(first_column, last_column + 1):
-            cell = geometry.cells[g.offset + row * g.columns + column]
-            if cell.kind == EMPTY:
-                continue
-            if cell.kind == ONE_WAY:
-                if falling == 1 and top + height - 1 <= grid_y + row * size:
-                    return BLOCKED
-            elif cell.kind == SLOPE:
-                tile_x = grid_x + column * size
-                start = max(0.0, (left - tile_x) / size)
-                end = min(1.0, (left + width - tile_x) / size)
-                rise = max(cell.left + start * (cell.right - cell.left), cell.left + end * (cell.right - cell.left))
-                if top + height > grid_y + (row + 1) * size - rise * size:
-                    result = ON_SLOPE
-            else:
-                return BLOCKED
-    return result
-
-
-@subkernel
-def in_chain(geometry, chain, x, y, angle, min_x, min_y, max_x, max_y, falling, slop, scratch):
-    """FREE, BLOCKED or ON_SLOPE for a box of pixels, its corners in scratch.b, against a chain whose body is at a pose.
-
-    A box moves by pixels and starts free, so what is deeper than one pixel behind a link came from its back, and passes;
-    so does what rises through a level link. A link that climbs by no more than it runs can be walked up.
-    """
-    links = geometry.links
-    span = geometry.chains[chain]
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
-    result = FREE
-    for k in range(span.offset, span.offset + span.count):
-        link_at(links, k, x, y, cosine, sine, scratch.a)
-        ax = scratch.a[0, 0]
-        ay = scratch.a[0, 1]
-        run = scratch.a[1, 0] - ax
-        rise = scratch.a[1, 1] - ay
-        if (
-            max(ax, ax + run) < min_x
-            or min(ax, ax + run) > max_x
-            or max(ay, ay + rise) < min_y
-            or min(ay, ay + rise) > max_y
-        ):
-            continue
-        carries = run > 0.0 and abs(rise) <= run
-        if carries and abs(rise) <= 1e-9 * run and falling == 0:
-            continue
-        points = collide_link_hull(links[k], scratch.a, scratch.b, 4, 0.0, 0.0, 0.0, False, scratch.points)
-        for point in range(points):
-            if -1.0 - 2.0 * slop <= scratch.points[5 + 4 * point] < -slop:
-                if not carries or abs(rise) <= 1e-9 * run:
-                    return BLOCKED
-                result = ON_SLOPE
-    return result
-
-
-@subkernel
-def box_corners(left, top, width, height, corners_out):
-    """The corners of a box of pixels."""
-    corners_out[0, 0] = left
-    corners_out[0, 1] = top
-    corners_out[1, 0] = left + width
-    corners_out[1, 1] = top
-    corners_out[2, 0] = left + width
-    corners_out[2, 1] = top + height
-    corners_out[3, 0] = left
-    corners_out[3, 1] = top + height
-
-
-@subkernel
-def is_loose(bodies, shapes, row):
-    """Whether a shape, in a world that stacks, is tested as what it is and not on the pixel grid: it is pushed, or turns."""
-    s = shapes[row]
-    b = bodies[s.body_row]
-    if b.kind == DYNAMIC:
+def is_box(walk, row):
+    """Whether a shape stands in the world as a box along the axes."""
+    s = walk.shapes[row]
+    if s.kind == BOUNDS:
         return True
-    if b.kind != KINEMATIC or s.kind == TILES or s.kind == CHAIN:
+    if s.kind != POLYGON or s.radius != 0.0:
         return False
+    b = walk.bodies[s.body_row]
+    count = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
+    return is_upright_box(walk.scratch.theirs, count)
+
+
+@subkernel
+def is_loose(walk, row):
+    """Whether a shape is pushed, or moves in another way than by the whole pixels of its box or of its drawing."""
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
+    if b.kind != KINEMATIC:
+        return b.kind == DYNAMIC
+    if b.angular_velocity != 0.0:
+        return True
+    return s.kind != TILES and s.kind != MASK and not (b.angle == 0.0 and is_box(walk, row))
+
+
+@subkernel
+def aabb_of(walk, row):
+    """AABB [px] of a shape where its body is now."""
+    b = walk.bodies[walk.shapes[row].body_row]
+    return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
+
+
+@subkernel
+def in_character(walk, me, other, left, top):
+    """Whether the character, its box at a pixel, would be in another one."""
+    c = walk.characters[me]
+    o = walk.characters[other]
+    hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
+    if not hit or (c.is_box and o.is_box):
+        return hit
+    count, radius = place_outline(walk, me, left, top)
+    depth, nx, ny, x, y = meet(walk, o.shape_row, count, radius)
+    return depth > walk.settings.slop
+
+
+@subkernel
+def in_upright_box(walk, me, row, left, top):
+    """Whether a character that is a box shares a pixel with an upright box, as it is drawn."""
+    c = walk.characters[me]
+    min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
-        b.angle != 0.0
-        or b.angular_velocity != 0.0
-        or s.kind == CIRCLE
-        or s.kind == CAPSULE
-        or s.kind == SEGMENT
-        or s.kind == MASK
+        left < round_half_up(max_x)
+        and round_half_up(min_x) < left + c.width
+        and top < round_half_up(max_y)
+        and round_half_up(min_y) < top + c.height
     )
 
 
 @subkernel
-def meet(geometry, bodies, shapes, row, left, top, width, height, scratch):
-    """(depth [px], normal from the box, the middle of what touches) of a box of pixels and a loose shape; depth 0: apart."""
-    s = shapes[row]
-    b = bodies[s.body_row]
-    box_corners(left, top, width, height, scratch.b)
-    if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
-        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(
-            scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius
-        )
-        return -separation if hit and separation < 0.0 else 0.0, nx, ny, x, y
-    if s.kind == MASK:
-        mask = raster_at(geometry, s.geometry, b.angle)
-        r = geometry.rasters[mask]
-        area, nx, ny, x, y, separation, first = collide_mask_polygon(
-            geometry.rasters,
-            geometry.words,
-            mask,
-            snapped(b.x, r.origin_x),
-            snapped(b.y, r.origin_y),
-            scratch.b,
-            4,
-            ALL_EDGES,
-            scratch.depths,
-        )
-        return -separation if area > 0 else 0.0, -nx, -ny, x, y
-    count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, scratch.a)
-    points = collide_hulls(
-        scratch.b,
-        4,
-        0.0,
-        ALL_EDGES,
-        scratch.a,
-        count,
-        rounding(shapes, row),
-        ALL_EDGES,
-        0.0,
-        0.0,
-        math.inf,
-        scratch.points,
-    )
-    if points == 0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    depth = -scratch.points[5]
-    x = scratch.points[3]
-    y = scratch.points[4]
-    if points == 2:
-        depth = max(depth, -scratch.points[9])
-        x = 0.5 * (x + scratch.points[7])
-        y = 0.5 * (y + scratch.points[8])
-    return max(depth, 0.0), scratch.points[1], scratch.points[2], x, y
+def in_hull(walk, me, row, left, top, way_x, way_y, give):
+    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull, a disc or a mask that turns."""
+    c = walk.characters[me]
+    b = walk.bodies[walk.shapes[row].body_row]
+    count, radius = place_outline(walk, me, left, top)
+    loose = is_loose(walk, row)
+    if b.kind == KINEMATIC and not loose:
+        corners = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
+        for k in range(corners):
+            for axis in range(2):
+                walk.scratch.theirs[k, axis] = on_pixels(b.kind, walk.scratch.theirs[k, axis])
+        depth, nx, ny, x, y = meet_hull(walk.scratch, count, radius, corners, 0.0)
+    else:
+        depth, nx, ny, x, y = meet(walk, row, count, radius)
+    return judge(c, b.kind, depth - allowed_depth(c, loose, nx, ny, give, walk.settings.slop), nx, ny, way_x, way_y)
 
 
 @subkernel
-def in_loose(geometry, bodies, shapes, row, left, top, width, height, way_x, way_y, give, slop, scratch):
-    """FREE, BLOCKED or ON_SLOPE for a box of pixels that moved by (way_x, way_y) pixels to where it meets a loose shape.
+def in_shape(walk, me, row, left, top, way_x, way_y, give):
+    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character against one shape.
 
-    give [px]: how much deeper it may be. What lies under it and is no steeper than 45 degrees can be walked up.
+    left, top: pixel of its box; way_x, way_y: pixels it moved to get there; give [px]: how deep it may be in what is
+    loose, beyond its feet.
     """
-    depth, nx, ny, x, y = meet(geometry, bodies, shapes, row, left, top, width, height, scratch)
-    under = ny > abs(nx)
-    allowed = give + (FEET if under else 0.1 * slop)
-    if depth <= allowed or nx * way_x + ny * way_y <= LEADS_DEEPER:
-        return FREE
-    return ON_SLOPE if under else BLOCKED
-
-
-@subkernel
-def in_shape(geometry, bodies, shapes, characters, row, left, top, width, height, falling, slop, scratch):
-    """FREE, BLOCKED or ON_SLOPE for a box of pixels against one shape."""
-    s = shapes[row]
-    b = bodies[s.body_row]
+    c = walk.characters[me]
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
     if s.kind == TILES:
-        return in_tiles(geometry, s.geometry, b.x, b.y, left, top, width, height, falling)
-    other = character_of(characters, s.body_row)
-    if other >= 0:
-        c = characters[other]
-        hit = left < c.left + c.width and c.left < left + width and top < c.top + c.height and c.top < top + height
-        return BLOCKED if hit else FREE
-    box_corners(left, top, width, height, scratch.b)
-    if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
-        hit, nx, ny, x, y, separation, feature = collide_polygon_circle(
-            scratch.b, 4, ALL_EDGES, b.x + u, b.y + v, s.radius
-        )
-        return BLOCKED if hit and separation < -slop else FREE
-    if s.kind == MASK:
-        mask = raster_at(geometry, s.geometry, b.angle)
-        r = geometry.rasters[mask]
-        area, nx, ny, x, y, separation, first = collide_mask_polygon(
-            geometry.rasters,
-            geometry.words,
-            mask,
-            snapped(b.x, r.origin_x),
-            snapped(b.y, r.origin_y),
-            scratch.b,
-            4,
-            ALL_EDGES,
-            scratch.depths,
-        )
-        return BLOCKED if area > 0 else FREE
+        if c.is_box:
+            return in_tiles(walk, me, row, left, top, way_x, way_y)
+        return in_tile_outlines(walk, me, row, left, top, way_x, way_y)
+    if b.kind == KINEMATIC:
+        other = character_of(walk.characters, s.body)
+        if other >= 0:
+            return BLOCKED if in_character(walk, me, other, left, top) else FREE, 0.0
     if s.kind == CHAIN:
-        return in_chain(
-            geometry, s.geometry, b.x, b.y, b.angle, left, top, left + width, top + height, falling, slop, scratch
-        )
-    count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, scratch.a)
-    radius = rounding(shapes, row)
-    if radius == 0.0 and is_upright_box(scratch.a, count):
-        min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, b.x, b.y, b.angle)
-        hit = (
-            left < round_half_up(max_x)
-            and round_half_up(min_x) < left + width
-            and top < round_half_up(max_y)
-            and round_half_up(min_y) < top + height
-        )
-        return BLOCKED if hit else FREE
-    points = collide_hulls(
-        scratch.a, count, radius, ALL_EDGES, scratch.b, 4, 0.0, ALL_EDGES, 0.0, 0.0, math.inf, scratch.points
-    )
-    for k in range(points):
-        if scratch.points[5 + 4 * k] < -slop:
-            return BLOCKED
-    return FREE
+        return in_chain(walk, me, row, left, top, way_x, way_y, give)
+    if s.kind == MASK and b.kind != DYNAMIC and b.angular_velocity == 0.0:
+        return in_mask(walk, me, row, left, top, way_x, way_y)
+    upright = b.kind == STATIC or (b.kind == KINEMATIC and b.angle == 0.0 and b.angular_velocity == 0.0)
+    if c.is_box and upright and is_box(walk, row):
+        return BLOCKED if in_upright_box(walk, me, row, left, top) else FREE, 0.0
+    return in_hull(walk, me, row, left, top, way_x, way_y, give)
 
 
 @subkernel
-def gather_solids(geometry, bodies, shapes, characters, me, without, piles, left, top, right, bottom, rows_out):
-    """List the shape rows that may block a character within a rectangle [px]. Returns their number. O(shapes).
+def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
+    """List the shape rows near a character that may block it within so many pixels of its box: their number, then they.
 
-    me: row of the character; without: body row that does not count (the platform that moves it), or -1; piles: 1 in a
-    world that stacks: dynamic bodies count. The row of a loose shape is listed as -1 - row.
+    without: body row that does not count (the platform that moves it), or -1. The row of a loose shape is listed as
+    -1 - row. O(rows near).
     """
-    own = characters[me].body_row
-    mine = own
-    membership = 0
-    mask = 0
-    for row in range(len(shapes)):
-        if shapes[row].body_row == mine:
-            membership = shapes[row].membership
-            mask = shapes[row].mask
-            break
+    c = walk.characters[me]
+    own = walk.shapes[c.shape_row]
+    left = c.left - reach_x
+    right = c.left + c.width + reach_x
+    top = c.top - reach_up
+    bottom = c.top + c.height + reach_down
+    first = walk.spans[me, 0]
     found = 0
-    for row in range(len(shapes)):
-        s = shapes[row]
-        b = bodies[s.body_row]
+    for k in range(first, first + walk.spans[me, 1]):
+        row = walk.near[k]
+        s = walk.shapes[row]
+        b = walk.bodies[s.body_row]
         if (
             s.sensor
-            or s.body_row == own
+            or s.body_row == c.body_row
             or s.body_row == without
-            or (b.kind == DYNAMIC and piles == 0)
+            or (b.kind == DYNAMIC and walk.settings.stacking == 0)
             or b.quarantined
-            or (s.membership & mask) == 0
-            or (s.mask & membership) == 0
+            or (s.membership & own.mask) == 0
+            or (s.mask & own.membership) == 0
         ):
             continue
-        other = character_of(characters, s.body_row)
-        if other >= 0 and not characters[other].pushable:
+        other = character_of(walk.characters, s.body) if b.kind == KINEMATIC else -1
+        if other >= 0 and not walk.characters[other].pushable:
             continue
-        min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, b.x, b.y, b.angle)
+        min_x, min_y, max_x, max_y = aabb_of(walk, row)
         # One pixel around: boxes are rounded to the grid.
         if min_x - 1.0 < right and max_x + 1.0 > left and min_y - 1.0 < bottom and max_y + 1.0 > top:
-            rows_out[found] = -1 - row if piles == 1 and is_loose(bodies, shapes, row) else row
             found += 1
-    return found
+            rows_out[found] = -1 - row if other < 0 and is_loose(walk, row) else row
+    rows_out[0] = found
 
 
 @subkernel
-def blocked_at(
-    geometry,
-    bodies,
-    shapes,
-    characters,
-    rows,
-    count,
-    left,
-    top,
-    width,
-    height,
-    way_x,
-    way_y,
-    falling,
-    give,
-    slop,
-    scratch,
-):
-    """(what is in the way of a box of pixels: FREE, BLOCKED or ON_SLOPE; the shape row that is, or -1). A wall wins.
+def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
+    """(what a place is to a character: FREE, STEEP, ON_SLOPE or BLOCKED; the shape row that is, or -1; its slope).
 
-    rows from gather_solids; way_x, way_y: pixels it moved to get here; falling: 1 when one-way tiles hold it; give [px]:
-    how deep it may be in what is loose.
+    rows: as gather lists them; the rest as in in_shape. What counts most decides.
     """
     result = FREE
     by = -1
-    for k in range(count):
+    slope = 0.0
+    for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]
-        if rows[k] < 0:
-            what = in_loose(geometry, bodies, shapes, row, left, top, width, height, way_x, way_y, give, slop, scratch)
-        else:
-            what = in_shape(geometry, bodies, shapes, characters, row, left, top, width, height, falling, slop, scratch)
+        what, rise = in_shape(walk, me, row, left, top, way_x, way_y, give)
         if what == BLOCKED:
-            return BLOCKED, row
-        if what == ON_SLOPE:
-            result = ON_SLOPE
+            return BLOCKED, row, 0.0
+        if what != FREE and what >= result:
+            result = what
             by = row
-    return result, by
+            slope = rise
+    return result, by, slope

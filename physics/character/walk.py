@@ -7,12 +7,14 @@ impulses that it gives to the bodies it runs into and lands on.
 
 import math
 
+from physics.character.climb import drop_onto, is_wedged, slide_gently, slide_of, steep_below, way_aside
+from physics.character.feel import feel
+from physics.character.ground import FREE, STEEP, STEEPEST_CLIMB
 from physics.character.push import knock, shove
-from physics.character.solids import BLOCKED, FREE, ON_SLOPE, blocked_at, character_of, gather_solids
+from physics.character.solids import blocked_at, gather
+from physics.character.workspace import character_of, settle
 from physics.jit import kernel, subkernel
-from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.geometry import SLOPE
-from physics.tables.shape import CHAIN, TILES
+from physics.tables.body import DYNAMIC
 
 
 @subkernel
@@ -22,441 +24,176 @@ def whole_pixels(remainder):
 
 
 @subkernel
-def settle(me, characters_inout, bodies_inout):
-    """Put the character's body where its box is."""
-    c = characters_inout[me]
-    b = bodies_inout[c.body_row]
-    b.x = c.left + 0.5 * c.width
-    b.y = c.top + 0.5 * c.height
-    b.center_x = b.x
-    b.center_y = b.y
+def way_for_pushed(by, direction, walk_inout):
+    """(the character whose shape blocks a way sideways, or -1; pixels up by which it gives way one pixel, or -1)."""
+    other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
+    if other < 0:
+        return -1, -1
+    gather(walk_inout, other, -1, 2.0, 1.0 + STEEPEST_CLIMB, 1.0, walk_inout.found_beside)
+    lift, blocks, slope = way_aside(walk_inout, other, walk_inout.found_beside, direction)
+    return other, lift
 
 
 @subkernel
-def push_along(geometry, shapes, pushed, direction, piles, slop, scratch, rows_inout, characters_inout, bodies_inout):
-    """Move a pushable character one pixel sideways if nothing is in its way. Returns whether it moved."""
-    c = characters_inout[pushed]
-    at = c.left + direction
-    count = gather_solids(
-        geometry,
-        bodies_inout,
-        shapes,
-        characters_inout,
-        pushed,
-        -1,
-        piles,
-        float(at - 1),
-        float(c.top - 1),
-        float(at + c.width + 1),
-        float(c.top + c.height + 1),
-        rows_inout,
-    )
-    what, by = blocked_at(
-        geometry,
-        bodies_inout,
-        shapes,
-        characters_inout,
-        rows_inout,
-        count,
-        at,
-        c.top,
-        c.width,
-        c.height,
-        direction,
-        0,
-        0,
-        0.0,
-        slop,
-        scratch,
-    )
-    if what == FREE:
-        c.left = at
-        settle(pushed, characters_inout, bodies_inout)
-        return True
-    if what == ON_SLOPE:
-        what, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows_inout,
-            count,
-            at,
-            c.top - 1,
-            c.width,
-            c.height,
-            direction,
-            -1,
-            0,
-            0.0,
-            slop,
-            scratch,
-        )
-        if what == FREE:
-            c.left = at
-            c.top -= 1
-            settle(pushed, characters_inout, bodies_inout)
-            return True
-    return False
-
-
-@subkernel
-def step_sideways(
-    geometry,
-    shapes,
-    me,
-    direction,
-    follow,
-    piles,
-    slop,
-    scratch,
-    rows,
-    count,
-    pushed_rows,
-    characters_inout,
-    bodies_inout,
-):
-    """One pixel along x: up a slope, down one when `follow` is 1, pushing characters that can be. Returns whether it moved."""
-    c = characters_inout[me]
-    at = c.left + direction
-    what, by = blocked_at(
-        geometry,
-        bodies_inout,
-        shapes,
-        characters_inout,
-        rows,
-        count,
-        at,
-        c.top,
-        c.width,
-        c.height,
-        direction,
-        0,
-        0,
-        0.0,
-        slop,
-        scratch,
-    )
-    if what == BLOCKED:
-        other = character_of(characters_inout, shapes[by].body_row)
+def step_sideways(me, direction, follow, walk_inout):
+    """One pixel along x: up a slope, down one when `follow` is 1, pushing characters. Returns whether it moved."""
+    c = walk_inout.characters[me]
+    rows = walk_inout.found
+    lift, by, slope = way_aside(walk_inout, me, rows, direction)
+    if lift < 0 and by >= 0:
         # Only from beside: what stands on a crate, or carries it, does not push it.
-        if other < 0 or not push_along(
-            geometry, shapes, other, direction, piles, slop, scratch, pushed_rows, characters_inout, bodies_inout
-        ):
+        other, its_lift = way_for_pushed(by, direction, walk_inout)
+        if other < 0 or its_lift < 0:
             return False
-        what, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows,
-            count,
-            at,
-            c.top,
-            c.width,
-            c.height,
-            direction,
-            0,
-            0,
-            0.0,
-            slop,
-            scratch,
-        )
-        if what == BLOCKED:
-            return False
-    if what == ON_SLOPE:
-        what, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows,
-            count,
-            at,
-            c.top - 1,
-            c.width,
-            c.height,
-            direction,
-            -1,
-            0,
-            0.0,
-            slop,
-            scratch,
-        )
-        if what != FREE:
-            return False
-        c.top -= 1
+        pushed = walk_inout.characters[other]
+        pushed.left += direction
+        pushed.top -= its_lift
+        settle(other, walk_inout)
+        lift, by, slope = way_aside(walk_inout, me, rows, direction)
+    if lift < 0:
+        return False
+    if lift > 0:
+        c.top -= lift
+        c.slope = slope
     elif follow == 1:
-        below, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows,
-            count,
-            at,
-            c.top + 1,
-            c.width,
-            c.height,
-            0,
-            1,
-            1,
-            0.0,
-            slop,
-            scratch,
-        )
-        if below == FREE:
-            below, by = blocked_at(
-                geometry,
-                bodies_inout,
-                shapes,
-                characters_inout,
-                rows,
-                count,
-                at,
-                c.top + 2,
-                c.width,
-                c.height,
-                0,
-                1,
-                1,
-                0.0,
-                slop,
-                scratch,
-            )
-            # From the last pixel of a slope it is one more down to the flat.
-            if below == ON_SLOPE or (below == BLOCKED and c.slope != 0.0):
-                c.top += 1
-    c.left = at
+        drop, onto = drop_onto(walk_inout, me, rows, c.left + direction, c.slope)
+        c.top += drop
+        if onto != 0.0:
+            c.slope = onto
+    c.left += direction
     return True
 
 
 @subkernel
-def slope_under(geometry, bodies, shapes, row, x, y):
-    """Rise per px to the right of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
-    s = shapes[row]
-    b = bodies[s.body_row]
-    g = geometry.grids[s.geometry]
-    column = math.floor((x - b.x) / g.tile_size)
-    line = math.floor((y - b.y) / g.tile_size)
-    if not (0 <= column < g.columns and 0 <= line < g.rows):
-        return 0.0
-    cell = geometry.cells[g.offset + line * g.columns + column]
-    return cell.right - cell.left if cell.kind == SLOPE else 0.0
+def walk_along(me, dx, follow, walk_inout, moved_out):
+    """The part of a move along x [px]: in steps, and with what is pushed by impulses."""
+    c = walk_inout.characters[me]
+    c.remainder_x += dx
+    pixels = whole_pixels(c.remainder_x)
+    c.remainder_x -= pixels
+    direction = 1 if pixels > 0 else -1
+    for _ in range(abs(pixels)):
+        if not step_sideways(me, direction, follow, walk_inout):
+            c.remainder_x = 0.0
+            moved_out[2] = 1
+            break
+    settings = walk_inout.settings
+    if settings.stacking == 1 and settings.dt > 0.0 and dx != 0.0:
+        # Also when the next pixel is not due yet: what is pushed keeps its speed between two pixels.
+        shove(me, 1 if dx > 0.0 else -1, dx / settings.dt, walk_inout)
 
 
 @subkernel
-def speed_under(geometry, bodies, shapes, row, x, y):
-    """Speed [px/s] at which a surface runs to the right under a point [px] that stands on it.
-
-    Source: engines' conveyor materials (Box2D's tangent speed): along the tangent, to the right on a floor.
-    """
-    s = shapes[row]
-    if s.kind != CHAIN:
-        return s.surface_speed
-    b = bodies[s.body_row]
-    cosine = math.cos(b.angle)
-    sine = math.sin(b.angle)
-    span = geometry.chains[s.geometry]
-    nearest = math.inf
-    speed = s.surface_speed
-    for k in range(span.offset, span.offset + span.count):
-        link = geometry.links[k]
-        ax = b.x + cosine * link.ax - sine * link.ay
-        ay = b.y + sine * link.ax + cosine * link.ay
-        bx = b.x + cosine * link.bx - sine * link.by
-        by = b.y + sine * link.bx + cosine * link.by
-        if ax <= x < bx:
-            off = abs(ay + (by - ay) * (x - ax) / (bx - ax) - y)
-            if off < nearest:
-                nearest = off
-                speed = link.surface_speed if link.friction >= 0.0 else s.surface_speed
-    return speed
+def slide_pixel(me, slope, walk_inout):
+    """One pixel aside, down a slope that a character is on and does not walk. Returns whether it was free."""
+    c = walk_inout.characters[me]
+    side = -1 if slope > 0.0 else 1
+    what, by, rise = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
+    if what == FREE:
+        c.left += side
+    return what == FREE
 
 
 @subkernel
-def feel(geometry, shapes, me, slop, scratch, rows, count, characters_inout, bodies_inout):
-    """Write what the character touches: ground, slope, what carries it and how fast its surface runs, walls."""
-    c = characters_inout[me]
-    falling = 0 if c.drop else 1
-    what, by = blocked_at(
-        geometry,
-        bodies_inout,
-        shapes,
-        characters_inout,
-        rows,
-        count,
-        c.left,
-        c.top + 1,
-        c.width,
-        c.height,
-        0,
-        1,
-        falling,
-        0.0,
-        slop,
-        scratch,
-    )
-    c.grounded = what != FREE
-    c.riding = -1
-    c.slope = 0.0
-    c.belt = 0.0
-    if what != FREE:
-        c.belt = speed_under(geometry, bodies_inout, shapes, by, c.left + 0.5 * c.width, float(c.top + c.height))
-    if what != FREE and shapes[by].kind == TILES:
-        # The slope under the middle of the feet; at its ends a foot beside it still stands on it.
-        bottom = c.top + c.height + 0.5
-        c.slope = slope_under(geometry, bodies_inout, shapes, by, c.left + 0.5 * c.width, bottom)
-        if c.slope == 0.0:
-            c.slope = slope_under(geometry, bodies_inout, shapes, by, c.left + 0.5, bottom)
-        if c.slope == 0.0:
-            c.slope = slope_under(geometry, bodies_inout, shapes, by, c.left + c.width - 0.5, bottom)
-    if what != FREE and bodies_inout[shapes[by].body_row].kind != STATIC:
-        c.riding = shapes[by].body
-    c.wall = 0
-    for side in range(-1, 2, 2):
-        what, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows,
-            count,
-            c.left + side,
-            c.top,
-            c.width,
-            c.height,
-            side,
-            0,
-            0,
-            0.0,
-            slop,
-            scratch,
-        )
-        if what == BLOCKED and c.wall == 0:
-            c.wall = side
+def fall_or_rise(me, dy, walk_inout, moved_out):
+    """The part of a move along y [px]. On ground too steep to stand on it slides, as far as that leads along it."""
+    c = walk_inout.characters[me]
+    rows = walk_inout.found
+    settings = walk_inout.settings
+    slides = False
+    way = dy
+    if dy > 0.0 and not c.grounded and abs(c.slope) >= 1.0:
+        slope = steep_below(walk_inout, me, rows, c.slope)
+        slides = abs(slope) >= 1.0
+        aside, down = slide_of(slope)
+        way = dy * down if slides else dy
+    c.remainder_y += way
+    pixels = whole_pixels(c.remainder_y)
+    c.remainder_y -= pixels
+    direction = 1 if pixels > 0 else -1
+    left = abs(pixels)
+    asides = 0  # since it last went down
+    while left > 0:
+        what, by, slope = blocked_at(walk_inout, me, rows, c.left, c.top + direction, 0, direction, 0.0)
+        if what == FREE:
+            c.top += direction
+            left -= 1
+            asides = 0
+            continue
+        body = walk_inout.bodies[walk_inout.shapes[by].body_row]
+        if not slides and settings.dt > 0.0 and body.kind == DYNAMIC and (direction < 0 or not c.grounded):
+            knock(me, by, direction, dy / settings.dt, walk_inout)
+        if what == STEEP and abs(slope) < 1.0 and not slides:
+            if not slide_gently(me, rows, left, slope, walk_inout):
+                moved_out[3] = 1
+            return
+        if what == STEEP:
+            c.slope = slope
+        if what == STEEP and not slides:
+            slides = True
+            aside, down = slide_of(slope)
+            c.remainder_y += left * down
+            left = whole_pixels(c.remainder_y)
+            c.remainder_y -= left
+            continue
+        if what != STEEP or asides > 2 or not slide_pixel(me, slope, walk_inout):
+            c.remainder_y = 0.0
+            moved_out[3] = 1
+            return
+        asides += 1
 
 
 @kernel
 def walk(
     # read
-    geometry,
-    shapes,
     me,
     dx,
     dy,
-    piles,
-    rotation,
-    dt,
-    slop,
     # write
-    scratch,
-    rows_out,
-    pushed_rows_out,
-    characters_inout,
-    bodies_inout,
+    walk_inout,
     moved_out,
 ):
     """Move a character by (dx, dy) [px], x first, and write what it touches then.
 
-    me: its row; piles: 1 in a world that stacks, where it meets dynamic bodies, and rotation: 1 when these turn; dt [s]:
-    time that the move stands for; rows_out, pushed_rows_out (shapes): scratch; moved_out (4,): pixels moved along x and
-    y, 1 where it was stopped along x, along y. O(shapes + pixels · solids near).
+    me: its row; walk_inout: a Walk; moved_out (4,): pixels moved along x and y, 1 where it was stopped along x, along
+    y. O(pixels · solids near).
     """
-    c = characters_inout[me]
-    reach = 3.0 + abs(dx)
-    drop = 3.0 + abs(dx) + abs(dy)
-    count = gather_solids(
-        geometry,
-        bodies_inout,
-        shapes,
-        characters_inout,
-        me,
-        -1,
-        piles,
-        c.left - reach,
-        c.top - drop,
-        c.left + c.width + reach,
-        c.top + c.height + drop,
-        rows_out,
-    )
+    c = walk_inout.characters[me]
+    reach = 3.0 + abs(dx) + abs(dy)
+    gather(walk_inout, me, -1, reach, reach + c.climb * abs(dx), reach + c.climb * abs(dx), walk_inout.found)
     start_left = c.left
     start_top = c.top
     moved_out[2] = 0
     moved_out[3] = 0
     follow = 1 if c.grounded and dy >= 0.0 and not c.drop else 0
-    c.remainder_x += dx
-    left = whole_pixels(c.remainder_x)
-    c.remainder_x -= left
-    direction = 1 if left > 0 else -1
-    for _ in range(abs(left)):
-        if not step_sideways(
-            geometry,
-            shapes,
-            me,
-            direction,
-            follow,
-            piles,
-            slop,
-            scratch,
-            rows_out,
-            count,
-            pushed_rows_out,
-            characters_inout,
-            bodies_inout,
-        ):
-            c.remainder_x = 0.0
-            moved_out[2] = 1
-            break
-    if piles == 1 and dt > 0.0 and dx != 0.0:
-        # Also when the next pixel is not due yet: what is pushed keeps its speed between two pixels.
-        shove(
-            geometry,
-            shapes,
-            me,
-            1 if dx > 0.0 else -1,
-            dx / dt,
-            rotation,
-            dt,
-            slop,
-            scratch,
-            rows_out,
-            count,
-            characters_inout,
-            bodies_inout,
-        )
-    c.remainder_y += dy
-    left = whole_pixels(c.remainder_y)
-    c.remainder_y -= left
-    direction = 1 if left > 0 else -1
-    falling = 1 if direction > 0 and not c.drop else 0
-    for _ in range(abs(left)):
-        what, by = blocked_at(
-            geometry,
-            bodies_inout,
-            shapes,
-            characters_inout,
-            rows_out,
-            count,
-            c.left,
-            c.top + direction,
-            c.width,
-            c.height,
-            0,
-            direction,
-            falling,
-            0.0,
-            slop,
-            scratch,
-        )
-        if what != FREE:
-            if dt > 0.0 and bodies_inout[shapes[by].body_row].kind == DYNAMIC and (direction < 0 or not c.grounded):
-                knock(shapes, me, by, direction, dy / dt, rotation, characters_inout, bodies_inout)
-            c.remainder_y = 0.0
-            moved_out[3] = 1
-            break
-        c.top += direction
-    settle(me, characters_inout, bodies_inout)
-    feel(geometry, shapes, me, slop, scratch, rows_out, count, characters_inout, bodies_inout)
+    walk_along(me, dx, follow, walk_inout, moved_out)
+    fall_or_rise(me, dy, walk_inout, moved_out)
+    settle(me, walk_inout)
+    feel(me, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
+
+
+@kernel
+def is_stopped(
+    # read
+    me,
+    along_x,
+    along_y,
+    # write
+    walk_inout,
+):
+    """Whether a character cannot go a single pixel: along_x, along_y: -1, 0 or 1. Moves nothing. O(solids near)."""
+    c = walk_inout.characters[me]
+    gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
+    if along_x != 0:
+        lift, by, slope = way_aside(walk_inout, me, walk_inout.found, along_x)
+        if lift < 0 and by >= 0:
+            other, lift = way_for_pushed(by, along_x, walk_inout)
+        if lift >= 0:
+            return False
+    if along_y != 0:
+        what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + along_y, 0, along_y, 0.0)
+        if what == FREE or (what == STEEP and not is_wedged(walk_inout, me, walk_inout.found, slope)):
+            return False
+    return along_x != 0 or along_y != 0

@@ -139,13 +139,14 @@ class QueryIndex:
         self.refresh(world)
 
     def refresh(self, world):
-        """Bring AABBs and loose rows up to date.
+        """Bring AABBs and loose rows up to date. world: a World, or the StepState of its step.
 
         After a step of a world with sleeping that is what was awake before or after it, moved by itself or was touched;
         else it is everything. Where nothing has moved since the last time, that is all that is found.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
-        seen = (pairs, world.broadphase, len(bodies), len(shapes), world._next_shape, len(pairs.free), pairs.everything)
+        newest = int(shapes["id"][-1]) if len(shapes) else -1
+        seen = (pairs, world.broadphase, len(bodies), len(shapes), newest, len(pairs.free), pairs.everything)
         known = len(seen) == len(self.seen) and all(
             a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen, strict=True)
         )

@@ -6,15 +6,22 @@ CHARACTER = np.dtype(
     [  # one per Character: moves in whole pixels
         ("body", np.int64),  # id
         ("body_row", np.int64),
+        ("shape", np.int64),  # id of its body's shape
+        ("shape_row", np.int64),
         ("left", np.int64),
-        ("top", np.int64),  # [px] pixel column and row of its box
+        ("top", np.int64),  # [px] pixel column and row of its box: the bounds of its shape, feet and left side exact
         ("width", np.int64),
         ("height", np.int64),  # [px]
+        ("offset_x", np.float64),
+        ("offset_y", np.float64),  # [px] of its shape's origin from the box's top left corner
+        ("is_box", np.bool_),  # its shape is the box itself, which meets other boxes on the pixel grid
+        ("climb", np.float64),  # rise per px of the steepest ground that it walks
         ("remainder_x", np.float64),
         ("remainder_y", np.float64),  # [px] motion that has not made a whole pixel yet
         ("previous_left", np.int64),
         ("previous_top", np.int64),  # before the last move: for interpolated drawing
         ("riding", np.int64),  # id of the body under its feet that may carry it, -1: none
+        ("riding_shape", np.int64),  # id of the shape of that body that it stands on
         ("carried", np.int64),  # [px] by what it rides, along the axis that is being carried
         ("grounded", np.bool_),
         ("squeezed", np.bool_),  # by a solid that it could not give way to, since its last move

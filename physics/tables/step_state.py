@@ -17,6 +17,7 @@ STAGE_FIELDS = (
     "dt",  # [s]
     "substeps",
     "broadphase",
+    "steps",  # made before this one
     # tables
     "bodies",  # BODY rows
     "shapes",  # SHAPE rows
@@ -26,6 +27,7 @@ STAGE_FIELDS = (
     "awake",
     "sleepers",
     # from boxes to manifolds
+    "queries",  # the look-up of shapes by boxes
     "pairs",  # the pair list: proxies and candidates
     "changed_count",  # slots whose rectangle changed
     "impacts",  # (n, 5) candidate, fraction, normal, stops: found before the bodies move

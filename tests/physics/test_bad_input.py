@@ -239,14 +239,11 @@ CHANGES = [
     ("shapes", lambda w, v: w.body(0).set_shapes(v), [None, 5, "x"]),
     ("TileGrid", lambda w, v: w.body(0).set_shapes(v), [TileGrid([[True]], 8)]),
     ("kind", lambda w, v: w.body(0).set_kind(v), ["x", None, 1]),
-    (
-        "shape",
-        lambda w, v: Character(w, v, (0, 0)),
-        [None, BALL, 5, Polygon.box(4, 4, angle=0.2), Polygon([(0, 0), (5, 0), (0, 5)])],
-    ),
+    ("shape", lambda w, v: Character(w, v, (0, 0)), [None, 5, "box", Polygon.box(0.3, 4), TileGrid([[True]], 8)]),
     ("position", lambda w, v: Character(w, BOX, v), VECTOR + [(1e300, 0)]),
     ("filter", lambda w, v: Character(w, BOX, (0, 0), filter=v), [None, 5]),
     ("pushable", lambda w, v: Character(w, BOX, (0, 0), pushable=v), FLAG),
+    ("max_slope", lambda w, v: Character(w, BOX, (0, 0), max_slope=v), [*NUMBER, -0.1, 1.6]),
     ("origin", lambda w, v: w.ray_cast(v, (1, 0)), VECTOR),
     ("translation", lambda w, v: w.ray_cast((0, 0), v), VECTOR),
     ("filter", lambda w, v: w.ray_cast_all((0, 0), (1, 0), filter=v), [None, 5]),
@@ -277,6 +274,8 @@ def test_moves_of_a_character_are_checked():
     for value in NUMBER:
         refused("dx", value, lambda: hero.move(value, 0))
         refused("dy", value, lambda: hero.move(0, value))
+        refused("dx", value, lambda: hero.blocked(value, 0))
+        refused("dy", value, lambda: hero.blocked(0, value))
     for value in FLAG:
         refused("drop", value, lambda: hero.move(0, 0, drop=value))
     for value in VECTOR:

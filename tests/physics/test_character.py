@@ -5,7 +5,20 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, Bounds, Character, Circle, Effects, PixelMask, Polygon, TileGrid, World
+from physics import (
+    JIT,
+    Bounds,
+    Capsule,
+    Chain,
+    Character,
+    Circle,
+    Effects,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    World,
+)
 from tests.oracles.walks import inside_ground
 
 EFFECTS = Effects(response=True, one_way=True)
@@ -277,11 +290,17 @@ def test_shapes_that_a_character_can_have():
         hero = Character(world, shape, (0.3, 0.4))
         row = world.characters.rows[-1]
         assert (row["width"], row["height"]) == (10, 20) and hero.position == (0, 0)
-    for shape in (Circle(5), Polygon.box(10, 20, angle=0.3), PixelMask(solid), Polygon([(0, 0), (5, 0), (0, 5)])):
-        with pytest.raises(TypeError, match="shape"):
+    for shape in (PixelMask(solid), Segment((0, 0), (9, 0)), Chain([(0, 0), (9, 0)]), TileGrid([[True]], 8), "box"):
+        with pytest.raises(TypeError, match="shape must be a Polygon, Circle or Capsule"):
             Character(world, shape, (0, 0))
-    with pytest.raises(ValueError, match="shape"):
-        Character(world, Polygon.box(0.2, 5), (0, 0))
+    for shape in (Polygon.box(0.2, 5), Circle(0.4), Capsule((0, 0), (5, 0), 0.4), Bounds(PixelMask(~solid & solid))):
+        with pytest.raises(ValueError, match="shape must"):
+            Character(world, shape, (0, 0))
+    for value in (-0.1, math.pi / 2, 2.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match="max_slope must be"):
+            Character(world, BOX, (0, 0), max_slope=value)
+    with pytest.raises(TypeError, match="max_slope must be a number"):
+        Character(world, BOX, (0, 0), max_slope="steep")
 
 
 def test_removed_character_is_gone_and_says_so():

@@ -1,0 +1,25 @@
+"""Where a convex shape stands on a straight slope, in closed form."""
+
+import math
+
+
+def reach(points, radius, x, y):
+    """How far [px] a rounded hull of points reaches from its origin along a unit direction."""
+    return max(px * x + py * y for px, py in points) + radius
+
+
+def resting_y(points, radius, x, slope, through=(0.0, 0.0)):
+    """Height y [px] of the origin of a shape at x that touches a line from above, down the screen.
+
+    The line rises by `slope` per px to the right and goes through a point.
+    """
+    length = math.sqrt(1.0 + slope * slope)
+    nx, ny = slope / length, 1.0 / length  # into the ground
+    # (x, y) in front of the line by as far as the shape reaches.
+    return through[1] - ((x - through[0]) * nx + reach(points, radius, nx, ny)) / ny
+
+
+def slide(slope, way):
+    """(pixels along x, pixels down) that a way straight down [px] leads along a slope."""
+    angle = math.atan(slope)
+    return -way * math.sin(angle) * math.cos(angle), way * math.sin(angle) ** 2
