@@ -1,5 +1,6 @@
 """What the documents promise: the example runs, its lines stand in the text, the README's commands are there."""
 
+import ast
 import importlib.util
 import re
 from pathlib import Path
@@ -45,3 +46,39 @@ def test_each_command_of_the_readme_is_one_line(marker):
     text = (ROOT / "README.md").read_text()
     block = re.search(rf"<!-- {marker} -->\n```sh\n(.*?)```", text, re.S)
     assert block and block.group(1).count("\n") == 1 and ".venv" in block.group(1) and "-e" in block.group(1)
+
+
+def names_in(path):
+    """Every function and class of a file, and Class.method of what stands in it."""
+    found = set()
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            found.add(node.name)
+        if isinstance(node, ast.ClassDef):
+            found |= {f"{node.name}.{each.name}" for each in node.body if isinstance(each, ast.FunctionDef)}
+            for base in node.bases:  # what a world is split over is the world's
+                if isinstance(base, ast.Name):
+                    found.add(f"{node.name}({base.id})")
+    return found
+
+
+def test_the_names_of_the_architecture_are_in_the_source():
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    links = re.findall(r"\[`([\w.]+)`\]\(([\w/.]+)\)", text)
+    assert len(links) > 55
+    wrong = [f"{name} in {path}" for name, path in links if name not in names_in(ROOT / path)]
+    assert not wrong, f"ARCHITECTURE.md names what is not there: {', '.join(wrong)}"
+
+
+@pytest.mark.parametrize("path", ["dt", "A position", "A contact", "A key press"])
+def test_each_path_is_a_list_of_functions(path):
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    section = re.search(rf"^### {path}\n(.*?)(?=^###|\Z)", text, re.S | re.M)
+    assert section, f"ARCHITECTURE.md has no path of {path}"
+    steps = re.findall(r"^\d+\. \[`", section.group(1), re.M)
+    assert len(steps) >= 8
+
+
+def test_a_name_that_is_not_there_is_found():
+    assert "World.step" in names_in(ROOT / "physics/world.py")
+    assert "World.stop" not in names_in(ROOT / "physics/world.py")
