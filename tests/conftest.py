@@ -53,6 +53,7 @@ QUICK = {
     "tests/regress": ("test_physics_found", "test_rigid_bodies_found", "test_turned_parts"),
     "tests/assets": ("test_art_images", "test_art_levels", "test_music_notation"),
 }
+LONGEST = ("test_scenes.py",)  # a minute for each game
 ROOT = Path(__file__).resolve().parent.parent
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -72,8 +73,9 @@ def pytest_sessionstart(session):
 
 @pytest.hookimpl(tryfirst=True)  # before -m chooses
 def pytest_collection_modifyitems(items):
-    """Mark the quick tests; what is long in their files stays out."""
+    """Mark the quick tests; what is long in their files stays out. The longest come first: no worker ends with one."""
     quick = {ROOT / folder / f"{name}.py" for folder, names in QUICK.items() for name in names}
     for item in items:
         if item.path in quick and not any(item.iter_markers("deep")) and not any(item.iter_markers("nightly")):
             item.add_marker("quick")
+    items.sort(key=lambda item: item.path.name not in LONGEST)
