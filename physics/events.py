@@ -43,14 +43,6 @@ def copy_event(event, event_out):
     d.normal_y = event.normal_y
 
 
-@subkernel
-def acts(manifold, second, slop):
-    """Whether a point touches: overlaps by no more than -slop [px], was pushed, or was met on the way."""
-    separation = manifold.separation_2 if second else manifold.separation_1
-    impulse = manifold.normal_impulse_2 if second else manifold.normal_impulse_1
-    return separation <= slop or impulse > 0.0 or manifold.swept
-
-
 class Told(NamedTuple):
     """What a comparison writes."""
 
@@ -61,21 +53,22 @@ class Told(NamedTuple):
     aside: np.ndarray  # EVENT: pairs that touched and have fallen asleep
     hits: np.ndarray  # HIT
     keep: np.ndarray  # bool: manifolds of pairs that touch
-    counts: np.ndarray  # rows of now, begin, persist, end, aside, hits
+    counts: np.ndarray  # rows of now, begin, persist, end, aside, hits; points of pairs that touch
 
 
 def new_told(room: int) -> Told:
     """Room for that many pairs."""
     return Told(
-        *(np.zeros(room, EVENT) for _ in range(5)), np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(6, np.int64)
+        *(np.zeros(room, EVENT) for _ in range(5)), np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)
     )
 
 
 @subkernel
-def tell_pair(manifolds, first, last, old, slop, hit_speed, told_inout):
-    """Write what the manifolds first … last - 1, those of one pair, say. Returns whether the pair touches."""
+def look_at_pair(manifolds, first, last, slop):
+    """What the manifolds first … last - 1, those of one pair, say together: (touches, pushed, manifold of the deepest point,
+    whether that is its second, manifold of the fastest, whether that is its second, its speed [px/s], sum of impulses)."""
     active = False
-    acted = False
+    pushed = False
     deepest = first
     deepest_second = False
     fastest = first
@@ -87,11 +80,11 @@ def tell_pair(manifolds, first, last, old, slop, hit_speed, told_inout):
         m = manifolds[i]
         for k in range(m.count):
             second = k == 1
-            active = active or acts(m, second, slop if old else 0.0)
             separation = m.separation_2 if second else m.separation_1
             speed = m.speed_2 if second else m.speed_1
             impulse = m.normal_impulse_2 if second else m.normal_impulse_1
-            acted = acted or impulse > 0.0
+            active = active or separation <= slop or impulse > 0.0 or m.swept
+            pushed = pushed or impulse > 0.0
             total += impulse
             if separation < least:
                 least = separation
@@ -101,24 +94,7 @@ def tell_pair(manifolds, first, last, old, slop, hit_speed, told_inout):
                 most = speed
                 fastest = i
                 fastest_second = second
-    counts = told_inout.counts
-    if not active:
-        return False
-    write_event(manifolds[deepest], deepest_second, told_inout.now[counts[0]])
-    counts[0] += 1
-    if old:
-        write_event(manifolds[deepest], deepest_second, told_inout.persist[counts[2]])
-        counts[2] += 1
-    else:
-        write_event(manifolds[deepest], deepest_second, told_inout.begin[counts[1]])
-        counts[1] += 1
-    if (acted or not old) and most > hit_speed:
-        hit = told_inout.hits[counts[5]]
-        write_event(manifolds[fastest], fastest_second, hit)
-        hit.speed = most
-        hit.normal_impulse = total
-        counts[5] += 1
-    return True
+    return active, pushed, deepest, deepest_second, fastest, fastest_second, most, total
 
 
 @kernel
@@ -140,6 +116,10 @@ def compare_pairs(
     touched goes on touching up to it; hit_speed [px/s]. O(both).
     """
     counts = told_inout.counts
+    now = told_inout.now
+    begin = told_inout.begin
+    persist = told_inout.persist
+    keep = told_inout.keep
     for k in range(len(counts)):
         counts[k] = 0
     i = 0
@@ -176,12 +156,32 @@ def compare_pairs(
         last = j
         while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
             last += 1
-        active = tell_pair(manifolds, j, last, old, slop, hit_speed, told_inout)
-        if old and not active:
+        active, pushed, deepest, deepest_second, fastest, fastest_second, speed, impulse = look_at_pair(
+            manifolds, j, last, slop if old else 0.0
+        )
+        if active:
+            d = manifolds[deepest]
+            write_event(d, deepest_second, now[counts[0]])
+            counts[0] += 1
+            if old:
+                write_event(d, deepest_second, persist[counts[2]])
+                counts[2] += 1
+            else:
+                write_event(d, deepest_second, begin[counts[1]])
+                counts[1] += 1
+            if (pushed or not old) and speed > hit_speed:
+                hit = told_inout.hits[counts[5]]
+                write_event(manifolds[fastest], fastest_second, hit)
+                hit.speed = speed
+                hit.normal_impulse = impulse
+                counts[5] += 1
+        elif old:
             copy_event(before[i], told_inout.end[counts[3]])
             counts[3] += 1
         for k in range(j, last):
-            told_inout.keep[k] = active
+            keep[k] = active
+            if active:
+                counts[6] += manifolds[k].count
         if old:
             i += 1
         j = last
@@ -211,7 +211,7 @@ class Pairs:
         compare_pairs(self.rows, manifolds, parked, int(sensors), slop, hit_speed, self.told)
         whole, counts = self.told, self.told.counts.tolist()
         told = Told(
-            *(table[:count] for table, count in zip(whole[:6], counts, strict=True)),
+            *(table[:count] for table, count in zip(whole[:6], counts[:6], strict=True)),
             whole.keep[: len(manifolds)],
             whole.counts,
         )
@@ -295,4 +295,4 @@ def tell(state):
             state.sleepers.keep_touching(told.aside, parked, keys)
         state.sleepers.keep_told(state)
     state.told = (manifolds, keep)
-    state.work[CONTACTS] = int(manifolds["count"][keep].sum())
+    state.work[CONTACTS] = told.counts[6]
