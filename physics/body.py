@@ -1,5 +1,7 @@
 """Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
 
+import numpy as np
+
 from physics import checks, editing
 from physics.dynamics import sleep
 from physics.tables.body import DYNAMIC, KINDS, STATIC
@@ -28,8 +30,12 @@ class Body:
         return f"Body({self.id})"
 
     @property
-    def _row(self):
+    def _row(self) -> np.void:
         return self.world._body_row(self.id)
+
+    def _must_exist(self) -> None:
+        """Raises KeyError for a body that was removed."""
+        self.world._row_number(self.id)
 
     angle = _column("angle", "Turn of the body [rad].")
     mass = _column("mass", "Mass; 0 for a body without any.")
@@ -100,18 +106,18 @@ class Body:
     @property
     def user(self):
         """Anything the game wants to find again; not part of snapshots and digests."""
-        self._row
+        self._must_exist()
         return self.world._users.get(self.id)
 
     @user.setter
     def user(self, value):
-        self._row
+        self._must_exist()
         self.world._users[self.id] = value
 
     @property
     def shapes(self):
         """The shapes as they were given; with a tier, what they are replaced by."""
-        self._row
+        self._must_exist()
         return self.world._shapes_of[self.id]
 
     @property
@@ -126,7 +132,7 @@ class Body:
     @property
     def tier(self):
         """How exactly its sprite collides: one of TIERS, or None for the shapes as given."""
-        self._row
+        self._must_exist()
         return self.world._tiers.get(self.id)
 
     @tier.setter
@@ -200,7 +206,7 @@ class Body:
     def wake(self):
         """Wake it, and all it is piled up with."""
         self.world._unlocked()
-        self._row
+        self._must_exist()
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind):

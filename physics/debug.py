@@ -129,9 +129,9 @@ def _candidate_rows(world):
 
 
 def outlines(world, rows=None) -> list:
-    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
-    ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask", shape id)
-    or ("tiles", shape id)."""
+    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2),
+    r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask",
+    shape id) or ("tiles", shape id)."""
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
     cosine, sine = np.cos(bodies["angle"]), np.sin(bodies["angle"])
@@ -144,7 +144,7 @@ def outlines(world, rows=None) -> list:
     ).tolist()
     found = []
     for k, (kind, identity, geometry) in enumerate(
-        zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))
+        zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")), strict=True)
     ):
         if kind == CIRCLE:
             found.append(("circle", *circles[k]))
@@ -186,7 +186,7 @@ def masks(world) -> list:
     found = drawn_masks(world)
     return [
         (each, left, top, found.solids[k])
-        for each, left, top, k in zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist())
+        for each, left, top, k in zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist(), strict=True)
     ]
 
 
@@ -205,7 +205,8 @@ def _drawn(world, rows):
     place[raster_of[drawn]] = drawn
     used, which = np.unique(shapes["raster"], return_inverse=True)
     mask_of, bucket_of = np.divmod(place[used], MASK_ANGLE_BUCKETS)
-    solids = [library.masks[mask].turned_to(bucket).solid for mask, bucket in zip(mask_of.tolist(), bucket_of.tolist())]
+    kept = zip(mask_of.tolist(), bucket_of.tolist(), strict=True)
+    solids = [library.masks[mask].turned_to(bucket).solid for mask, bucket in kept]
     return Drawn(solids, which, shapes["left"], shapes["top"])
 
 
@@ -216,10 +217,9 @@ def mask_hits(world) -> list:
     world.queries.refresh(world)
     rows = rows[(world.shapes["kind"][rows] == MASK).all(axis=1)]
     a, b = _drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])
-    for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(
-        a.left.tolist(), a.top.tolist(), a.which.tolist(), b.left.tolist(), b.top.tolist(), b.which.tolist()
-    ):
-        solid_a, solid_b = a.solids[solid_a], b.solids[solid_b]
+    columns = (each.tolist() for drawn in (a, b) for each in (drawn.left, drawn.top, drawn.which))
+    for left_a, top_a, which_a, left_b, top_b, which_b in zip(*columns, strict=True):
+        solid_a, solid_b = a.solids[which_a], b.solids[which_b]
         left, top = max(left_a, left_b), max(top_a, top_b)
         right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
         bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])
@@ -244,7 +244,8 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
 def contact_points(world) -> np.ndarray:
-    """POINT rows of all contacts that the last step kept in mind, also those that only might have met, and those that sleep.
+    """POINT rows of all contacts that the last step kept in mind, also those that only might have met,
+    and those that sleep.
 
     state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP; color: of the graph colouring, -1 without one.
     """
@@ -299,7 +300,8 @@ GHOST = np.dtype(
 
 
 def impact_ghosts(world) -> np.ndarray:
-    """GHOST rows of the bodies that a sweep stopped in the last step: the pose that they would have had, and the fraction."""
+    """GHOST rows of the bodies that a sweep stopped in the last step:
+    the pose that they would have had, and the fraction."""
     rows = world.ghosts
     if rows is None or not len(rows):
         return np.zeros(0, GHOST)

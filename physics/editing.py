@@ -1,5 +1,5 @@
-"""Bodies into a world, and changes to those that stand in it: what a user asks for is checked first, so that the world is
-unchanged by what is wrong. World and Body are the ways in.
+"""Bodies into a world, and changes to those that stand in it: what a user asks for is checked first, so that the world
+is unchanged by what is wrong. World and Body are the ways in.
 """
 
 from dataclasses import fields
@@ -92,7 +92,8 @@ def add_rows(
 
 
 def add_shapes(world, bodies, first_row, shapes, material, filter, sensor):
-    """Append the SHAPE rows of new shapes for BODY rows that start at first_row, and give them places in the broad phase."""
+    """Append the SHAPE rows of new shapes for BODY rows that start at first_row,
+    and give them places in the broad phase."""
     n, k = len(bodies), len(shapes)
     if n * k == 0:
         return
@@ -145,7 +146,8 @@ def move_to(world, identity, position, angle):
 
 
 def refresh(world, identity):
-    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle. Its neighbours wake."""
+    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle.
+    Its neighbours wake."""
     sleep.disturb(world, [identity])
     at = world._row_number(identity)
     refresh_centers(np.array([at]), world.bodies)
@@ -220,7 +222,8 @@ def shapes_for_tier(shapes, tier) -> tuple:
 
 
 def set_tier(world, identity, tier):
-    """Collide a body's sprite more or less exactly. Raises ValueError for an unknown tier or a body without a sprite."""
+    """Collide a body's sprite more or less exactly.
+    Raises ValueError for an unknown tier or a body without a sprite."""
     world._body_row(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))

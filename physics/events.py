@@ -136,8 +136,8 @@ def compare_pairs(
     """Compare the pairs that touched before with the manifolds of this step, both in the order of shape ids.
 
     before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
-    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair that
-    touched goes on touching up to it; hit_speed [px/s]. O(both).
+    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair
+    that touched goes on touching up to it; hit_speed [px/s]. O(both).
     """
     counts = told_inout.counts
     for k in range(len(counts)):

@@ -213,7 +213,8 @@ def _compile(function):
 def _take_literals_as_values(dispatcher):
     """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
 
-    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one machine.
+    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one
+    machine.
     """
     general = dispatcher.get_call_template
 

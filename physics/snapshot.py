@@ -25,6 +25,11 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
 
 VERSION = 3
+HULLS = {
+    "Polygon": lambda points, radius: Polygon(points, radius),
+    "Capsule": lambda points, radius: Capsule(*points, radius),
+    "Segment": lambda points, radius: Segment(*points),
+}
 DAMAGE = (
     ValueError,
     TypeError,
@@ -78,7 +83,8 @@ WALK = (
 
 
 def digest(world) -> str:
-    """blake2b-128 over ids, poses, velocities, flags, characters, contact keys and impulses in id order; −0.0 as 0.0."""
+    """blake2b-128 over ids, poses, velocities, flags, characters, contact keys and impulses in id order;
+    −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
     for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
         found.update(len(rows).to_bytes(8, "little"))
@@ -168,7 +174,8 @@ def take(world) -> Snapshot:
 
 
 def restore(world, taken):
-    """Put a world back to a snapshot, taken from it or from one built with the same effects. Raises TypeError, ValueError."""
+    """Put a world back to a snapshot, taken from it or from one built with the same effects.
+    Raises TypeError, ValueError."""
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {taken!r})")
     facts, arrays = taken.facts, taken.arrays
@@ -257,13 +264,7 @@ def _library(arrays, facts):
     library = Library()
     for number, (name, radius) in enumerate(facts["hulls"]):
         points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
-        library.add(
-            {
-                "Polygon": lambda: Polygon(points, radius),
-                "Capsule": lambda: Capsule(*points, radius),
-                "Segment": lambda: Segment(*points),
-            }[name]()
-        )
+        library.add(HULLS[name](points, radius))
     for number, (loop, ghosts, materials) in enumerate(facts["chains"]):
         library.add(
             Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))

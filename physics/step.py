@@ -1,8 +1,8 @@
 """The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
 
-Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards. With
-it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met something.
-A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
+Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards.
+With it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met
+something. A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
 """
 
 from collections.abc import Callable

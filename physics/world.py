@@ -32,7 +32,7 @@ from physics.tables.rows import rows_of
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 
-STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
+PLAIN = Material()  # of bodies that are given none
 
 
 class World(Environment):
@@ -170,7 +170,8 @@ class World(Environment):
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT rows of what touches, was pushed, or was met on the way in the last step, in the order of shape ids."""
+        """CONTACT rows of what touches, was pushed, or was met on the way in the last step,
+        in the order of shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(self.told_manifolds())
         return self._contacts
@@ -186,7 +187,8 @@ class World(Environment):
         return contacts_of(self.sleepers.manifolds())
 
     def tell_contacts(self, manifolds, keep=None):
-        """Take in the manifolds of a step, of which the flagged ones count; their points are listed when somebody looks."""
+        """Take in the manifolds of a step, of which the flagged ones count;
+        their points are listed when somebody looks."""
         self._told, self._contacts = (manifolds, keep), None
 
     @property
@@ -203,9 +205,9 @@ class World(Environment):
         return rows.reshape(ids.shape)
 
     def touch(self, ids):
-        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their boxes
-        follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises KeyError,
-        TypeError, ValueError; nothing is touched then."""
+        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their
+        boxes follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
+        KeyError, TypeError, ValueError; nothing is touched then."""
         self._unlocked()
         editing.touch(self, ids)
 
@@ -219,7 +221,7 @@ class World(Environment):
         kind="dynamic",
         velocity=(0, 0),
         angular_velocity=0.0,
-        material=Material(),
+        material=PLAIN,
         filter=Filter.ALL,
         sensor=False,
         bullet=False,
@@ -258,7 +260,7 @@ class World(Environment):
         angles=None,
         kind="dynamic",
         angular_velocity=0.0,
-        material=Material(),
+        material=PLAIN,
         filter=Filter.ALL,
         sensor=False,
         bullet=False,
@@ -369,7 +371,7 @@ class World(Environment):
         if "integrate_velocities" not in self.stages and not self.stacks:
             raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
 
-    # --- queries, digest, snapshot -------------------------------------------------------------------------------------
+    # --- queries, digest, snapshot ------------------------------------------------------------------------------------
 
     def ray_cast(self, origin, translation, filter=Filter.ALL, sensors=False):
         """The first shape that a ray [px] meets, or None. See queries.RayHit."""
@@ -422,6 +424,7 @@ class World(Environment):
         return snapshot.take(self)
 
     def restore(self, taken):
-        """Go back to a snapshot. Raises ValueError when it does not fit this version's tables or this world's effects."""
+        """Go back to a snapshot.
+        Raises ValueError when it does not fit this version's tables or this world's effects."""
         self._unlocked()
         snapshot.restore(self, taken)

@@ -39,8 +39,9 @@ def place_changed(
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
 
     changed: slots; margin [px] and margin_fraction of the box: by the smaller a leaf outgrows it; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the still
-    tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were moved. O(moved · log n).
+    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the
+    still tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were
+    moved. O(moved · log n).
     """
     moved = 0
     for i in range(len(changed)):
@@ -157,7 +158,8 @@ def near_in_trees(
     slots_out,
     work_inout,
 ):
-    """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number. O(log n + found)."""
+    """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number.
+    O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):

@@ -13,8 +13,8 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be awake;
-    pairs of which neither side is awake are not kept.
+    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be
+    awake; pairs of which neither side is awake are not kept.
     """
 
     def __init__(self, sleeping: bool = False):

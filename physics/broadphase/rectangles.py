@@ -1,8 +1,8 @@
 """Bounding motion rectangles: where each shape can be during the step. They are what the broad phase compares.
 
-In a world whose bodies tremble in piles they have room to spare, and are kept while what the shape needs stays inside: a
-pile that rests costs the broad phase nothing. More candidates, the same contacts: the narrow phase looks at the tight boxes.
-Source: Catto, Box2D v3.2, constants.h (margin).
+In a world whose bodies tremble in piles they have room to spare, and are kept while what the shape needs stays inside:
+a pile that rests costs the broad phase nothing. More candidates, the same contacts: the narrow phase looks at the tight
+boxes. Source: Catto, Box2D v3.2, constants.h (margin).
 """
 
 import numpy as np
@@ -31,8 +31,8 @@ def update_rectangles(
     """Write the motion rectangles that no longer fit, and list the slots that changed.
 
     rows of shapes, whose AABBs are refreshed; motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are
-    candidates, spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it
-    needs. Returns the number of slots. O(rows).
+    candidates, spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what
+    it needs. Returns the number of slots. O(rows).
     """
     gravity_x = motion[0]
     gravity_y = motion[1]
@@ -109,7 +109,8 @@ def motion_rectangles(state):
 
 
 def write_rectangles(tables, rows) -> int:
-    """Bring the boxes and rectangles of these shape rows up to date. Returns how many slots changed, listed by the pairs.
+    """Bring the boxes and rectangles of these shape rows up to date.
+    Returns how many slots changed, listed by the pairs.
 
     tables: a StepState, or a world whose shapes have just got places in the broad phase.
     """

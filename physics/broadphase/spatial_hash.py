@@ -18,7 +18,8 @@ SMALLEST_CELL = 2.0**-1000  # its inverse is still finite
 
 
 class SpatialHashGrid:
-    """cell: size of the finest cells [px]; None tunes itself to the bodies. Raises ValueError for a cell below 2^-1000."""
+    """cell: size of the finest cells [px]; None tunes itself to the bodies.
+    Raises ValueError for a cell below 2^-1000."""
 
     name = "hash"
 

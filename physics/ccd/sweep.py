@@ -1,8 +1,8 @@
 """The stages that stop fast bodies at what they meet on their way.
 
-Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the solver
-moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first met
-something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
+Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the
+solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first
+met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
 """
 
 import numpy as np
@@ -46,7 +46,8 @@ class Sweeper:
 
 
 def _look(state, moving, everyone) -> np.ndarray:
-    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1). everyone: see find_rotational_impacts."""
+    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1).
+    everyone: see find_rotational_impacts."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -116,7 +117,7 @@ def detect_moved(state):
         state.manifolds = manifolds
         return
     met = _written(state, state.impacts, int(state.effects.response))
-    # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
+    # Where a side went on after the impact, as a kinematic one does, the final poses may show it from behind.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
     # A body that ended just behind what it flew through is near it, but going away: the impact is what counts.

@@ -101,7 +101,8 @@ def classify(
 class NarrowPhase:
     """Turns candidates into manifolds; keeps the workspace for them from step to step.
 
-    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at AABBs.
+    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at
+    AABBs.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool):
@@ -128,9 +129,9 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
-        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters; which:
-        see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used again where
-        nothing moved by more than `recycle` [px].
+        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
+        which: see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used
+        again where nothing moved by more than `recycle` [px].
         """
         count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw

@@ -1,8 +1,8 @@
 """What is awake: the rows that the passes of a step go over.
 
-In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones that
-move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs nothing.
-The lists are kept as things wake and fall asleep, not searched for.
+In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones
+that move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs
+nothing. The lists are kept as things wake and fall asleep, not searched for.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
 """Velocities from forces, poses from velocities: semi-implicit Euler, velocities first.
 
-Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC 2015.
+Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC
+2015.
 """
 
 import math
@@ -217,7 +218,8 @@ REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_veloc
     ),
 )
 def quarantine(state):
-    """Take what is no longer finite out of the simulation, and tell it; its neighbours go on as if it had been removed."""
+    """Take what is no longer finite out of the simulation, and tell it;
+    its neighbours go on as if it had been removed."""
     rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
     broken = np.empty(len(rows), np.int64)
     broken = broken[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, broken)]

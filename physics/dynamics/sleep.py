@@ -1,7 +1,7 @@
 """Falling asleep and waking: an island keeps its contacts aside while it sleeps, and comes back with their forces.
 
-An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its pairs have
-not ended. Sleeping by the larger of velocity and half the real displacement: Box2D v3.2, solver.c.
+An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its pairs
+have not ended. Sleeping by the larger of velocity and half the real displacement: Box2D v3.2, solver.c.
 
 These functions take a world, between steps, or the StepState of a step: both have the tables, `manifolds`, `anchors`,
 `awake`, `sleepers`, `pairs`, `touching` and `sensing`.
@@ -100,7 +100,8 @@ def _bring_back(tables, manifolds, anchors):
 
 
 def with_rows(tables, manifolds, anchors):
-    """Manifolds, and their anchors, with the rows that bodies and shapes have now; without those whose sides are gone."""
+    """Manifolds, and their anchors, with the rows that bodies and shapes have now;
+    without those whose sides are gone."""
     there = np.ones(len(manifolds), bool)
     for side in "ab":
         for table, name, column in ((tables.bodies, "body_", "body_row_"), (tables.shapes, "shape_", "row_")):
@@ -128,7 +129,8 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that something on its way touches, or will within dt [s]. Returns their number. O(manifolds).
+    """List the sleeping bodies that something on its way touches, or will within dt [s]. Returns their number.
+    O(manifolds).
 
     rows_out (2 · manifolds) int64; one may be named twice.
     """
@@ -348,8 +350,8 @@ def rest(state):
 
 
 def _park(state, slept):
-    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the manifolds
-    that went with them, in order, and the island of each."""
+    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the
+    manifolds that went with them, in order, and the island of each."""
     bodies, m, anchors = state.bodies, state.manifolds, state.anchors
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
     still &= (bodies["kind"][m["body_row_b"]] != DYNAMIC) | ~bodies["awake"][m["body_row_b"]]

@@ -6,7 +6,8 @@ import numpy as np
 
 
 def least_box(hull) -> tuple[float, float, tuple[float, float], float]:
-    """(width, height, center, angle) of the box of least area around hull corners (n, 2) [px]; of equal ones the first."""
+    """(width, height, center, angle) of the box of least area around hull corners (n, 2) [px];
+    of equal ones the first."""
     best = None
     for edge in np.roll(hull, -1, axis=0) - hull:
         angle = math.atan2(edge[1], edge[0])

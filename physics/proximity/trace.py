@@ -28,7 +28,8 @@ def steps_of(a, b) -> list[dict]:
     """What is known after each round for two hulls of corners (n, 2) [px], radii left out.
 
     "phase" gjk or epa; "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B; "witness": the
-    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they overlap.
+    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they
+    overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()

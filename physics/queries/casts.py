@@ -113,7 +113,8 @@ def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
 
 
 def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
-    """(row, fraction, normal to the probe) of the shapes that a probe meets, by its parts where masks or more are in play."""
+    """(row, fraction, normal to the probe) of the shapes that a probe meets,
+    by its parts where masks or more are in play."""
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     kinds = world.shapes["kind"][rows]

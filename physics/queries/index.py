@@ -17,7 +17,8 @@ ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates arou
 
 @kernel
 def same_poses(bodies, poses_inout):
-    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3). O(bodies), a line of memory each."""
+    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3).
+    O(bodies), a line of memory each."""
     same = True
     for k in range(len(bodies)):
         b = bodies[k]
@@ -40,7 +41,8 @@ def find_loose(
     row_of_slot_out,
     loose_out,
 ):
-    """List the shape rows that the structure may not find, and write which row each slot stands for (-1: look elsewhere).
+    """List the shape rows that the structure may not find, and write which row each slot stands for (-1:
+    look elsewhere).
 
     A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
     the number of loose rows; those of quarantined bodies are neither. O(shapes).
@@ -88,7 +90,8 @@ def rows_meeting(
     rows_out,
     work_inout,
 ):
-    """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px]. Returns their number."""
+    """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px].
+    Returns their number."""
     found = 0
     for k in range(slot_count + loose_count):
         if k >= slot_count:
@@ -120,7 +123,7 @@ class QueryIndex:
     @property
     def counters(self) -> dict[str, int]:
         """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
-        return dict(zip(COUNTERS, self.work.tolist()))
+        return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world):
         """Start a query: counters to zero, AABBs and loose rows up to date."""
@@ -128,14 +131,15 @@ class QueryIndex:
         self.refresh(world)
 
     def refresh(self, world):
-        """Bring AABBs and loose rows up to date; where nothing has changed since the last time, that is all that is found."""
+        """Bring AABBs and loose rows up to date; where nothing has changed since the last time,
+        that is all that is found."""
         bodies, shapes = world.bodies, world.shapes
         if len(self.poses) != len(bodies):
             self.poses = np.full((len(bodies), 3), np.nan)
         # A step makes new events; shapes that come, go or come back from quarantine take and leave places.
         seen = (world.events, world.pairs, world.broadphase, len(shapes), world._next_shape, len(world.pairs.free))
         same = len(seen) == len(self.seen) and all(
-            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen)
+            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen, strict=True)
         )
         if same_poses(bodies, self.poses) and same:
             return
@@ -153,7 +157,8 @@ class QueryIndex:
         )
 
     def rows_in(self, world, lower, upper) -> np.ndarray:
-        """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it; none quarantined."""
+        """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it;
+        none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         found = 0

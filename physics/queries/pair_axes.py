@@ -1,4 +1,5 @@
-"""Every axis that could part two convex shapes, as the separating axis test sees them: for drawing, not for the step."""
+"""Every axis that could part two convex shapes, as the separating axis test sees them:
+for drawing, not for the step."""
 
 import numpy as np
 
@@ -30,7 +31,7 @@ def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
     """
     a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
     rows = []
-    for owner, (mine, other) in enumerate(((a[0], b[0]), (b[0], a[0]))):
+    for owner, mine in enumerate((a[0], b[0])):
         sign = 1.0 if owner == 0 else -1.0
         for edge in range(len(mine) if len(mine) > 1 else 0):
             dx, dy = mine[(edge + 1) % len(mine)] - mine[edge]
@@ -44,7 +45,7 @@ def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
     elif not rows:
         rows.append((1.0, 0.0, 0, -1))  # two circles about one point: as collide has it
     found = np.zeros(len(rows), AXIS)
-    for row, (nx, ny, owner, edge) in zip(found, rows):
+    for row, (nx, ny, owner, edge) in zip(found, rows, strict=True):
         apart = (b[0] @ (nx, ny)).min() - (a[0] @ (nx, ny)).max() - a[1] - b[1]
         row["normal_x"], row["normal_y"], row["separation"], row["owner"], row["edge"] = (
             nx + 0.0,

@@ -36,7 +36,8 @@ class Manifold:
 
 
 def _order(shape, pose):
-    """What decides which of two shapes goes first, whichever is named first: ties between equal ways out fall the same."""
+    """What decides which of two shapes goes first, whichever is named first:
+    ties between equal ways out fall the same."""
     pixels = shape.solid.tobytes() if isinstance(shape, (PixelMask, TileGrid)) else b""
     return SHAPES.index(type(shape)), repr(shape), pose, pixels
 

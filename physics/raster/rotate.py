@@ -85,7 +85,8 @@ def _any_turn(solid, origin, angle):
 
 
 def _as_many(centered, coverage, wanted):
-    """The centred pixels, with the best covered others added, or the worst covered taken away, up to the wanted number."""
+    """The centred pixels, with the best covered others added, or the worst covered taken away,
+    up to the wanted number."""
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:

@@ -1,4 +1,5 @@
-"""Convex shapes: a hull of corners with a rounding radius. Circle has one corner, Capsule two, Polygon three to sixteen."""
+"""Convex shapes: a hull of corners with a rounding radius.
+Circle has one corner, Capsule two, Polygon three to sixteen."""
 
 import math
 from dataclasses import dataclass
@@ -42,7 +43,8 @@ class Circle:
 
 @dataclass(frozen=True)
 class Capsule:
-    """All points within a radius of the line from a to b. Raises ValueError for a radius that is not > 0, or no length."""
+    """All points within a radius of the line from a to b.
+    Raises ValueError for a radius that is not > 0, or no length."""
 
     a: tuple[float, float]
     b: tuple[float, float]
@@ -85,7 +87,8 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Polygon:
-    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen; grown and rounded by a radius.
+    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen;
+    grown and rounded by a radius.
 
     Raises ValueError for too few or many corners, for zero area, for three corners in line or equal ones, for a
     concave outline, and for a radius that is not >= 0.

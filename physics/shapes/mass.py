@@ -1,4 +1,5 @@
-"""Masses of plane figures: exact sums over their parts, each about its own centre, so that a far one loses no digits."""
+"""Masses of plane figures: exact sums over their parts, each about its own centre,
+so that a far one loses no digits."""
 
 import math
 from dataclasses import dataclass

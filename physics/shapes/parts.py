@@ -5,6 +5,7 @@ polygon per slope.
 """
 
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -42,11 +43,12 @@ def parts_of(outlines, radius=0.0) -> Parts:
 
 
 def solid_blocks(solid) -> list[tuple[int, int, int, int]]:
-    """(left, top, right, bottom) of rectangles that cover solid[row, col] exactly: runs along rows, alike ones joined."""
+    """(left, top, right, bottom) of rectangles that cover solid[row, col] exactly:
+    runs along rows, alike ones joined."""
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
     for row, line in enumerate(edges):
-        runs = set(zip(np.flatnonzero(line > 0).tolist(), np.flatnonzero(line < 0).tolist()))
+        runs = set(zip(np.flatnonzero(line > 0).tolist(), np.flatnonzero(line < 0).tolist(), strict=True))
         for run in sorted(open_runs.keys() - runs):
             found.append((run[0], open_runs.pop(run), run[1], row))
         for run in runs - open_runs.keys():
@@ -107,11 +109,12 @@ def mask_outlines(mask, bucket, x, y) -> list:
 def chain_outlines(chain) -> list:
     """Both ends of each link in body space [px]."""
     points = list(chain.points) + ([chain.points[0]] if chain.loop else [])
-    return list(zip(points, points[1:]))
+    return list(pairwise(points))
 
 
 def placed_parts(library, bodies, shapes, row, x, y, feet) -> Parts:
-    """Parts of a SHAPE row as it stands, seen from (x, y) [px]. feet [px]: the lowest point of who asks, see tile_outlines."""
+    """Parts of a SHAPE row as it stands, seen from (x, y) [px].
+    feet [px]: the lowest point of who asks, see tile_outlines."""
     shape, placed = library.shape_of(shapes[row]), shapes[row]
     body = bodies[placed["body_row"]]
     at_x, at_y = float(body["x"]) - x, float(body["y"]) - y

@@ -41,7 +41,8 @@ def raster_aabb(geometry, raster, x, y):
 
 @subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
-    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2). Returns their number.
+    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2).
+    Returns their number.
 
     polygons, table: geometry.polygons and geometry.corners, by themselves: handing all of a Geometry on costs more than
     the corners.
@@ -57,7 +58,8 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
 
 @subkernel
 def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
-    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius. Tables as polygon_at."""
+    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius.
+    Tables as polygon_at."""
     span = polygons[polygon]
     first = table[span.offset]
     min_x, min_y = turned(first.x, first.y, cosine, sine)
@@ -184,7 +186,8 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number, and its rounding [px]."""
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2).
+    Returns their number, and its rounding [px]."""
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
@@ -201,8 +204,8 @@ def missing_rasters(
 ):
     """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
 
-    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice.
-    O(rows).
+    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one
+    twice. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]

@@ -6,7 +6,8 @@ from physics.shapes.placement import missing_rasters
 
 
 def add_missing_rasters(library, rows, bodies, shapes, dt):
-    """Draw the masks of these shape rows at the angles that they have, or will have after dt [s], and did not have before."""
+    """Draw the masks of these shape rows at the angles that they have, or will have after dt [s],
+    and did not have before."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

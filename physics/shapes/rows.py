@@ -10,7 +10,8 @@ from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
 
 
 def check_shapes(shapes, kind, angles, swept):
-    """Refuse what is no shape, dynamic chains, turned or dynamic tiles, and swept masks. Raises TypeError, ValueError."""
+    """Refuse what is no shape, dynamic chains, turned or dynamic tiles, and swept masks.
+    Raises TypeError, ValueError."""
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
         raise ValueError(f"shapes of a dynamic body must hold one with mass, a Segment has none (got {shapes!r})")
     for shape in shapes:
@@ -31,7 +32,8 @@ def check_shapes(shapes, kind, angles, swept):
 
 
 def rounding_of(shape):
-    """(radius, centre of a circle in body space) of a shape, or of what a Bounds wraps: what its SHAPE row holds [px]."""
+    """(radius, centre of a circle in body space) of a shape, or of what a Bounds wraps:
+    what its SHAPE row holds [px]."""
     inner = getattr(shape, "shape", shape)
     return (getattr(inner, "radius", 0.0), *getattr(inner, "center", (0.0, 0.0)))
 

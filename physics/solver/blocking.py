@@ -84,7 +84,8 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _advance(bodies, manifolds, anchors):
-    """Carry the separations of manifolds to the present poses; anchors (n, 2): B's centre seen from A's when they were found."""
+    """Carry the separations of manifolds to the present poses;
+    anchors (n, 2): B's centre seen from A's when they were found."""
     a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
     moved_x = b["center_x"] - a["center_x"] - anchors[:, 0]
     moved_y = b["center_y"] - a["center_y"] - anchors[:, 1]

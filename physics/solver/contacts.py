@@ -1,9 +1,9 @@
 """Contacts as a constraint set: which manifolds are solved, in which order, as which rows, and what is stored of them.
 
-A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such as
-joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row holds
-arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides have
-moved since.
+A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such
+as joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row
+holds arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides
+have moved since.
 """
 
 from collections.abc import Callable
@@ -42,8 +42,8 @@ def select_manifolds(
     selected_out,
     edges_out,
 ):
-    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns their
-    number. O(manifolds).
+    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns
+    their number. O(manifolds).
 
     Sensors, pairs of which neither side can be pushed, and what lies under the feet of a character are left out.
     """
@@ -93,8 +93,8 @@ def make_prepare(friction: bool, conveyor: bool):
         constraints_out,
         work_inout,
     ):
-        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a substep
-        of h [s].
+        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
+        substep of h [s].
 
         plan: see Plan. Arms go from the centres of mass to the contact point. O(constraints).
         """

@@ -1,4 +1,5 @@
-"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back in the end.
+"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back in the
+end.
 
 Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
 """
@@ -57,10 +58,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool):
         pushable_out,
         work_inout,
     ):
-        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed. O(rows).
+        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed.
+        O(rows).
 
-        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of each;
-        pushable_out (motions) bool: whether an impulse changes its velocity.
+        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of
+        each; pushable_out (motions) bool: whether an impulse changes its velocity.
         """
         for k in range(len(rows)):
             b = bodies[rows[k]]

@@ -42,8 +42,8 @@ def make_sequential_pass(rotation: bool, friction: bool):
     ):
         """Solve every constraint once, friction first, in the order of the rows. O(count).
 
-        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed [px/s]
-        at most.
+        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed
+        [px/s] at most.
         """
         for i in range(count):
             r = constraints_inout[i]

@@ -19,7 +19,8 @@ BOTH = (False, True)
 
 
 class Softness(NamedTuple):
-    """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass, leak of the impulse."""
+    """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass,
+    leak of the impulse."""
 
     bias_rate: float
     mass_scale: float
@@ -27,7 +28,8 @@ class Softness(NamedTuple):
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
-    """The implicit spring of a frequency [1/s] and damping ratio over a substep h [s] (Catto, Soft Constraints, 2011)."""
+    """The implicit spring of a frequency [1/s] and damping ratio over a substep h [s] (Catto, Soft Constraints,
+    2011)."""
     omega = math.tau * hertz
     a1 = 2.0 * damping + h * omega
     a2 = h * omega * a1
@@ -54,7 +56,8 @@ def normal_change(
 
 @subkernel
 def turned_along(a, b, ax, ay, bx, by, nx, ny):
-    """How far apart along the normal the two arms reach, turned by what their bodies turned since the step began [px]."""
+    """How far apart along the normal the two arms reach, turned by what their bodies turned since the step began
+    [px]."""
     x = (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay)
     y = (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay)
     return x * nx + y * ny
@@ -130,7 +133,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
                 if rotation:
                     k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
                 solved = False
-                # Hard points are solved together, or the first would spin the body; springs one by one resist tilting more.
+                # Hard points are solved together, or the first would spin the body; single springs resist tilting.
                 if not soft_now and r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
                     solved, both_1, both_2 = solve_two(
                         1.0 / r.normal_mass_1,
@@ -225,7 +228,8 @@ RELAXING = {"contacts": {(r, f): make_soft_pass(biased=False, rotation=r, fricti
 
 
 def solve(state, sets) -> float:
-    """Advance the motions by a step under the constraints of all sets. Returns the substep [s] that impulses belong to."""
+    """Advance the motions by a step under the constraints of all sets.
+    Returns the substep [s] that impulses belong to."""
     effects, motions, push_speed = state.effects, state.workspace.motions, state.tolerances.push_speed
     rotation, friction = effects.rotation, effects.friction
     h = state.dt / state.substeps

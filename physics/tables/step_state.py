@@ -1,8 +1,8 @@
 """StepState: what the stages of a step hand on to each other, and what each of them says it touches.
 
-A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those that
-it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it. What lasts
-longer than a step lies in the world, which gives it to the state and takes it back at the end.
+A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those
+that it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it.
+What lasts longer than a step lies in the world, which gives it to the state and takes it back at the end.
 """
 
 from collections.abc import Callable
@@ -52,7 +52,8 @@ class StepState:
 
 
 def stage(name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()) -> Callable:
-    """Mark a function of a StepState as a stage: its name in `world.stages`, the fields it reads and those it writes."""
+    """Mark a function of a StepState as a stage: its name in `world.stages`,
+    the fields it reads and those it writes."""
     for each in (*reads, *writes):
         if each.split(".")[0] not in STAGE_FIELDS:
             raise ValueError(f"a stage may read and write {', '.join(STAGE_FIELDS)} (got {each!r} for {name!r})")

@@ -1,4 +1,5 @@
-"""Characters among the bodies of worlds that stack: they stand on them, are carried, push by impulses, weigh, are squeezed."""
+"""Characters among the bodies of worlds that stack: they stand on them, are carried, push by impulses, weigh,
+are squeezed."""
 
 import math
 

@@ -123,7 +123,7 @@ def test_carried_character_is_seen_by_a_sensor_in_the_same_step():
     hero = Character(world, BOX, (0, 0))
     hero.move(0, 1)
     seen = None
-    for step in range(6):
+    for _ in range(6):
         world.step()
         if len(world.events.sensor_begin) and seen is None:
             seen = hero.position[0]
