@@ -10,7 +10,7 @@ from physics.tables.contact import EVENT, HIT, QUARANTINE
 from physics.tables.counters import CONTACTS
 from physics.tables.manifold import MANIFOLD
 from physics.tables.rows import rows_of
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 NOTHING = np.zeros(0, MANIFOLD)
 
@@ -66,9 +66,8 @@ class Told(NamedTuple):
 
 def new_told(room: int) -> Told:
     """Room for that many pairs."""
-    return Told(
-        *(np.zeros(room, EVENT) for _ in range(5)), np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(6, np.int64)
-    )
+    events = (np.zeros(room, EVENT) for _ in range(5))
+    return Told._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(6, np.int64)))
 
 
 @subkernel
@@ -190,7 +189,7 @@ def compare_pairs(
 class Pairs:
     """The pairs that touch, and what changed among them in the last step."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.count = 0
         self.told = new_told(16)
         self.before = np.zeros(16, EVENT)
@@ -200,7 +199,7 @@ class Pairs:
         """EVENT rows of the pairs that touch, in the order of shape ids."""
         return self.before[: self.count]
 
-    def compare(self, manifolds, parked, sensors: bool, slop: float, hit_speed: float) -> Told:
+    def compare(self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, slop: float, hit_speed: float) -> Told:
         """Take in the manifolds of a step. Returns what is told of them, each array as long as it is."""
         room = self.count + len(manifolds)
         if room > len(self.told.keep):
@@ -210,23 +209,20 @@ class Pairs:
             self.before = before
         compare_pairs(self.rows, manifolds, parked, int(sensors), slop, hit_speed, self.told)
         whole, counts = self.told, self.told.counts.tolist()
-        told = Told(
-            *(table[:count] for table, count in zip(whole[:6], counts, strict=True)),
-            whole.keep[: len(manifolds)],
-            whole.counts,
-        )
+        cut = (table[:count] for table, count in zip(whole[:6], counts, strict=True))
+        told = Told._make((*cut, whole.keep[: len(manifolds)], whole.counts))
         # What touches now is what touched before, next time: the two tables change places.
         self.count = counts[0]
         self.told, self.before = whole._replace(now=self.before), whole.now
         return told
 
-    def give_back(self, rows):
+    def give_back(self, rows: np.ndarray) -> None:
         """Take in pairs that were kept aside."""
         if len(rows):
             both = np.concatenate([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
-    def take_resting(self, bodies) -> np.ndarray:
+    def take_resting(self, bodies: np.ndarray) -> np.ndarray:
         """Take out, and return, the pairs of which neither side is among the rows that a step goes over."""
         rows = self.rows
         if not len(rows):
@@ -240,7 +236,7 @@ class Pairs:
             self.restore(rows[~resting])
         return taken
 
-    def restore(self, touching):
+    def restore(self, touching: np.ndarray) -> None:
         """Set the pairs that touch."""
         self.count = len(touching)
         self.before = np.zeros(max(len(self.told.keep), 2 * self.count), EVENT)
@@ -252,7 +248,7 @@ class Pairs:
 class Events:
     """Structured arrays of the last step; see api.md for their columns."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = np.zeros(0, EVENT)
         self.hits = np.zeros(0, HIT)
         self.quarantined = np.zeros(0, QUARANTINE)
@@ -275,7 +271,7 @@ class Events:
     ),
     writes=("touching", "sensing", "sleepers", "events", "told", "work"),
 )
-def tell(state):
+def tell(state: StepState) -> None:
     """Compare what touches with what touched before, and say what changed."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
     parked, keys = state.parked if state.parked is not None else (NOTHING, None)

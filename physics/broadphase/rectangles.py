@@ -14,7 +14,8 @@ from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import MASK
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
+from physics.tables.world_tables import WorldTables
 
 
 @kernel
@@ -103,12 +104,12 @@ def update_rectangles(
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def motion_rectangles(state):
+def motion_rectangles(state: StepState) -> None:
     """Bring the boxes, and the rectangles that no longer fit, up to date."""
     state.changed_count = write_rectangles(state, state.awake.shapes)
 
 
-def write_rectangles(tables, rows) -> int:
+def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     """Bring the boxes and rectangles of these shape rows up to date.
     Returns how many slots changed, listed by the pairs.
 

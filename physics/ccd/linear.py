@@ -6,6 +6,7 @@ enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: 
 """
 
 import math
+from collections.abc import Callable
 
 from physics.ccd.closed_form import MISS, sweep_circle_polygon, sweep_circles, sweep_polygons
 from physics.collision.circles import collide_polygon_circle
@@ -186,7 +187,7 @@ def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
     return found + 1
 
 
-def make_impact_pass(one_way: bool):
+def make_impact_pass(one_way: bool) -> Callable:
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
 
     @kernel

@@ -20,7 +20,7 @@ from physics.settings import IMPACT_ROUNDS
 from physics.tables.body import DYNAMIC, RAY, SWEPT
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
 NO_IMPACTS = np.zeros((0, 5))
@@ -29,13 +29,13 @@ NO_IMPACTS = np.zeros((0, 5))
 class Sweeper:
     """The arrays that sweeps of one world need, grown and used again."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
         self.impacts = np.zeros((16, 5))
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
 
-    def grow(self, state):
+    def grow(self, state: StepState) -> None:
         """Make room for the bodies and the candidates of a step."""
         bodies, candidates = len(state.bodies), len(state.pairs.rows)
         if len(self.fast) < bodies:
@@ -95,7 +95,7 @@ PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y",
 
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "work", "workspace", "bodies.fraction"))
-def foresee_impacts(state):
+def foresee_impacts(state: StepState) -> None:
     """What the bodies are about to meet, and which part of their motion is free."""
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
@@ -110,7 +110,7 @@ def foresee_impacts(state):
 
 
 @stage("narrow_phase", reads=(*FORESEEN, "impacts"), writes=("manifolds", "work", "workspace"))
-def detect_moved(state):
+def detect_moved(state: StepState) -> None:
     """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
     manifolds = detect(state)
     if not len(state.impacts):
@@ -159,7 +159,7 @@ def _written(state, impacts, response) -> np.ndarray:
         *PLACED,
     ),
 )
-def sweep_piles(state):
+def sweep_piles(state: StepState) -> None:
     """Find the fast bodies, what they have met in the step, and put them there."""
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None

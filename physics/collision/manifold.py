@@ -252,7 +252,7 @@ def write_contacts(
     return found
 
 
-def contacts_of(manifolds) -> np.ndarray:
+def contacts_of(manifolds: np.ndarray) -> np.ndarray:
     """The points of MANIFOLD rows as CONTACT rows, in their order."""
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
     write_contacts(manifolds, contacts)

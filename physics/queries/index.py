@@ -5,12 +5,17 @@ the step itself is listed as loose and looked at one by one, so an answer is alw
 Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies.
 """
 
+from typing import Any, Protocol
+
 import numpy as np
 
+from physics.broadphase.proxies import Strategy
+from physics.checks import Pair
 from physics.jit import kernel
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.counters import COUNTERS, PAIRS_TESTED
+from physics.tables.world_tables import WorldTables
 
 ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
 
@@ -108,10 +113,27 @@ def rows_meeting(
     return found
 
 
+class AskedWorld(WorldTables, Protocol):
+    """What queries read of a world. Any stands for what is defined to the right of this folder."""
+
+    queries: "QueryIndex"
+    events: Any
+    _next_shape: int
+
+    @property
+    def broadphase(self) -> Strategy:
+        """Whose structure is asked."""
+        ...
+
+    def body(self, identity: int) -> Any:
+        """The Body of an id."""
+        ...
+
+
 class QueryIndex:
     """The look-up of one world. The counters of its last step are left alone: a query counts in `work`."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.seen = ()  # what the loose rows were found for: other tables or a step make it stale
         self.poses = np.zeros((0, 3))
@@ -125,12 +147,12 @@ class QueryIndex:
         """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
-    def begin(self, world):
+    def begin(self, world: AskedWorld) -> None:
         """Start a query: counters to zero, AABBs and loose rows up to date."""
         self.work[:] = 0
         self.refresh(world)
 
-    def refresh(self, world):
+    def refresh(self, world: AskedWorld) -> None:
         """Bring AABBs and loose rows up to date; where nothing has changed since the last time,
         that is all that is found."""
         bodies, shapes = world.bodies, world.shapes
@@ -156,7 +178,7 @@ class QueryIndex:
             bodies, shapes, proxies, int(not world.pairs.everything), self.row_of_slot, self.loose
         )
 
-    def rows_in(self, world, lower, upper) -> np.ndarray:
+    def rows_in(self, world: AskedWorld, lower: Pair, upper: Pair) -> np.ndarray:
         """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it;
         none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))

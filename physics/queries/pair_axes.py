@@ -4,8 +4,10 @@ for drawing, not for the step."""
 import numpy as np
 
 from physics import checks
+from physics.checks import Pose
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Segment
 from physics.shapes.placement import write_hull
@@ -24,7 +26,7 @@ AXIS = np.dtype(
 HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
-def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
+def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
     """(n,) AXIS rows of two shapes at poses (x, y, angle), the axis that separates most first.
 
     The greatest separation is the distance, or minus the depth. Raises TypeError for what is no convex shape.

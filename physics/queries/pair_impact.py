@@ -9,11 +9,13 @@ from physics.ccd.advance import TOLERANCE
 from physics.ccd.closed_form import MISS, sweep_circles
 from physics.ccd.parts import advance_on_ground, advance_parts
 from physics.ccd.rotational import new_rotational_workspace
+from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_distance import checked, order_of
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Circle
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
@@ -38,7 +40,9 @@ class TimeOfImpact:
 NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 
 
-def time_of_impact(shape_a, start_a, end_a, shape_b, start_b, end_b) -> TimeOfImpact:
+def time_of_impact(
+    shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
+) -> TimeOfImpact:
     """First fraction at which two shapes touch while their poses (x, y, angle) go straight from start to end,
     angles unwrapped.
 

@@ -40,7 +40,7 @@ def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: i
     return _any_turn(solid, origin, math.tau * bucket / buckets)
 
 
-def _quarter_turns(solid, origin, source_x, source_y, turns):
+def _quarter_turns(solid, origin, source_x, source_y, turns: int):
     height, width = solid.shape
     x, y = origin
     origins = ((x, y), (height - y, x), (width - x, height - y), (y, width - x))

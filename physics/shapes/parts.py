@@ -4,6 +4,7 @@ A hull is one part; a chain has one per link; tiles and masks have a rectangle p
 polygon per slope.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -13,6 +14,7 @@ import numpy as np
 from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
+from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.placement import write_hull
@@ -28,7 +30,7 @@ class Parts(NamedTuple):
     radius: float  # [px]
 
 
-def parts_of(outlines, radius=0.0) -> Parts:
+def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
     """From a list of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px]."""
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     boxes = np.zeros((len(outlines), 4))
@@ -42,7 +44,7 @@ def parts_of(outlines, radius=0.0) -> Parts:
     return Parts(corners, counts, boxes, float(radius))
 
 
-def solid_blocks(solid) -> list[tuple[int, int, int, int]]:
+def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
     """(left, top, right, bottom) of rectangles that cover solid[row, col] exactly:
     runs along rows, alike ones joined."""
     found, open_runs = [], {}
@@ -56,24 +58,26 @@ def solid_blocks(solid) -> list[tuple[int, int, int, int]]:
     return found
 
 
-def rectangle(left, top, right, bottom) -> list[tuple[float, float]]:
+def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
     """Corners of a box, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 
 @lru_cache(maxsize=256)
-def tile_blocks(grid):
+def tile_blocks(
+    grid: TileGrid,
+) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
     """Blocks of solid cells, cells with a slope, and blocks of one-way cells of a TileGrid, which never changes."""
     return solid_blocks(grid.solid), np.argwhere((grid.slopes > 0.0).any(axis=2)).tolist(), solid_blocks(grid.one_way)
 
 
 @lru_cache(maxsize=256)
-def mask_blocks(mask, bucket):
+def mask_blocks(mask: PixelMask, bucket: int) -> list[tuple[int, int, int, int]]:
     """Blocks of solid pixels of a PixelMask turned to an angle bucket."""
     return solid_blocks(mask.turned_to(bucket).solid)
 
 
-def tile_outlines(grid, x, y, feet) -> list:
+def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
     """Outlines of a TileGrid whose origin is at (x, y) [px].
 
     feet [px]: the lowest point of the other shape, from the grid's origin: a one-way tile counts, as its top edge, for
@@ -99,20 +103,22 @@ def tile_outlines(grid, x, y, feet) -> list:
     return found
 
 
-def mask_outlines(mask, bucket, x, y) -> list:
+def mask_outlines(mask: PixelMask, bucket: int, x: float, y: float) -> list:
     """Outlines of a mask's pixels at an angle bucket, whose raster's top left corner is at (x, y) [px]."""
     return [
         rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask_blocks(mask, bucket)
     ]
 
 
-def chain_outlines(chain) -> list:
+def chain_outlines(chain: Chain) -> list:
     """Both ends of each link in body space [px]."""
     points = list(chain.points) + ([chain.points[0]] if chain.loop else [])
     return list(pairwise(points))
 
 
-def placed_parts(library, bodies, shapes, row, x, y, feet) -> Parts:
+def placed_parts(
+    library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
+) -> Parts:
     """Parts of a SHAPE row as it stands, seen from (x, y) [px].
     feet [px]: the lowest point of who asks, see tile_outlines."""
     shape, placed = library.shape_of(shapes[row]), shapes[row]

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from physics.shapes.library import Library
 from physics.shapes.placement import missing_rasters
 
 
-def add_missing_rasters(library, rows, bodies, shapes, dt):
+def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
     """Draw the masks of these shape rows at the angles that they have, or will have after dt [s],
     and did not have before."""
     if not library.masks:

@@ -5,6 +5,8 @@ Row 0 of MOTION stands for everything that does not move in this step: what is s
 """
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.constraint import MOTION
 from physics.tables.counters import BODIES_INTEGRATED
+from physics.tables.step_state import StepState
 
 BOTH = (False, True)
 
@@ -43,7 +46,7 @@ def stand_still(motions_out, pushable_out):
     pushable_out[0] = False
 
 
-def make_gather(gravity: bool, wind: bool, rotation: bool):
+def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
     """The pass from bodies to motions for a world with these effects."""
 
     @kernel
@@ -104,7 +107,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool):
     return gather_motions
 
 
-def make_substep_velocities(drag: bool, rotation: bool):
+def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     """The pass that speeds bodies up at the start of each substep."""
 
     @kernel
@@ -134,7 +137,7 @@ def make_substep_velocities(drag: bool, rotation: bool):
     return integrate_substep_velocities
 
 
-def make_substep_positions(rotation: bool):
+def make_substep_positions(rotation: bool) -> Callable:
     """The pass that moves bodies at the end of each substep."""
 
     @kernel
@@ -205,12 +208,12 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 class Motions:
     """The MOTION rows of one world, grown and used again."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.rows, self.pushable = np.zeros(16, MOTION), np.zeros(16, np.bool_)
         self.motion_of = np.zeros(16, np.int32)
         self.used = self.rows[:1]
 
-    def gather(self, state):
+    def gather(self, state: StepState) -> None:
         """Take the awake bodies in."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
@@ -225,7 +228,7 @@ class Motions:
         if len(state.characters):
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
-    def scatter(self, state):
+    def scatter(self, state: StepState) -> None:
         """Write the bodies back, and carry their manifolds along."""
         rows, bodies = state.awake.bodies, state.bodies
         scatter_motions(rows, self.used, self.motion_of, bodies)
@@ -265,7 +268,7 @@ WRITES = (
 )
 
 
-def push_piles(state, solve):
+def push_piles(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
     """What the stages of the stacking solvers do: gather, solve by their door `solve(state, sets)`, write back."""
     if not len(state.awake.bodies):
         return

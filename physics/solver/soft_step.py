@@ -7,13 +7,15 @@ Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction 
 """
 
 import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
 
@@ -63,7 +65,7 @@ def turned_along(a, b, ax, ay, bx, by, nx, ny):
     return x * nx + y * ny
 
 
-def make_soft_pass(biased: bool, rotation: bool, friction: bool):
+def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     """One pass over the constraints: with bias (and no friction), or relaxing (with friction where declared)."""
 
     @kernel
@@ -227,7 +229,7 @@ BIASED = {"contacts": {r: make_soft_pass(biased=True, rotation=r, friction=False
 RELAXING = {"contacts": {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
 
-def solve(state, sets) -> float:
+def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
     """Advance the motions by a step under the constraints of all sets.
     Returns the substep [s] that impulses belong to."""
     effects, motions, push_speed = state.effects, state.workspace.motions, state.tolerances.push_speed
@@ -254,6 +256,6 @@ def solve(state, sets) -> float:
 
 
 @stage("soft_step", reads=READS, writes=WRITES)
-def soft_step(state):
+def soft_step(state: StepState) -> None:
     """Push and move the bodies of a world that stacks."""
     push_piles(state, solve)
