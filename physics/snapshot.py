@@ -87,8 +87,7 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """blake2b-128 over ids, poses, velocities, flags, characters, contact keys and impulses in id order;
-    −0.0 as 0.0."""
+    """blake2b-128 over ids, poses, velocities, flags, characters, contacts and impulses in id order; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
     for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
         found.update(len(rows).to_bytes(8, "little"))
@@ -179,8 +178,7 @@ def take(world: WorldState) -> Snapshot:
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Put a world back to a snapshot, taken from it or from one built with the same effects.
-    Raises TypeError, ValueError."""
+    """Put a world back to a snapshot of a world with the same effects. Raises TypeError, ValueError."""
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {taken!r})")
     facts, arrays = taken.facts, taken.arrays

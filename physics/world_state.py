@@ -85,8 +85,7 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT rows of what touches, was pushed, or was met on the way in the last step,
-        in the order of shape ids."""
+        """CONTACT rows of what touched, was pushed, or met on the way in the last step, in order of shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(self.told_manifolds())
         return self._contacts

@@ -159,8 +159,7 @@ def near_in_trees(
     slots_out,
     work_inout,
 ):
-    """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number.
-    O(log n + found)."""
+    """List the slots whose leaf meets a closed box [px], from the roots down; their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):

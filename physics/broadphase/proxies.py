@@ -50,8 +50,7 @@ def may_meet(
     # write
     work_inout,
 ):
-    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree both ways.
-    O(1)."""
+    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree. O(1)."""
     p = proxies[a]
     q = proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake):

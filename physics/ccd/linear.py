@@ -23,8 +23,7 @@ from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
 
 @subkernel
 def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, edges, slack, corners_inout):
-    """One moving circle or polygon (or a ray from its middle) against an outline at rest:
-    (fraction or MISS, normal to it)."""
+    """A moving circle or polygon (or a ray from its middle) against an outline: (fraction or MISS, normal to it)."""
     s = shapes[row]
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
@@ -173,8 +172,7 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
-    """Write an impact of a candidate pair when there is workspace, and return the count,
-    which goes on past the capacity.
+    """Write an impact of a candidate pair when there is room. Returns the count, which goes on past the capacity.
 
     nx, ny: from what was met to the mover, which is A of the pair where from_a says so.
     """

@@ -197,8 +197,7 @@ def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, 
 
 @subkernel
 def sweep_chain(geometry, chain, local_x, local_y, count, radius, core_radius, half, slack, workspace):
-    """(fraction or MISS, normal from the chain, core) of the mover against a chain's links;
-    blocks out of reach are skipped."""
+    """(fraction or MISS, normal from the chain, core) of the mover against the links of a chain within reach."""
     span = geometry.chains[chain]
     reach = reach_of(workspace.mover, count) + radius
     other = workspace.advance.motion_b

@@ -84,8 +84,7 @@ def nearest_corners(a, a_count, b, b_count):
 
 @subkernel
 def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
-    """One point between a corner of A and one of B, rounded, when they are within the limit [px].
-    Returns the number."""
+    """One point between rounded corners of A and B, when within the limit [px]. Returns the number."""
     dx = b[j, 0] - a[i, 0]
     dy = b[j, 1] - a[i, 1]
     nx, ny = unit(dx, dy, 0.0, -1.0)
@@ -207,8 +206,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """The line from a to b against a disc [px]: (normal from the line to the disc, point of the line, separation,
-    feature).
+    """The line from a to b against a disc [px]: (normal to the disc, point of the line, separation, feature).
 
     Feature: 0 or 1, the side; 32 or 33, the end. A centre on the line takes the normal of its first side.
     """

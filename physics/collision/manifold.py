@@ -86,8 +86,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a point to the last manifold, where that is of the same pair, has the same normal and one point;
-    else begin one.
+    """Add a point to the last manifold, if that is of this pair, with this normal and one point; else begin one.
 
     Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
     area [px2]. What depends on the bodies' motion is left to approach.py.

@@ -84,8 +84,7 @@ def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
 
 @subkernel
 def thick_line(points, front, back, corners_out):
-    """Write the rectangle that reaches `front` and `back` [px] to both sides of the line from points[0] to
-    points[1]."""
+    """Write the rectangle `front` and `back` [px] to both sides of the line from points[0] to points[1]."""
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
         end = 0 if k == 0 or k == 3 else 1

@@ -1,5 +1,4 @@
-"""A mask against a rounded hull (capsule, rounded polygon): the union of its pixel squares, as drawn,
-against the exact shape.
+"""A mask, as the union of its pixel squares as drawn, against an exact rounded hull (capsule, rounded polygon).
 
 Masks are open: a hit shares area, touching is none. See masks/shapes.py for discs and sharp polygons.
 """
@@ -55,8 +54,7 @@ def way_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny):
-    """How far [px] a rounded hull moves along a unit direction until a line parts it from the pixels that it
-    overlaps."""
+    """How far [px] a rounded hull moves along a unit direction until a line parts it from the pixels in it."""
     r = rasters[mask]
     least = math.inf
     for k in range(count):

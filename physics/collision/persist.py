@@ -209,8 +209,7 @@ def remember_grids(
     # write
     memory_out,
 ):
-    """Write where the previous manifolds of every candidate with a tile grid stand:
-    memory_out (count, 2) first, number.
+    """Write where a tile grid's previous manifolds of each candidate stand: memory_out (count, 2) first, number.
 
     Both in the order of shape ids. One-way tiles ask who stood on them. O(candidates + previous).
     """

@@ -11,8 +11,7 @@ from physics.tables.geometry import ONE_WAY, SLOPE, SOLID
 
 @subkernel
 def covered(grids, cells, grid, row, column, from_row, from_column):
-    """Whether the neighbour at (row, column) covers the whole edge it shares with the cell at (from_row,
-    from_column)."""
+    """Whether the cell at (row, column) covers the whole edge that it shares with that at (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -33,8 +32,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def turns_away(grids, cells, grid, row, column, side):
-    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1:
-    their common corner sticks out."""
+    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1: a corner sticks out."""
     g = grids[grid]
     other = column + side
     if other < 0 or other >= g.columns:

@@ -28,8 +28,7 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of every edge's two nodes. edges (count, 2) int32; parents_inout: the root, or a way to it.
-    O(count)."""
+    """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: root, or way to it. O(count)."""
     for i in range(count):
         first = root_of(edges[i, 0], parents_inout)
         second = root_of(edges[i, 1], parents_inout)

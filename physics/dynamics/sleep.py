@@ -102,8 +102,7 @@ def _bring_back(tables, manifolds, anchors):
 
 
 def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Manifolds, and their anchors, with the rows that bodies and shapes have now;
-    without those whose sides are gone."""
+    """Manifolds and anchors with the rows that bodies and shapes have now; without those whose sides are gone."""
     there = np.ones(len(manifolds), bool)
     for side in "ab":
         for table, name, column in ((tables.bodies, "body_", "body_row_"), (tables.shapes, "shape_", "row_")):

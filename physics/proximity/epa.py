@@ -121,8 +121,7 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap how far, and along which normal, B has to move until it only touches A.
-    O(corners squared).
+    """Write to workspace.gap how far, and along which normal, B has to move to touch A. O(corners squared).
 
     Rounds are added to workspace.state, and whether they hit EPA_CAP.
     """

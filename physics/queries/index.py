@@ -22,8 +22,7 @@ ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates arou
 
 @kernel
 def same_poses(bodies, poses_inout):
-    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3).
-    O(bodies), a line of memory each."""
+    """Whether no body has moved since; writes what it sees. poses_inout (bodies, 3). O(bodies)."""
     same = True
     for k in range(len(bodies)):
         b = bodies[k]
@@ -46,8 +45,7 @@ def find_loose(
     row_of_slot_out,
     loose_out,
 ):
-    """List the shape rows that the structure may not find, and write which row each slot stands for (-1:
-    look elsewhere).
+    """List the shape rows that the structure may not find, and the row that each slot stands for (-1: none).
 
     A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
     the number of loose rows; those of quarantined bodies are neither. O(shapes).
@@ -95,8 +93,7 @@ def rows_meeting(
     rows_out,
     work_inout,
 ):
-    """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px].
-    Returns their number."""
+    """List the rows of the slots, and of the loose ones, whose AABB meets a closed box [px]. Returns their number."""
     found = 0
     for k in range(slot_count + loose_count):
         if k >= slot_count:
@@ -153,8 +150,7 @@ class QueryIndex:
         self.refresh(world)
 
     def refresh(self, world: AskedWorld) -> None:
-        """Bring AABBs and loose rows up to date; where nothing has changed since the last time,
-        that is all that is found."""
+        """Bring AABBs and loose rows up to date, unless nothing has changed since the last time."""
         bodies, shapes = world.bodies, world.shapes
         if len(self.poses) != len(bodies):
             self.poses = np.full((len(bodies), 3), np.nan)
@@ -179,8 +175,7 @@ class QueryIndex:
         )
 
     def rows_in(self, world: AskedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it;
-        none quarantined."""
+        """Shape rows, in order, whose AABB meets the closed box [px] within rounding; none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         found = 0

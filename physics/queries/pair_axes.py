@@ -1,5 +1,4 @@
-"""Every axis that could part two convex shapes, as the separating axis test sees them:
-for drawing, not for the step."""
+"""Every axis that could part two convex shapes, as the separating axis test sees them: for drawing."""
 
 import numpy as np
 

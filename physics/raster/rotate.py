@@ -85,8 +85,7 @@ def _any_turn(solid, origin, angle):
 
 
 def _as_many(centered, coverage, wanted):
-    """The centred pixels, with the best covered others added, or the worst covered taken away,
-    up to the wanted number."""
+    """The centred pixels, up to the wanted number by adding the best covered or dropping the worst covered."""
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:

@@ -1,5 +1,4 @@
-"""Masses of plane figures: exact sums over their parts, each about its own centre,
-so that a far one loses no digits."""
+"""Masses of plane figures: exact sums over parts, each about its own centre: a far one loses no digits."""
 
 import math
 from collections.abc import Iterable

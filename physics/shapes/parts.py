@@ -45,8 +45,7 @@ def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
 
 
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """(left, top, right, bottom) of rectangles that cover solid[row, col] exactly:
-    runs along rows, alike ones joined."""
+    """(left, top, right, bottom) of rectangles that cover solid[row, col]: runs along rows, alike ones joined."""
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
     for row, line in enumerate(edges):

@@ -15,8 +15,7 @@ from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> None:
-    """Refuse what is no shape, dynamic chains, turned or dynamic tiles, and swept masks.
-    Raises TypeError, ValueError."""
+    """Refuse no shapes, dynamic chains, turned or dynamic tiles, swept masks. Raises TypeError, ValueError."""
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
         raise ValueError(f"shapes of a dynamic body must hold one with mass, a Segment has none (got {shapes!r})")
     for shape in shapes:
@@ -37,8 +36,7 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> 
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """(radius, centre of a circle in body space) of a shape, or of what a Bounds wraps:
-    what its SHAPE row holds [px]."""
+    """(radius, centre of a circle in body space) [px] of a shape, or of what a Bounds wraps, for its SHAPE row."""
     inner = getattr(shape, "shape", shape)
     x, y = getattr(inner, "center", (0.0, 0.0))
     return getattr(inner, "radius", 0.0), x, y

@@ -1,5 +1,4 @@
-"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back in the
-end.
+"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back.
 
 Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
 """

@@ -64,8 +64,7 @@ def store_pushes(
     # write
     manifolds_inout,
 ):
-    """Write impulses, and the separations at the final poses, back to the manifolds, without detecting again.
-    O(pushes).
+    """Write impulses, and separations at the final poses, back to the manifolds; nothing is detected. O(pushes).
 
     The displacement of B against A along the normal changes the separation.
     """

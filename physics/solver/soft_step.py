@@ -21,8 +21,7 @@ BOTH = (False, True)
 
 
 class Softness(NamedTuple):
-    """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass,
-    leak of the impulse."""
+    """A damped spring as a constraint over a substep: speed per px of overlap, shares of mass and impulse."""
 
     bias_rate: float
     mass_scale: float
@@ -30,8 +29,7 @@ class Softness(NamedTuple):
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
-    """The implicit spring of a frequency [1/s] and damping ratio over a substep h [s] (Catto, Soft Constraints,
-    2011)."""
+    """The implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
     omega = math.tau * hertz
     a1 = 2.0 * damping + h * omega
     a2 = h * omega * a1
@@ -58,8 +56,7 @@ def normal_change(
 
 @subkernel
 def turned_along(a, b, ax, ay, bx, by, nx, ny):
-    """How far apart along the normal the two arms reach, turned by what their bodies turned since the step began
-    [px]."""
+    """How far apart [px] along the normal the two arms reach, turned as their bodies since the step began."""
     x = (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay)
     y = (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay)
     return x * nx + y * ny
