@@ -2,20 +2,29 @@
 
 import math
 import numbers
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from physics.settings import POSITION_LIMIT
 
+# What a user may hand in where these functions give tuples of floats back.
+Pair = Sequence[float] | np.ndarray  # (x, y)
+Pose = Sequence[float] | np.ndarray  # (x, y, angle)
+Points = Sequence[Pair] | np.ndarray  # (n, 2)
 
-def number(name, value, low=None, above=None, high=None):
+
+def number(
+    name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
+) -> float:
     """A finite float; `low`/`high` inclusive bounds, `above` exclusive. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {value!r})")
     try:
         value = float(value)
     except OverflowError:
-        value = math.inf if value > 0 else -math.inf
+        value = -math.inf if value < 0 else math.inf
     allowed = "finite"
     if above is not None:
         allowed = f"finite and > {above}"
@@ -33,7 +42,7 @@ def number(name, value, low=None, above=None, high=None):
     return value
 
 
-def vector(name, value):
+def vector(name: str, value: Any) -> tuple[float, float]:
     """Two finite floats from any pair. Raises TypeError or ValueError."""
     try:
         x, y = value
@@ -42,7 +51,7 @@ def vector(name, value):
     return number(f"{name}[0]", x), number(f"{name}[1]", y)
 
 
-def position(name, value):
+def position(name: str, value: Any) -> tuple[float, float]:
     """Two floats that lie where a double still resolves a pixel. Raises TypeError or ValueError."""
     x, y = vector(name, value)
     if max(abs(x), abs(y)) >= POSITION_LIMIT:
@@ -50,7 +59,7 @@ def position(name, value):
     return x, y
 
 
-def ids(name, value):
+def ids(name: str, value: Any) -> np.ndarray:
     """A flat int64 array of ids, each once. Raises TypeError or ValueError."""
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
@@ -61,23 +70,24 @@ def ids(name, value):
     return array
 
 
-def whole(name, value, low, high):
+def whole(name: str, value: Any, low: int, high: int) -> int:
     """An int within bounds. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number (got {value!r})")
+    value = int(value)
     if not low <= value <= high:
         raise ValueError(f"{name} must be {low}..{high} (got {value})")
-    return int(value)
+    return value
 
 
-def flag(name, value):
+def flag(name: str, value: Any) -> bool:
     """A bool. Raises TypeError."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False (got {value!r})")
     return bool(value)
 
 
-def choice(name, value, allowed):
+def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
     """One of the allowed strings. Raises ValueError (TypeError when it is no string)."""
     if not isinstance(value, str):
         raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {value!r})")
@@ -86,7 +96,7 @@ def choice(name, value, allowed):
     return value
 
 
-def columns(name, value, count=None, width=2):
+def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> np.ndarray:
     """A finite float64 array (n, width) or (n,) for width 1, as a C-ordered copy. Raises TypeError or ValueError."""
     try:
         array = np.array(value)
@@ -109,7 +119,7 @@ def columns(name, value, count=None, width=2):
     return array
 
 
-def pose(name, value):
+def pose(name: str, value: Any) -> tuple[float, float, float]:
     """(x, y, angle) as floats. Raises TypeError or ValueError."""
     try:
         x, y, angle = value

@@ -1,5 +1,6 @@
 """What is under a scene, as arrays in world pixels. Only reads; drawing is somebody else's."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from physics.queries.pair_distance import gjk_steps
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.tables.body import DYNAMIC
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT
+from physics.world import World
 
 __all__ = [
     "bounds",
@@ -56,13 +58,13 @@ class Structure(NamedTuple):
     intervals: np.ndarray  # (k, 4)
 
 
-def bounds(world) -> np.ndarray:
+def bounds(world: World) -> np.ndarray:
     """(n, 4) tight AABB of every shape at the present poses, in the order of shape ids."""
     world.queries.refresh(world)
     return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
 
 
-def shape_rows(world) -> np.ndarray:
+def shape_rows(world: World) -> np.ndarray:
     """Who each shape is: id, body id, kind of body, filter, sensor, awake."""
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
@@ -72,14 +74,14 @@ def shape_rows(world) -> np.ndarray:
     return rows
 
 
-def motion(world) -> np.ndarray:
+def motion(world: World) -> np.ndarray:
     """(n, 4) bounding motion rectangles of the last step, of the shapes that can move."""
     proxies = world.pairs.proxies
     rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
 
 
-def structure(world) -> Structure:
+def structure(world: World) -> Structure:
     """What the broad phase keeps from step to step."""
     strategy = world.broadphase
     rects, depth, intervals = np.zeros((0, 4)), np.zeros(0, int), np.zeros((0, 4))
@@ -106,7 +108,7 @@ def structure(world) -> Structure:
     return Structure(strategy.name, rects, depth, intervals)
 
 
-def pairs(world) -> np.ndarray:
+def pairs(world: World) -> np.ndarray:
     """(m, 5) x0 y0 x1 y1 hit: from centre to centre of the AABBs of every candidate pair; hit is 1 for a contact."""
     boxes = bounds(world)
     rows = _candidate_rows(world)
@@ -128,10 +130,10 @@ def _candidate_rows(world):
     return rows[(known[rows] == ids).all(axis=1)]
 
 
-def outlines(world, rows=None) -> list:
-    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
-    ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask", shape id)
-    or ("tiles", shape id)."""
+def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
+    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2),
+    r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask",
+    shape id) or ("tiles", shape id)."""
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
     cosine, sine = np.cos(bodies["angle"]), np.sin(bodies["angle"])
@@ -144,7 +146,7 @@ def outlines(world, rows=None) -> list:
     ).tolist()
     found = []
     for k, (kind, identity, geometry) in enumerate(
-        zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")))
+        zip(*(shapes[name].tolist() for name in ("kind", "id", "geometry")), strict=True)
     ):
         if kind == CIRCLE:
             found.append(("circle", *circles[k]))
@@ -180,17 +182,17 @@ class Drawn(NamedTuple):
     top: np.ndarray  # (n,) [px]
 
 
-def masks(world) -> list:
+def masks(world: World) -> list:
     """(shape id, left, top, solid[row, col]) of every mask as drawn."""
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
     return [
         (each, left, top, found.solids[k])
-        for each, left, top, k in zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist())
+        for each, left, top, k in zip(ids, found.left.tolist(), found.top.tolist(), found.which.tolist(), strict=True)
     ]
 
 
-def drawn_masks(world) -> Drawn:
+def drawn_masks(world: World) -> Drawn:
     """What masks() tells, as columns: thousands of masks cost what few do."""
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
@@ -205,21 +207,21 @@ def _drawn(world, rows):
     place[raster_of[drawn]] = drawn
     used, which = np.unique(shapes["raster"], return_inverse=True)
     mask_of, bucket_of = np.divmod(place[used], MASK_ANGLE_BUCKETS)
-    solids = [library.masks[mask].turned_to(bucket).solid for mask, bucket in zip(mask_of.tolist(), bucket_of.tolist())]
+    kept = zip(mask_of.tolist(), bucket_of.tolist(), strict=True)
+    solids = [library.masks[mask].turned_to(bucket).solid for mask, bucket in kept]
     return Drawn(solids, which, shapes["left"], shapes["top"])
 
 
-def mask_hits(world) -> list:
+def mask_hits(world: World) -> list:
     """(left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the ANDed pixels."""
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)
     rows = rows[(world.shapes["kind"][rows] == MASK).all(axis=1)]
     a, b = _drawn(world, rows[:, 0]), _drawn(world, rows[:, 1])
-    for left_a, top_a, solid_a, left_b, top_b, solid_b in zip(
-        a.left.tolist(), a.top.tolist(), a.which.tolist(), b.left.tolist(), b.top.tolist(), b.which.tolist()
-    ):
-        solid_a, solid_b = a.solids[solid_a], b.solids[solid_b]
+    columns = (each.tolist() for drawn in (a, b) for each in (drawn.left, drawn.top, drawn.which))
+    for left_a, top_a, which_a, left_b, top_b, which_b in zip(*columns, strict=True):
+        solid_a, solid_b = a.solids[which_a], b.solids[which_b]
         left, top = max(left_a, left_b), max(top_a, top_b)
         right = min(left_a + solid_a.shape[1], left_b + solid_b.shape[1])
         bottom = min(top_a + solid_a.shape[0], top_b + solid_b.shape[0])
@@ -243,8 +245,9 @@ POINT = np.dtype(
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
-def contact_points(world) -> np.ndarray:
-    """POINT rows of all contacts that the last step kept in mind, also those that only might have met, and those that sleep.
+def contact_points(world: World) -> np.ndarray:
+    """POINT rows of all contacts that the last step kept in mind, also those that only might have met,
+    and those that sleep.
 
     state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP; color: of the graph colouring, -1 without one.
     """
@@ -263,9 +266,8 @@ def _points(world, manifolds, anchors, state):
     """POINT rows of manifolds; state: of all of them, None: of each its own."""
     contacts = contacts_of(manifolds)
     points = np.zeros(len(contacts), POINT)
-    for name in contacts.dtype.names:
-        if name in POINT.names:
-            points[name] = contacts[name]
+    for name in set(contacts.dtype.fields or ()) & set(POINT.fields or ()):
+        points[name] = contacts[name]
     points["color"] = -1
     if state is not None:
         points["state"] = state
@@ -285,7 +287,7 @@ def _points(world, manifolds, anchors, state):
     return points
 
 
-def islands(world) -> np.ndarray:
+def islands(world: World) -> np.ndarray:
     """Island of every body, by row: the lowest body id of those it is piled up with; -1 for what is in none."""
     bodies = world.bodies
     return np.where(
@@ -298,8 +300,9 @@ GHOST = np.dtype(
 )
 
 
-def impact_ghosts(world) -> np.ndarray:
-    """GHOST rows of the bodies that a sweep stopped in the last step: the pose that they would have had, and the fraction."""
+def impact_ghosts(world: World) -> np.ndarray:
+    """GHOST rows of the bodies that a sweep stopped in the last step:
+    the pose that they would have had, and the fraction."""
     rows = world.ghosts
     if rows is None or not len(rows):
         return np.zeros(0, GHOST)

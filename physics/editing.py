@@ -1,65 +1,69 @@
-"""Bodies into a world, and changes to those that stand in it: what a user asks for is checked first, so that the world is
-unchanged by what is wrong. World and Body are the ways in.
+"""Bodies into a world, and changes to those that stand in it: what a user asks for is checked first, so that the world
+is unchanged by what is wrong. World and Body are the ways in.
 """
 
+from collections.abc import Sequence
 from dataclasses import fields
+from typing import Any
 
 import numpy as np
 
 from physics import checks
+from physics.checks import Pair, Points
 from physics.dynamics import sleep
 from physics.dynamics.integrate import refresh_centers
 from physics.shapes.approximate import fit
 from physics.shapes.filter import Filter
-from physics.shapes.kinds import mass_of
+from physics.shapes.kinds import Shape, mass_of
 from physics.shapes.mask import PixelMask
 from physics.shapes.material import Material
 from physics.shapes.rows import check_shapes, rounding_of, set_mass
 from physics.shapes.tiles import TileGrid
-from physics.tables.body import AUTO, CONTINUOUS, KINDS, STATIC
+from physics.tables.body import AUTO, CONTINUOUS, KINDS, OFF, STATIC
+from physics.world_state import WorldState
 
 
 def add_rows(
-    world,
-    shapes,
-    positions,
-    velocities,
-    angles,
-    kind,
-    angular_velocity,
-    material,
-    filter,
-    sensor,
-    bullet,
-    continuous,
-    fixed_rotation,
-    gravity_scale,
-    tier,
-    user,
+    world: WorldState,
+    shapes: Sequence[Shape],
+    positions: Points,
+    velocities: Points,
+    angles: Sequence[float] | np.ndarray,
+    kind: str,
+    angular_velocity: float,
+    material: Material,
+    filter: Filter,
+    sensor: bool,
+    bullet: bool,
+    continuous: str,
+    fixed_rotation: bool,
+    gravity_scale: float,
+    tier: str | None,
+    user: Any,
 ) -> np.ndarray:
     """Check what a user asks for, and append BODY and SHAPE rows. Returns the ids. Raises TypeError, ValueError."""
     world._unlocked()
-    kind = KINDS.index(checks.choice("kind", kind, KINDS))
+    kind_number = KINDS.index(checks.choice("kind", kind, KINDS))
     for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
         if not isinstance(value, wanted):
             raise TypeError(f"{name} must be a {wanted.__name__} (got {value!r})")
     sensor = checks.flag("sensor", sensor)
     world._needs("sensors", "sensor=True", sensor)
-    continuous = CONTINUOUS.index(checks.choice("continuous", continuous, CONTINUOUS))
+    swept = CONTINUOUS.index(checks.choice("continuous", continuous, CONTINUOUS))
     bullet = checks.flag("bullet", bullet)
     world._needs("continuous", "bullet=True", bullet)
-    if continuous not in (0, AUTO):
-        world._needs("continuous", f"continuous={CONTINUOUS[continuous]!r}", True)
+    if swept not in (OFF, AUTO):
+        world._needs("continuous", f"continuous={continuous!r}", True)
     fixed_rotation = checks.flag("fixed_rotation", fixed_rotation)
     gravity_scale = checks.number("gravity_scale", gravity_scale)
     spin = checks.number("angular_velocity", angular_velocity)
     world._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
-    if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
+    if kind_number == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
         raise ValueError(
             f"velocity and angular_velocity must be 0 for a static body (got {np.asarray(velocities).tolist()}, {spin})"
         )
     used = shapes_for_tier(shapes, tier)
-    check_shapes(used, kind, angles, continuous)
+    check_shapes(used, kind_number, angles, swept)
     mass = mass_of(used, material.density) if used else mass_of((), material.density)
     n = len(positions)
     ids = np.arange(world._next_body, world._next_body + n, dtype=np.int64)
@@ -67,16 +71,16 @@ def add_rows(
         return ids
     world._next_body += n
     rows = world._bodies.append(n)
-    rows["id"], rows["kind"] = ids, kind
+    rows["id"], rows["kind"] = ids, kind_number
     rows["x"], rows["y"] = np.asarray(positions).T
     rows["vx"], rows["vy"] = np.asarray(velocities).T
     rows["angle"], rows["angular_velocity"] = angles, spin
     for name in ("x", "y", "angle"):
         rows["previous_" + name] = rows[name]
-    rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, continuous, fixed_rotation
+    rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
     rows["active"] = not world.sleeps  # with it, the next step takes them in
-    if KINDS[kind] != "dynamic":
+    if kind != "dynamic":
         world.awake.stir(ids.tolist())
     set_mass(rows, mass, used)
     refresh_centers(np.arange(n), rows)
@@ -91,8 +95,17 @@ def add_rows(
     return ids
 
 
-def add_shapes(world, bodies, first_row, shapes, material, filter, sensor):
-    """Append the SHAPE rows of new shapes for BODY rows that start at first_row, and give them places in the broad phase."""
+def add_shapes(
+    world: WorldState,
+    bodies: np.ndarray,
+    first_row: int,
+    shapes: Sequence[Shape],
+    material: Material,
+    filter: Filter,
+    sensor: bool,
+) -> None:
+    """Append the SHAPE rows of new shapes for BODY rows that start at first_row,
+    and give them places in the broad phase."""
     n, k = len(bodies), len(shapes)
     if n * k == 0:
         return
@@ -113,14 +126,14 @@ def add_shapes(world, bodies, first_row, shapes, material, filter, sensor):
     world.pairs.add_proxies(rows, np.arange(n * k), np.repeat(bodies["kind"] == STATIC, k))
 
 
-def filter_of(world, identity) -> Filter:
+def filter_of(world: WorldState, identity: int) -> Filter:
     """The filter of a body's shapes; Filter.ALL for a body without any."""
     world._body_row(identity)
     shapes = world.shapes[world.shapes["body"] == identity]
     return Filter(int(shapes["membership"][0]), int(shapes["mask"][0])) if len(shapes) else Filter.ALL
 
 
-def set_filter(world, identity, value):
+def set_filter(world: WorldState, identity: int, value: Filter) -> None:
     """Change the filter of all shapes of a body. Raises TypeError."""
     world._unlocked()
     if not isinstance(value, Filter):
@@ -132,7 +145,7 @@ def set_filter(world, identity, value):
     sleep.disturb(world, [identity])
 
 
-def move_to(world, identity, position, angle):
+def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
     """Put a body at a position [px] and an angle (None: as it is). Raises ValueError for a turned TileGrid."""
     world._unlocked()
     row = world._body_row(identity)
@@ -144,15 +157,16 @@ def move_to(world, identity, position, angle):
     refresh(world, identity)
 
 
-def refresh(world, identity):
-    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle. Its neighbours wake."""
+def refresh(world: WorldState, identity: int) -> None:
+    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle.
+    Its neighbours wake."""
     sleep.disturb(world, [identity])
     at = world._row_number(identity)
     refresh_centers(np.array([at]), world.bodies)
     world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
 
 
-def touch(world, ids):
+def touch(world: WorldState, ids: Any) -> None:
     """Bring what is derived from the columns of bodies up to date. Raises KeyError, TypeError, ValueError."""
     many = ids if isinstance(ids, (list, tuple, set, np.ndarray)) else [ids]
     numbers = checks.ids("ids", [getattr(each, "id", each) for each in many])
@@ -162,7 +176,7 @@ def touch(world, ids):
     world.pairs.touch(world.shapes["proxy"][np.isin(world.shapes["body_row"], rows)])
 
 
-def set_kind(world, identity, kind):
+def set_kind(world: WorldState, identity: int, kind: str) -> None:
     """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles."""
     world._unlocked()
     row = world._body_row(identity)
@@ -176,7 +190,7 @@ def set_kind(world, identity, kind):
     world.awake.start_over()
 
 
-def refresh_mass(world, identity):
+def refresh_mass(world: WorldState, identity: int) -> None:
     """Weigh a body anew: its shapes or its kind changed."""
     at = world._row_number(identity)
     own = world.shapes[world.shapes["body"] == identity]
@@ -186,7 +200,7 @@ def refresh_mass(world, identity):
     refresh(world, identity)
 
 
-def set_shapes(world, identity, shapes):
+def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
     """Replace a body's shapes; material, filter and sensor stay. Raises TypeError, ValueError."""
     world._unlocked()
     row = world._body_row(identity)
@@ -210,7 +224,7 @@ def set_shapes(world, identity, shapes):
     world._sources.pop(identity, None)
 
 
-def shapes_for_tier(shapes, tier) -> tuple:
+def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
     """The shapes that stand for one PixelMask in a tier; as they are for None. Raises ValueError, TypeError."""
     if tier is None:
         return tuple(shapes)
@@ -219,8 +233,9 @@ def shapes_for_tier(shapes, tier) -> tuple:
     return fit(shapes[0], tier)
 
 
-def set_tier(world, identity, tier):
-    """Collide a body's sprite more or less exactly. Raises ValueError for an unknown tier or a body without a sprite."""
+def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
+    """Collide a body's sprite more or less exactly.
+    Raises ValueError for an unknown tier or a body without a sprite."""
     world._body_row(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))
@@ -228,7 +243,7 @@ def set_tier(world, identity, tier):
         world._tiers[identity], world._sources[identity] = tier, source
 
 
-def restore(world, identity):
+def restore(world: WorldState, identity: int) -> None:
     """Take a quarantined body back into the simulation."""
     world._unlocked()
     row = world._body_row(identity)

@@ -59,7 +59,7 @@ class Effects:
             sensors=True,
         )
 
-    def with_(self, **changes) -> "Effects":
+    def with_(self, **changes: bool) -> "Effects":
         """A copy with some effects changed."""
         unknown = set(changes) - {field.name for field in fields(self)}
         if unknown:

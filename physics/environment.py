@@ -1,14 +1,30 @@
 """What a world is under, and can be set between steps: solver, broad phase, forces, the length of a step."""
 
+import numpy as np
+
 from physics import checks
+from physics.broadphase.proxies import Strategy
+from physics.checks import Pair
 from physics.dynamics import sleep
-from physics.step import SOLVERS, STACKING
+from physics.dynamics.awake import Awake
+from physics.profile import Profile
+from physics.step import SOLVERS, STACKING, Workspace, plan
+from physics.tables.body import DYNAMIC
+from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.world_state import WorldState
 
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
-class Environment:
-    """The settings of a World, which keeps them; nothing else inherits from this."""
+class Environment(WorldState):
+    """The settings of a World, and the stages that follow from them; nothing else inherits from this."""
+
+    _solver: str
+    _substeps: int
+    _gravity: tuple[float, float]
+    _drag: float
+    _wind: tuple[float, float]
+    _dt: float
 
     @property
     def solver(self) -> str:
@@ -16,7 +32,7 @@ class Environment:
         return self._solver
 
     @solver.setter
-    def solver(self, name):
+    def solver(self, name: str) -> None:
         self._unlocked()
         self._solver = self._checked_solver(name)
         sleep.wake_all(self)
@@ -37,23 +53,47 @@ class Environment:
         self._needs("stacking", f"solver {name!r}", name in STACKING)
         return name
 
+    def set_narrowphase(self, on: bool) -> None:
+        """Switch between the narrow phase and plain AABBs, between steps."""
+        self._unlocked()
+        self._effects = self._effects.with_(narrowphase=checks.flag("narrowphase", on))
+        self._plan()
+
+    def _plan(self):
+        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
+        if (self.sensed is not None) != self.stacks:
+            # The two kinds of worlds keep other facts of their contacts.
+            self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+            self.sensed = self.manifolds if self.stacks else None
+        if self.awake.sleeping != self.sleeps:
+            self._let_sleep(self.sleeps)
+        self.profile = Profile(self.stages)
+
+    def _let_sleep(self, sleeping):
+        """From now on the steps go over what is awake, or over everything."""
+        self.awake = Awake(sleeping)
+        self.bodies["active"] = not sleeping
+        self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
+        self.pairs.let_sleep(sleeping)
+        self.sleepers.return_all(self)
+
     @property
     def substeps(self) -> int:
         """How often the stacking solvers look at the contacts in a step; can be set between steps."""
         return self._substeps
 
     @substeps.setter
-    def substeps(self, value):
+    def substeps(self, value: int) -> None:
         self._unlocked()
         self._substeps = checks.whole("substeps", value, 1, 1000)
 
     @property
-    def broadphase(self):
+    def broadphase(self) -> Strategy:
         """The strategy that finds the candidates; can be set between steps, without changing any result."""
         return self._broadphase
 
     @broadphase.setter
-    def broadphase(self, strategy):
+    def broadphase(self, strategy: Strategy) -> None:
         self._unlocked()
         if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
             raise TypeError(
@@ -69,7 +109,7 @@ class Environment:
         return self._gravity
 
     @gravity.setter
-    def gravity(self, value):
+    def gravity(self, value: Pair) -> None:
         self._unlocked()
         value = checks.vector("gravity", value)
         if value != self._gravity:
@@ -82,7 +122,7 @@ class Environment:
         return self._dt
 
     @dt.setter
-    def dt(self, value):
+    def dt(self, value: float) -> None:
         self._unlocked()
         self._dt = checks.number("dt", value, above=0.0)
 
@@ -92,7 +132,7 @@ class Environment:
         return self._drag
 
     @drag.setter
-    def drag(self, value):
+    def drag(self, value: float) -> None:
         self._unlocked()
         self._drag = checks.number("drag", value, low=0.0)
 
@@ -102,6 +142,6 @@ class Environment:
         return self._wind
 
     @wind.setter
-    def wind(self, value):
+    def wind(self, value: Pair) -> None:
         self._unlocked()
         self._wind = checks.vector("wind", value)

@@ -10,15 +10,15 @@ from physics.tables.contact import EVENT, HIT, QUARANTINE
 from physics.tables.counters import CONTACTS
 from physics.tables.manifold import MANIFOLD
 from physics.tables.rows import rows_of
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 NOTHING = np.zeros(0, MANIFOLD)
 
 
 @subkernel
-def write_event(manifold, second, event_out):
+def write_event(manifold, second, at, events_out):
     """Copy what an event tells of a point of a manifold: its first, or its second."""
-    e = event_out
+    e = events_out[at]
     e.body_a = manifold.body_a
     e.body_b = manifold.body_b
     e.shape_a = manifold.shape_a
@@ -58,15 +58,17 @@ class Told(NamedTuple):
 
 def new_told(room: int) -> Told:
     """Room for that many pairs."""
-    return Told(
-        *(np.zeros(room, EVENT) for _ in range(5)), np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)
-    )
+    events = (np.zeros(room, EVENT) for _ in range(5))
+    return Told._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
 
 
 @subkernel
 def look_at_pair(manifolds, first, last, slop):
-    """What the manifolds first … last - 1, those of one pair, say together: (touches, pushed, manifold of the deepest point,
-    whether that is its second, manifold of the fastest, whether that is its second, its speed [px/s], sum of impulses)."""
+    """What the manifolds first … last - 1, those of one pair, say together.
+
+    (touches, pushed, manifold of the deepest point, whether that is its second, manifold of the fastest point, whether
+    that is its second, its speed [px/s], sum of the impulses).
+    """
     active = False
     pushed = False
     deepest = first
@@ -112,14 +114,15 @@ def compare_pairs(
     """Compare the pairs that touched before with the manifolds of this step, both in the order of shape ids.
 
     before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
-    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair that
-    touched goes on touching up to it; hit_speed [px/s]. O(both).
+    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair
+    that touched goes on touching up to it; hit_speed [px/s]. O(both).
     """
     counts = told_inout.counts
     now = told_inout.now
     begin = told_inout.begin
     persist = told_inout.persist
     keep = told_inout.keep
+    hits = told_inout.hits
     for k in range(len(counts)):
         counts[k] = 0
     i = 0
@@ -161,19 +164,18 @@ def compare_pairs(
         )
         if active:
             d = manifolds[deepest]
-            write_event(d, deepest_second, now[counts[0]])
+            write_event(d, deepest_second, counts[0], now)
             counts[0] += 1
             if old:
-                write_event(d, deepest_second, persist[counts[2]])
+                write_event(d, deepest_second, counts[2], persist)
                 counts[2] += 1
             else:
-                write_event(d, deepest_second, begin[counts[1]])
+                write_event(d, deepest_second, counts[1], begin)
                 counts[1] += 1
             if (pushed or not old) and speed > hit_speed:
-                hit = told_inout.hits[counts[5]]
-                write_event(manifolds[fastest], fastest_second, hit)
-                hit.speed = speed
-                hit.normal_impulse = impulse
+                write_event(manifolds[fastest], fastest_second, counts[5], hits)
+                hits[counts[5]].speed = speed
+                hits[counts[5]].normal_impulse = impulse
                 counts[5] += 1
         elif old:
             copy_event(before[i], told_inout.end[counts[3]])
@@ -190,7 +192,7 @@ def compare_pairs(
 class Pairs:
     """The pairs that touch, and what changed among them in the last step."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.count = 0
         self.told = new_told(16)
         self.before = np.zeros(16, EVENT)
@@ -200,7 +202,7 @@ class Pairs:
         """EVENT rows of the pairs that touch, in the order of shape ids."""
         return self.before[: self.count]
 
-    def compare(self, manifolds, parked, sensors: bool, slop: float, hit_speed: float) -> Told:
+    def compare(self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, slop: float, hit_speed: float) -> Told:
         """Take in the manifolds of a step. Returns what is told of them, each array as long as it is."""
         room = self.count + len(manifolds)
         if room > len(self.told.keep):
@@ -210,23 +212,20 @@ class Pairs:
             self.before = before
         compare_pairs(self.rows, manifolds, parked, int(sensors), slop, hit_speed, self.told)
         whole, counts = self.told, self.told.counts.tolist()
-        told = Told(
-            *(table[:count] for table, count in zip(whole[:6], counts[:6], strict=True)),
-            whole.keep[: len(manifolds)],
-            whole.counts,
-        )
+        cut = (table[:count] for table, count in zip(whole[:6], counts[:6], strict=True))
+        told = Told._make((*cut, whole.keep[: len(manifolds)], whole.counts))
         # What touches now is what touched before, next time: the two tables change places.
         self.count = counts[0]
         self.told, self.before = whole._replace(now=self.before), whole.now
         return told
 
-    def give_back(self, rows):
+    def give_back(self, rows: np.ndarray) -> None:
         """Take in pairs that were kept aside."""
         if len(rows):
             both = np.concatenate([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
-    def take_resting(self, bodies) -> np.ndarray:
+    def take_resting(self, bodies: np.ndarray) -> np.ndarray:
         """Take out, and return, the pairs of which neither side is among the rows that a step goes over."""
         rows = self.rows
         if not len(rows):
@@ -240,7 +239,7 @@ class Pairs:
             self.restore(rows[~resting])
         return taken
 
-    def restore(self, touching):
+    def restore(self, touching: np.ndarray) -> None:
         """Set the pairs that touch."""
         self.count = len(touching)
         self.before = np.zeros(max(len(self.told.keep), 2 * self.count), EVENT)
@@ -252,7 +251,7 @@ class Pairs:
 class Events:
     """Structured arrays of the last step; see api.md for their columns."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = np.zeros(0, EVENT)
         self.hits = np.zeros(0, HIT)
         self.quarantined = np.zeros(0, QUARANTINE)
@@ -275,7 +274,7 @@ class Events:
     ),
     writes=("touching", "sensing", "sleepers", "events", "told", "work"),
 )
-def tell(state):
+def tell(state: StepState) -> None:
     """Compare what touches with what touched before, and say what changed."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
     parked, keys = state.parked if state.parked is not None else (NOTHING, None)

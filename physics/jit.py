@@ -15,8 +15,10 @@ import shutil
 import sys
 import tempfile
 import warnings
-from functools import cache
+from collections.abc import Callable
+from functools import cache, wraps
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -28,10 +30,11 @@ try:
         raise ImportError("NUMBA_DISABLE_JIT is set")
     # Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
     os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
-    import numba
+    import numba as compiler
     from numba.core import caching
     from numba.extending import intrinsic
 
+    numba: Any = compiler  # Any: it declares no type for half of what is used here
     JIT = True
 except ImportError:
     numba = None
@@ -60,7 +63,12 @@ def _imports_of(path: Path) -> tuple[Path, ...]:
     """Files of this package that the file at `path` imports, from its import statements."""
     found = []
     for node in ast.walk(ast.parse(path.read_bytes())):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == HERE.name and node.level == 0:
+        if (
+            isinstance(node, ast.ImportFrom)
+            and node.module
+            and node.module.split(".")[0] == HERE.name
+            and node.level == 0
+        ):
             module = HERE.parent.joinpath(*node.module.split("."))
             names = [module] + [module / alias.name for alias in node.names]
             found += [name.with_suffix(".py") for name in names if name.with_suffix(".py").is_file()]
@@ -173,8 +181,7 @@ if JIT:
             except OSError as error:
                 warnings.warn(f"compiled kernel {self._name} could not be kept ({error})", stacklevel=2)
 
-    @intrinsic
-    def popcount(typing_context, word):
+    def _count_bits(typing_context, word):
         """Number of set bits of a uint64."""
 
         def generate(context, builder, signature, args):
@@ -186,20 +193,24 @@ if JIT:
 
         return numba.types.int64(numba.types.uint64), generate
 
-    @numba.njit(inline="always")
-    def word(value):
+    def _as_word(value):
         """The value as an unsigned 64-bit word."""
         return np.uint64(value)
+
+    popcount: Any = intrinsic(_count_bits)  # Any: called with one argument, and declared with the context's too
+    word: Any = numba.njit(inline="always")(_as_word)
 else:
 
-    def popcount(word):
+    def _bits_of(word):
         return word.bit_count()
 
-    def word(value):
+    def _masked(value):
         return value & WORD_MASK
 
+    popcount, word = _bits_of, _masked
 
-def _compile(function):
+
+def _compile(function: Callable) -> Callable:
     if not JIT:
         return function
     dispatcher = numba.njit(function, error_model="numpy", fastmath=False)
@@ -213,7 +224,8 @@ def _compile(function):
 def _take_literals_as_values(dispatcher):
     """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
 
-    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one machine.
+    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one
+    machine.
     """
     general = dispatcher.get_call_template
 
@@ -226,24 +238,29 @@ def _take_literals_as_values(dispatcher):
     dispatcher.get_call_template = get_call_template
 
 
-def subkernel(function):
+def subkernel(function: Callable) -> Callable:
     """A function that kernels call: compiled, or left as it is."""
     return _compile(function)
 
 
-def kernel(function):
+def kernel(function: Callable) -> Callable:
     """A function that a stage calls with tables, arrays and scalars: compiled, or given views of its arguments."""
     if JIT:
         return _compile(function)
 
+    @wraps(function)
     def run(*arguments):
         return function(*[_view(each) for each in arguments])
 
-    run.__name__, run.__doc__, run.__wrapped__ = function.__name__, function.__doc__, function
     return run
 
 
 # --- tables without numba ----------------------------------------------------------------------------------------
+
+
+def _buffer(array: Any) -> memoryview:
+    """Any, as arrays are typed as buffers only from Python 3.12 on."""
+    return memoryview(array)
 
 
 class TableView:
@@ -251,9 +268,9 @@ class TableView:
 
     __slots__ = ("make", "columns", "length")
 
-    def __init__(self, array):
+    def __init__(self, array: np.ndarray) -> None:
         self.make = _row_class(array.dtype)
-        self.columns = tuple(memoryview(array[name]) for name in array.dtype.names)
+        self.columns = tuple(_buffer(array[name]) for name in array.dtype.names or ())
         self.length = len(array)
 
     def __getitem__(self, index):
@@ -267,7 +284,7 @@ class TableView:
 
 @cache
 def _row_class(dtype):
-    members = {"__slots__": ("_columns", "_index")}
+    members: dict[str, Any] = {"__slots__": ("_columns", "_index")}
 
     def __init__(self, columns, index):
         self._columns = columns
@@ -288,7 +305,9 @@ def _row_class(dtype):
 
 def _view(argument):
     if type(argument) is np.ndarray:
-        return TableView(argument) if argument.dtype.names else memoryview(argument)
+        if argument.dtype.names:
+            return TableView(argument)
+        return _buffer(argument)
     if isinstance(argument, tuple):
         views = [_view(each) for each in argument]
         return type(argument)(*views) if hasattr(argument, "_fields") else tuple(views)

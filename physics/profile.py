@@ -1,5 +1,7 @@
 """What a step cost: seconds and work per stage. Counters are an int64 array that kernels add to."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from physics.tables.counters import COUNTERS
@@ -8,11 +10,11 @@ from physics.tables.counters import COUNTERS
 class Profile:
     """Seconds and work of the last step."""
 
-    def __init__(self, stages):
+    def __init__(self, stages: Iterable[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.stages = dict.fromkeys(stages, 0.0)
 
-    def begin(self):
+    def begin(self) -> None:
         """Start a step: all to zero."""
         self.work[:] = 0
         for name in self.stages:

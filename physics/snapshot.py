@@ -6,6 +6,8 @@ import tokenize
 import zipfile
 import zlib
 from dataclasses import astuple
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from physics import checks
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Island, Sleepers
 from physics.shapes.convex import Capsule, Polygon
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
@@ -23,8 +26,14 @@ from physics.tables.character import CHARACTER
 from physics.tables.contact import EVENT
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
+from physics.world_state import WorldState
 
 VERSION = 3
+HULLS = {
+    "Polygon": lambda points, radius: Polygon(points, radius),
+    "Capsule": lambda points, radius: Capsule(*points, radius=radius),
+    "Segment": lambda points, radius: Segment(*points),
+}
 DAMAGE = (
     ValueError,
     TypeError,
@@ -79,8 +88,8 @@ WALK = (
 )
 
 
-def digest(world) -> str:
-    """blake2b-128 over ids, poses, velocities, flags, characters, contact keys and impulses in id order; −0.0 as 0.0."""
+def digest(world: WorldState) -> str:
+    """blake2b-128 over ids, poses, velocities, flags, characters, contacts and impulses in id order; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
     for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
         found.update(len(rows).to_bytes(8, "little"))
@@ -93,17 +102,18 @@ def digest(world) -> str:
 class Snapshot:
     """The state of a world at one moment. `save` and `load` keep it in a file."""
 
-    def __init__(self, arrays, facts):
+    def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> None:
         self.arrays = arrays
         self.facts = facts
 
-    def save(self, path):
+    def save(self, path: str | PathLike[str]) -> None:
         """Write a versioned .npz."""
+        named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts)), **self.arrays}
         with open(path, "wb") as file:
-            np.savez_compressed(file, facts=np.array(json.dumps(self.facts)), **self.arrays)
+            np.savez_compressed(file, **named)
 
     @classmethod
-    def load(cls, path) -> "Snapshot":
+    def load(cls, path: str | PathLike[str]) -> "Snapshot":
         """Read a file. Raises ValueError with the file, and the reason why it is refused."""
         try:
             with np.load(path, allow_pickle=False) as stored:
@@ -120,7 +130,7 @@ class Snapshot:
         return cls(arrays, facts)
 
 
-def take(world) -> Snapshot:
+def take(world: WorldState) -> Snapshot:
     """Copy the state of a world."""
     library = world.library
     arrays = {
@@ -169,8 +179,8 @@ def take(world) -> Snapshot:
     return Snapshot(arrays, facts)
 
 
-def restore(world, taken):
-    """Put a world back to a snapshot, taken from it or from one built with the same effects. Raises TypeError, ValueError."""
+def restore(world: WorldState, taken: Snapshot) -> None:
+    """Put a world back to a snapshot of a world with the same effects. Raises TypeError, ValueError."""
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {taken!r})")
     facts, arrays = taken.facts, taken.arrays
@@ -209,7 +219,7 @@ def restore(world, taken):
 def _islands_apart(islands) -> dict:
     """Sleeping islands as flat arrays: each with the key that its rows belong to."""
     keys = sorted(islands)
-    apart = {"island_keys": np.array(keys, np.int64)}
+    apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
     for name, empty in (
         ("bodies", np.zeros(0, np.int64)),
         ("manifolds", np.zeros(0, MANIFOLD)),
@@ -237,7 +247,7 @@ def _sleepers(arrays) -> Sleepers:
 def _unpack(arrays, facts):
     """(library, shapes of each body, sources of tiers, random generator) of a snapshot; raises one of DAMAGE."""
     library = _library(arrays, facts)
-    shapes_of = {identity: () for identity in arrays["bodies"]["id"].tolist()}
+    shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
     rows = arrays["shapes"]["body_row"]
     if len(rows) and not (0 <= rows.min() and rows.max() < len(arrays["bodies"])):
         raise ValueError("a shape belongs to no body")
@@ -260,13 +270,7 @@ def _library(arrays, facts):
     library = Library()
     for number, (name, radius) in enumerate(facts["hulls"]):
         points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
-        library.add(
-            {
-                "Polygon": lambda: Polygon(points, radius),
-                "Capsule": lambda: Capsule(*points, radius),
-                "Segment": lambda: Segment(*points),
-            }[name]()
-        )
+        library.add(HULLS[name](points, radius))
     for number, (loop, ghosts, materials) in enumerate(facts["chains"]):
         library.add(
             Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))

@@ -1,11 +1,9 @@
 """The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
 
-Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards. With
-it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met something.
-A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
+Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards.
+With it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met
+something. A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
 """
-
-from collections.abc import Callable
 
 import numpy as np
 
@@ -20,6 +18,7 @@ from physics.collision.dispatch import NarrowPhase
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
 from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
+from physics.effects import Effects
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import Motions
@@ -28,7 +27,8 @@ from physics.solver.pushes import PushSet
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
 from physics.tables.manifold import ANCHOR
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import Stage, StepState, stage
+from physics.world_state import WorldState
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
@@ -40,13 +40,13 @@ PUSHING = {"blocking": blocking, "projection": projection}
     reads=(*quarantine.reads, *motion_rectangles.reads),
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
-def sound_rectangles(state):
+def sound_rectangles(state: StepState) -> None:
     """Where the bodies that are still finite can be."""
     quarantine(state)
     motion_rectangles(state)
 
 
-def plan(effects, solver) -> tuple[Callable, ...]:
+def plan(effects: Effects, solver: str) -> tuple[Stage, ...]:
     """The stages that these effects call for, in order."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
@@ -85,7 +85,7 @@ def plan(effects, solver) -> tuple[Callable, ...]:
 class Workspace:
     """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
 
-    def __init__(self, effects, solver):
+    def __init__(self, effects: Effects, solver: str) -> None:
         stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(effects.response, one_way, boxes_only)
@@ -95,24 +95,24 @@ class Workspace:
         self.motions = Motions() if stacks else None
         self.sets = [ContactSet()] if stacks else [PushSet()]
         self.islands = IslandWorkspace() if effects.sleeping else None
-        self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else None
+        self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else []
         self._rows = np.zeros(16, np.int64)
 
-    def anchors_for(self, count) -> np.ndarray:
+    def anchors_for(self, count: int) -> np.ndarray:
         """ANCHOR rows for the manifolds of this step; those of the step before stay as they are."""
         self._anchors.reverse()
         if len(self._anchors[0]) < count:
             self._anchors[0] = np.zeros(2 * count, ANCHOR)
         return self._anchors[0][:count]
 
-    def rows_for(self, count) -> np.ndarray:
+    def rows_for(self, count: int) -> np.ndarray:
         """Room for that many row numbers."""
         if len(self._rows) < count:
             self._rows = np.zeros(2 * count, np.int64)
         return self._rows
 
 
-def begin(world, dt) -> StepState:
+def begin(world: WorldState, dt: float) -> StepState:
     """What the first stage is given: the world's settings and tables, and what it remembers of the last step."""
     world.refresh_character_rows()
     state = StepState()
@@ -133,7 +133,7 @@ def begin(world, dt) -> StepState:
     return state
 
 
-def finish(world, state):
+def finish(world: WorldState, state: StepState) -> None:
     """What the world keeps of a step."""
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events

@@ -1,5 +1,8 @@
 """Compiles the kernels that a world with given effects will need, by running small worlds with them."""
 
+from collections.abc import Callable, Iterable
+from typing import Any
+
 import numpy as np
 
 from physics.broadphase.brute_force import BruteForce
@@ -30,7 +33,13 @@ PAIRS = {
 }
 
 
-def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=None):
+def warmup(
+    effects: Effects | None = None,
+    broadphase: str = "hash",
+    solver: str | None = None,
+    progress: Callable[[int, int, str], Any] | None = None,
+    pieces: Iterable[str] | None = None,
+) -> None:
     """Compile, or load from the cache, what a world with these effects calls.
 
     broadphase: brute, sweep, hash, tree or "all"; pieces: those of PIECES that will be met, None: all; progress(done,
@@ -39,7 +48,7 @@ def warmup(effects=None, broadphase="hash", solver=None, progress=None, pieces=N
     """
     effects = Effects() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
-    runs = [
+    runs: list[tuple[str, Callable[[], None]]] = [
         (
             f"broad phase {name}",
             lambda name=name: _small_world(effects, solver, STRATEGIES[name](), (Circle(4), Circle(4))),
@@ -86,7 +95,7 @@ def _small_world(effects, solver, strategy, pair):
 
 def _rest(effects, solver):
     """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep."""
-    world = World(effects, solver=solver, **{"gravity": (0.0, 0.0)} if effects.gravity else {})
+    world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3)):  # as near as contacts are found
         world.add_body(Circle(4), position=place)
         for _ in range(3):

@@ -1,38 +1,40 @@
 """World: owns the tables and runs the stages. Start reading at `step`."""
 
-from bisect import bisect_left
+from collections.abc import Iterable
 from time import perf_counter
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks, editing, snapshot
 from physics.body import Body
 from physics.broadphase.pair_list import PairList
-from physics.broadphase.rectangles import write_rectangles
+from physics.broadphase.proxies import Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
-from physics.collision.manifold import contacts_of
+from physics.checks import Pair
 from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
 from physics.environment import Environment
 from physics.events import Events, Pairs
-from physics.profile import Profile
 from physics.queries.index import QueryIndex
 from physics.questions import Questions
 from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes.filter import Filter
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.material import Material
+from physics.snapshot import Snapshot
 from physics.step import Workspace, begin, finish, plan
-from physics.tables.body import BODY, DYNAMIC, STATIC
+from physics.tables.body import BODY
 from physics.tables.character import CHARACTER
 from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.rows import rows_of
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 
-STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
+PLAIN = Material()  # of bodies that are given none
 
 
 class World(Environment, Questions):
@@ -46,17 +48,17 @@ class World(Environment, Questions):
 
     def __init__(
         self,
-        effects=None,
-        broadphase=None,
-        solver=None,
-        gravity=None,
-        drag=0.0,
-        wind=(0, 0),
-        pixels_per_meter=PIXELS_PER_METER,
-        dt=1 / 60,
-        substeps=4,
-        seed=0,
-    ):
+        effects: Effects | None = None,
+        broadphase: Strategy | None = None,
+        solver: str | None = None,
+        gravity: Pair | None = None,
+        drag: float = 0.0,
+        wind: Pair = (0, 0),
+        pixels_per_meter: float = PIXELS_PER_METER,
+        dt: float = 1 / 60,
+        substeps: int = 4,
+        seed: int = 0,
+    ) -> None:
         effects = Effects.rigid_bodies() if effects is None else effects
         if not isinstance(effects, Effects):
             raise TypeError(f"effects must be an Effects (got {effects!r})")
@@ -77,7 +79,7 @@ class World(Environment, Questions):
         )
         self._bodies, self._shapes, self.characters = Table(BODY), Table(SHAPE), Table(CHARACTER)
         self.library = Library()
-        self._broadphase, self._stepping = None, False
+        self._stepping = False
         self._next_body = self._next_shape = 0
         self._users, self._shapes_of, self._tiers, self._sources = {}, {}, {}, {}
         # What is remembered from step to step.
@@ -100,7 +102,7 @@ class World(Environment, Questions):
 
     # --- the step ------------------------------------------------------------------------------------------------
 
-    def step(self, dt=None):
+    def step(self, dt: float | None = None) -> None:
         """Advance by dt [s] (None: world.dt). 0 moves nothing. Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
@@ -116,118 +118,25 @@ class World(Environment, Questions):
         finally:
             self._stepping = False
 
-    def refresh_character_rows(self):
-        """Bring the body rows of the characters up to date."""
-        characters = self.characters.rows
-        if len(characters):
-            characters["body_row"] = rows_of(self.bodies, characters["body"])
-
-    def _plan(self):
-        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
-        if (self.sensed is not None) != self.stacks:
-            # The two kinds of worlds keep other facts of their contacts.
-            self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
-            self.sensed = self.manifolds if self.stacks else None
-        if self.awake.sleeping != self.sleeps:
-            self._let_sleep(self.sleeps)
-        self.profile = Profile(self.stages)
-
-    def _let_sleep(self, sleeping):
-        """From now on the steps go over what is awake, or over everything."""
-        self.awake = Awake(sleeping)
-        self.bodies["active"] = not sleeping
-        self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
-        self.pairs.let_sleep(sleeping)
-        self.sleepers.return_all(self)
-
-    @property
-    def stages(self) -> list[str]:
-        """Names of the stages that the effects call for, in the order in which they run."""
-        return [stage.stage for stage in self._stages]
-
-    @property
-    def effects(self) -> Effects:
-        """What the scene calls for. Declared once; `set_narrowphase` alone switches."""
-        return self._effects
-
-    def set_narrowphase(self, on: bool):
-        """Switch between the narrow phase and plain AABBs, between steps."""
-        self._unlocked()
-        self._effects = self._effects.with_(narrowphase=checks.flag("narrowphase", on))
-        self._plan()
-
-    # --- tables --------------------------------------------------------------------------------------------------
-
-    @property
-    def bodies(self) -> np.ndarray:
-        """BODY rows in the order of ids: a view, valid until a body is added or removed."""
-        return self._bodies.rows
-
-    @property
-    def shapes(self) -> np.ndarray:
-        """SHAPE rows in the order of ids: a view, valid until a body is added or removed."""
-        return self._shapes.rows
-
-    @property
-    def contacts(self) -> np.ndarray:
-        """CONTACT rows of what touches, was pushed, or was met on the way in the last step, in the order of shape ids."""
-        if self._contacts is None:
-            self._contacts = contacts_of(self.told_manifolds())
-        return self._contacts
-
-    def told_manifolds(self) -> np.ndarray:
-        """MANIFOLD rows that `contacts` lists the points of."""
-        manifolds, keep = self._told
-        return manifolds if keep is None or keep.all() else manifolds[keep]
-
-    @property
-    def sleeping_contacts(self) -> np.ndarray:
-        """CONTACT rows, as `contacts`, of the pairs that sleep, as they were when they fell asleep."""
-        return contacts_of(self.sleepers.manifolds())
-
-    def tell_contacts(self, manifolds, keep=None):
-        """Take in the manifolds of a step, of which the flagged ones count; their points are listed when somebody looks."""
-        self._told, self._contacts = (manifolds, keep), None
-
-    @property
-    def candidates(self) -> np.ndarray:
-        """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
-        return self.pairs.ids(self.shapes).astype(np.int32)
-
-    def rows(self, ids) -> np.ndarray:
-        """Row numbers of body ids in `world.bodies`. Raises KeyError for an id that is not there."""
-        ids = np.asarray(ids, np.int64)
-        rows = rows_of(self.bodies, ids.ravel())
-        if (rows < 0).any():
-            raise KeyError(f"no body {ids.ravel()[rows < 0][0]} in this world")
-        return rows.reshape(ids.shape)
-
-    def touch(self, ids):
-        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their boxes
-        follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises KeyError,
-        TypeError, ValueError; nothing is touched then."""
-        self._unlocked()
-        editing.touch(self, ids)
-
     # --- adding and removing ---------------------------------------------------------------------------------------
 
     def add_body(
         self,
-        *shapes,
-        position=(0, 0),
-        angle=0.0,
-        kind="dynamic",
-        velocity=(0, 0),
-        angular_velocity=0.0,
-        material=Material(),
-        filter=Filter.ALL,
-        sensor=False,
-        bullet=False,
-        continuous="auto",
-        fixed_rotation=False,
-        gravity_scale=1.0,
-        tier=None,
-        user=None,
+        *shapes: Shape,
+        position: Pair = (0, 0),
+        angle: float = 0.0,
+        kind: str = "dynamic",
+        velocity: Pair = (0, 0),
+        angular_velocity: float = 0.0,
+        material: Material = PLAIN,
+        filter: Filter = Filter.ALL,
+        sensor: bool = False,
+        bullet: bool = False,
+        continuous: str = "auto",
+        fixed_rotation: bool = False,
+        gravity_scale: float = 1.0,
+        tier: str | None = None,
+        user: Any = None,
     ) -> Body:
         """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
         ids = editing.add_rows(
@@ -252,21 +161,21 @@ class World(Environment, Questions):
 
     def add_bodies(
         self,
-        shape,
-        positions,
-        velocities=None,
-        angles=None,
-        kind="dynamic",
-        angular_velocity=0.0,
-        material=Material(),
-        filter=Filter.ALL,
-        sensor=False,
-        bullet=False,
-        continuous="auto",
-        fixed_rotation=False,
-        gravity_scale=1.0,
-        tier=None,
-        user=None,
+        shape: Shape,
+        positions: ArrayLike,
+        velocities: ArrayLike | None = None,
+        angles: ArrayLike | None = None,
+        kind: str = "dynamic",
+        angular_velocity: float = 0.0,
+        material: Material = PLAIN,
+        filter: Filter = Filter.ALL,
+        sensor: bool = False,
+        bullet: bool = False,
+        continuous: str = "auto",
+        fixed_rotation: bool = False,
+        gravity_scale: float = 1.0,
+        tier: str | None = None,
+        user: Any = None,
     ) -> np.ndarray:
         """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
         positions = checks.columns("positions", positions)
@@ -296,7 +205,7 @@ class World(Environment, Questions):
             user,
         )
 
-    def remove_body(self, body):
+    def remove_body(self, body: Body | int) -> None:
         """Remove a body (or its id). Raises KeyError when it is not there."""
         if isinstance(body, Body):
             if body.world is not self:
@@ -306,7 +215,7 @@ class World(Environment, Questions):
             raise TypeError(f"body must be a Body or an id (got {body!r})")
         self.remove_bodies([body])
 
-    def remove_bodies(self, ids):
+    def remove_bodies(self, ids: ArrayLike) -> None:
         """Remove many bodies at once: one pass over the tables. Raises KeyError for an unknown id, ValueError for one
         that is named twice; nothing is removed then."""
         self._unlocked()
@@ -327,72 +236,29 @@ class World(Environment, Questions):
         self.characters.keep(~np.isin(self.characters.rows["body"], ids))
         sleep.forget(self)
 
-    def _drop_shapes(self, keep):
-        self.pairs.ids(self.shapes)  # named while the rows still stand
-        self.pairs.free_proxies(self.shapes["proxy"][~keep])
-        self._shapes.keep(keep)
-        self.pairs.rename(self.shapes)
-        self.awake.forget_shapes()
+    def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
+        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their
+        boxes follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
+        KeyError, TypeError, ValueError; nothing is touched then."""
+        self._unlocked()
+        editing.touch(self, ids)
 
-    def clear(self):
+    def clear(self) -> None:
         """Remove every body. Ids go on from where they were."""
         self.remove_bodies(self.bodies["id"])
 
-    def body(self, identity) -> Body:
-        """The handle of an id. Raises KeyError when there is no such body."""
-        if isinstance(identity, bool) or not isinstance(identity, (int, np.integer)):
-            raise TypeError(f"identity must be a whole number (got {identity!r})")
-        self._body_row(identity)
-        return Body(self, int(identity))
-
-    # --- what Body asks for ------------------------------------------------------------------------------------------
-
-    def _unlocked(self):
-        if self._stepping:
-            raise RuntimeError("the world cannot be changed during its step: read the events after it")
-
-    def _row_number(self, identity):
-        count = self._bodies.count
-        row = bisect_left(self._bodies.data["id"], identity, 0, count)
-        if row == count or self._bodies.data["id"][row] != identity:
-            raise KeyError(f"body {identity} is not in this world (removed, or never added)")
-        return row
-
-    def _body_row(self, identity):
-        return self._bodies.data[self._row_number(identity)]
-
-    def _needs(self, effect, what, asked):
-        if asked and not getattr(self._effects, effect):
-            raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
-
-    def _needs_velocities(self, what):
-        if "integrate_velocities" not in self.stages and not self.stacks:
-            raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
-
-    # --- digest, snapshot -------------------------------------------------------------------------------------
-
-    def rebuild_proxies(self):
-        """Give every shape a new place in the broad phase: the tables were replaced."""
-        self.pairs = PairList(self.sleeps)
-        self.awake.start_over()
-        self._broadphase = self._broadphase.fresh()
-        active = ~self.bodies["quarantined"][self.shapes["body_row"]]
-        rows = np.flatnonzero(active)
-        self.shapes["proxy"] = -1
-        self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
-        # What is not awake gets no rectangle in the next step: here, once.
-        changed = write_rectangles(self, rows)
-        self.pairs.again.append(self.pairs.changed[:changed].copy())
+    # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
         """blake2b-128 of the state that the next step depends on, independent of rows, times and broad phase."""
         return snapshot.digest(self)
 
-    def snapshot(self):
+    def snapshot(self) -> Snapshot:
         """A copy of the state."""
         return snapshot.take(self)
 
-    def restore(self, taken):
-        """Go back to a snapshot. Raises ValueError when it does not fit this version's tables or this world's effects."""
+    def restore(self, taken: Snapshot) -> None:
+        """Go back to a snapshot.
+        Raises ValueError when it does not fit this version's tables or this world's effects."""
         self._unlocked()
         snapshot.restore(self, taken)

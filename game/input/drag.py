@@ -143,7 +143,7 @@ def has_forces(effects: Effects) -> bool:
 def can_be_held(body: Body) -> bool:
     """True for a dynamic body with a mass that takes part in the simulation."""
     row = body.world.bodies[body.world.rows([body.id])[0]]
-    return body.kind == "dynamic" and row["inverse_mass"] > 0.0 and not row["quarantined"]
+    return body.kind == "dynamic" and bool(row["inverse_mass"] > 0.0 and not row["quarantined"])
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:

@@ -3,7 +3,10 @@
 Exact, no state, O(changed · n). Best for a few dozen bodies; the truth the other strategies are tested with.
 """
 
-from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+import numpy as np
+from numpy.typing import ArrayLike
+
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, overlaps, write_pair
 from physics.jit import kernel
 from physics.tables.counters import PAIRS_TESTED
 
@@ -65,21 +68,21 @@ class BruteForce:
 
     name = "brute"
 
-    def find_pairs(self, lower, upper):
+    def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(BruteForce(), lower, upper)
 
-    def fresh(self):
+    def fresh(self) -> "BruteForce":
         """A copy without state."""
         return BruteForce()
 
-    def update(self, arena):
+    def update(self, arena: Arena) -> None:
         """Nothing to keep."""
 
-    def query(self, arena):
+    def query(self, arena: Arena) -> Query:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
-    def near(self, proxies, box, slots, work) -> int:
+    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
         return near_in_all(proxies, *box, slots, work)

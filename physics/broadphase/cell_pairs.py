@@ -116,7 +116,7 @@ def near_in_cells(
     slots_out,
     work_inout,
 ):
-    """List the slots whose box meets a closed box [px], per level by its cells or by the level's list. Returns their number.
+    """List the slots whose box meets a closed box [px], by the cells or the list of each level. Returns their number.
 
     A slot that stands in several cells is taken from the one that holds the lower corner of the shared rectangle.
     O(cells + boxes in them); cells are at most in proportion to the outline of the box.

@@ -8,9 +8,10 @@ GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many still th
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import find_pairs, overlaps, write_pair
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, overlaps, write_pair
 from physics.broadphase.tree_nodes import FREE, NODE, ROOT_MOVING, ROOT_STILL, insert_leaf, remove_leaf, take_node
 from physics.broadphase.tree_rebuild import rebuild
 from physics.jit import kernel
@@ -39,8 +40,9 @@ def place_changed(
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
 
     changed: slots; margin [px] and margin_fraction of the box: by the smaller a leaf outgrows it; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the still
-    tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were moved. O(moved · log n).
+    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the
+    still tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were
+    moved. O(moved · log n).
     """
     moved = 0
     for i in range(len(changed)):
@@ -157,7 +159,7 @@ def near_in_trees(
     slots_out,
     work_inout,
 ):
-    """List the slots whose leaf meets a closed box [px], from the roots down. Returns their number. O(log n + found)."""
+    """List the slots whose leaf meets a closed box [px], from the roots down; their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):
@@ -185,7 +187,7 @@ class DynamicTree:
 
     name = "tree"
 
-    def __init__(self, margin=None):
+    def __init__(self, margin: float | None = None) -> None:
         self.margin = AABB_MARGIN * PIXELS_PER_METER if margin is None else checks.number("margin", margin, low=0.0)
         self.leaf_of = np.zeros(0, np.int64)
         self.nodes = np.zeros(0, NODE)
@@ -193,15 +195,15 @@ class DynamicTree:
         self.stack = np.zeros(STACK, np.int64)
         self.leaves, self.spans = np.zeros(0, np.int64), np.zeros((0, 4), np.int64)
 
-    def find_pairs(self, lower, upper):
+    def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
-    def fresh(self):
+    def fresh(self) -> "DynamicTree":
         """A copy without state."""
         return DynamicTree(self.margin)
 
-    def update(self, arena):
+    def update(self, arena: Arena) -> None:
         """Move the leaves whose boxes left their fat ones."""
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
@@ -237,22 +239,22 @@ class DynamicTree:
         changed = np.bincount(still[arena.changed], minlength=2)
         return tuple(bool(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
-    def query(self, arena):
+    def query(self, arena: Arena) -> Query:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_trees(
             arena.proxies, arena.changed, self.nodes, self.state, self.stack, pairs, work
         )
 
-    def near(self, proxies, box, slots, work) -> int:
+    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
         return near_in_trees(self.nodes, self.state[ROOT_MOVING:], *box, self.stack, slots, work)
 
     @property
-    def height(self):
+    def height(self) -> int:
         """Height of the higher of the two trees; 0 for a lone leaf, -1 when empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
-    def boxes(self):
+    def boxes(self) -> tuple[np.ndarray, np.ndarray]:
         """All nodes: (m, 4) boxes [px] and (m,) depths from the root, for drawing."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from physics.broadphase.proxies import Arena, keep_pairs, mark_settled, merge_pairs, pair_keys
+from physics.broadphase.proxies import Arena, Strategy, keep_pairs, mark_settled, merge_pairs, pair_keys
+from physics.shapes.filter import Filter
 from physics.tables.counters import CANDIDATES, COUNTERS
 from physics.tables.proxy import PROXY
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
@@ -13,11 +14,11 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be awake;
-    pairs of which neither side is awake are not kept.
+    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be
+    awake; pairs of which neither side is awake are not kept.
     """
 
-    def __init__(self, sleeping: bool = False):
+    def __init__(self, sleeping: bool = False) -> None:
         self.sleeping = sleeping
         self.arena = Arena()
         self.free = []  # slots that a new shape may take
@@ -36,16 +37,16 @@ class PairList:
         self.resting = False  # pairs may have lost their last side that is awake
 
     @property
-    def proxies(self):
+    def proxies(self) -> np.ndarray:
         return self.arena.proxies
 
-    def ids(self, shapes) -> np.ndarray:
+    def ids(self, shapes: np.ndarray) -> np.ndarray:
         """(n, 2) shape ids of the candidates, whose rows are those of the SHAPE rows given, unless named before."""
         if self.known_ids is None:
             self.known_ids = shapes["id"][self.rows]
         return self.known_ids
 
-    def add_proxies(self, shapes, rows, still):
+    def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
         """Give the shapes at these rows of a SHAPE array a slot each; still: whether each is static."""
         while len(self.free) < len(rows):
             used = len(self.proxies)
@@ -62,25 +63,25 @@ class PairList:
         self.proxies["awake"][slots] = not self.sleeping
         self.proxies["row"][slots] = -1  # until its rectangle is known
 
-    def free_proxies(self, slots):
+    def free_proxies(self, slots: np.ndarray) -> None:
         """Take shapes out of the broad phase."""
         slots = slots[slots >= 0]
         self.proxies["row"][slots] = -1
         self.proxies["changed"][slots] = True
         self.freed += slots.tolist()
 
-    def touch(self, slots):
+    def touch(self, slots: np.ndarray) -> None:
         """Have the rectangles of these slots written, and their pairs found, anew."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
-    def let_sleep(self, sleeping):
+    def let_sleep(self, sleeping: bool) -> None:
         """From now on what is new is asleep until it is said to be awake, or everything is awake."""
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
 
-    def set_awake(self, slots, awake):
+    def set_awake(self, slots: np.ndarray, awake: bool) -> None:
         """Say whether slots are awake: the pairs of what wakes are found again, those of two that sleep are dropped."""
         self.proxies["awake"][slots] = awake
         if awake:
@@ -90,20 +91,20 @@ class PairList:
         else:
             self.resting = True
 
-    def room_for(self, count) -> np.ndarray:
+    def room_for(self, count: int) -> np.ndarray:
         """Room for the slots that a rectangle pass over so many shapes lists."""
         if len(self.changed) < count:
             self.changed = np.zeros(2 * count, np.int64)
         return self.changed
 
-    def rename(self, shapes):
+    def rename(self, shapes: np.ndarray) -> None:
         """Shape rows have moved: tell the proxies theirs. The next update writes those of the candidates."""
         slots = shapes["proxy"]
         there = np.flatnonzero((slots >= 0) & (self.proxies["row"][slots] >= 0))
         self.proxies["row"][slots[there]] = there
         self.moved = True
 
-    def widen(self, shapes, margin):
+    def widen(self, shapes: np.ndarray, margin: float) -> None:
         """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed."""
         slots = shapes["proxy"]
         for low, high, axis in (
@@ -117,21 +118,21 @@ class PairList:
         self.proxies["changed"][slots] = True
         self.room_for(len(slots))[: len(slots)] = slots
 
-    def set_filter(self, slots, value):
+    def set_filter(self, slots: np.ndarray, value: Filter) -> None:
         """Change the filter of slots."""
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
         self.touch(slots)
 
-    def set_still(self, slots, still):
+    def set_still(self, slots: np.ndarray, still: bool) -> None:
         """Change whether slots are static."""
         self.proxies["still"][slots] = still
         self.touch(slots)
 
-    def start_over(self):
+    def start_over(self) -> None:
         """A new strategy knows nothing yet."""
         self.everything = True
 
-    def update(self, strategy, shapes, changed_count, work):
+    def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
         """Bring the candidates up to date with `changed_count` slots in `self.changed`, and those freed."""
         arena = self.arena
         arena.work = work
@@ -189,6 +190,6 @@ class PairList:
 
 
 @stage("broad_phase", reads=("broadphase", "pairs", "shapes", "changed_count"), writes=("pairs", "broadphase", "work"))
-def broad_phase(state):
+def broad_phase(state: StepState) -> None:
     """The pairs whose rectangles touch and whose filters agree."""
     state.pairs.update(state.broadphase, state.shapes, state.changed_count, state.work)

@@ -4,11 +4,18 @@ A proxy is a slot of the PROXY table: box, filter, owner. Strategies differ in w
 test: so the list of pairs is the same from all of them.
 """
 
+from collections.abc import Callable
+from typing import Protocol
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics.jit import kernel, subkernel
 from physics.tables.counters import COUNTERS, FILTERED, PAIRS_TESTED
 from physics.tables.proxy import PROXY
+
+Box = tuple[float, float, float, float]  # lower x, y, upper x, y [px]
+Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> how many pairs there are
 
 
 @subkernel
@@ -43,7 +50,7 @@ def may_meet(
     # write
     work_inout,
 ):
-    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree both ways. O(1)."""
+    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree. O(1)."""
     p = proxies[a]
     q = proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake):
@@ -76,13 +83,13 @@ def write_pair(
 class Arena:
     """What a strategy is given in each update: proxies, which of them changed, where to write pairs, and counters."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.proxies = np.zeros(0, PROXY)
         self.changed = np.zeros(0, np.int64)  # slots, ascending: box, filter or existence changed
         self.pairs = np.zeros((64, 2), np.int32)  # slots, in any order
         self.work = np.zeros(len(COUNTERS), np.int64)
 
-    def collect(self, query) -> int:
+    def collect(self, query: Query) -> int:
         """Run query(pairs, work) -> count, once more with room where the first run found more than fits."""
         work = self.work.copy()
         count = query(self.pairs, self.work)
@@ -93,7 +100,33 @@ class Arena:
         return count
 
 
-def find_pairs(strategy, lower, upper) -> np.ndarray:
+class Strategy(Protocol):
+    """A broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
+
+    name: str
+
+    def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
+        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        ...
+
+    def fresh(self) -> "Strategy":
+        """A copy without state."""
+        ...
+
+    def update(self, arena: Arena) -> None:
+        """Take in the proxies that changed."""
+        ...
+
+    def query(self, arena: Arena) -> Query:
+        """What lists the pairs of the changed proxies."""
+        ...
+
+    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        ...
+
+
+def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
     """All pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each once.
 
     strategy: a broad phase without state; lower, upper (n, 2) px. Raises ValueError on NaN, infinity where it is

@@ -1,8 +1,8 @@
 """Bounding motion rectangles: where each shape can be during the step. They are what the broad phase compares.
 
-In a world whose bodies tremble in piles they have room to spare, and are kept while what the shape needs stays inside: a
-pile that rests costs the broad phase nothing. More candidates, the same contacts: the narrow phase looks at the tight boxes.
-Source: Catto, Box2D v3.2, constants.h (margin).
+In a world whose bodies tremble in piles they have room to spare, and are kept while what the shape needs stays inside:
+a pile that rests costs the broad phase nothing. More candidates, the same contacts: the narrow phase looks at the tight
+boxes. Source: Catto, Box2D v3.2, constants.h (margin).
 """
 
 import numpy as np
@@ -14,7 +14,8 @@ from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import MASK
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
+from physics.tables.world_tables import WorldTables
 
 
 @kernel
@@ -28,11 +29,11 @@ def update_rectangles(
     proxies_inout,
     changed_out,
 ):
-    """Write the motion rectangles that no longer fit, and list the slots that changed.
+    """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
 
-    rows of shapes, whose AABBs are refreshed; motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are
-    candidates, spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it
-    needs. Returns the number of slots. O(rows).
+    motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates, spare [px]: how far a rectangle
+    outgrows its need, at most (next) that share of the box; 0: it is what it needs. Returns the number of slots.
+    O(rows).
     """
     gravity_x = motion[0]
     gravity_y = motion[1]
@@ -103,20 +104,20 @@ def update_rectangles(
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def motion_rectangles(state):
+def motion_rectangles(state: StepState) -> None:
     """Bring the boxes, and the rectangles that no longer fit, up to date."""
     state.changed_count = write_rectangles(state, state.awake.shapes)
 
 
-def write_rectangles(tables, rows) -> int:
-    """Bring the boxes and rectangles of these shape rows up to date. Returns how many slots changed, listed by the pairs.
+def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
+    """Bring the boxes and rectangles of these shape rows up to date.
+    Returns how many slots changed, listed by the pairs.
 
     tables: a StepState, or a world whose shapes have just got places in the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.effects.stacking
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
-    refresh_aabbs(rows, tables.library.tables, bodies, shapes)
     # Where velocities were integrated before, gravity and forces are in them.
     motion = (
         *(tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)),
@@ -125,4 +126,6 @@ def write_rectangles(tables, rows) -> int:
         AABB_MARGIN * tolerances.pixels_per_meter if piles else 0.0,
         AABB_MARGIN_FRACTION if piles else 0.0,
     )
-    return update_rectangles(rows, bodies, shapes, np.array(motion), pairs.proxies, pairs.room_for(len(rows)))
+    changed = pairs.room_for(len(rows))
+    refresh_aabbs(rows, tables.library.tables, bodies, shapes)
+    return update_rectangles(rows, bodies, shapes, np.array(motion), pairs.proxies, changed)

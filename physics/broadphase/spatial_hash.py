@@ -7,22 +7,24 @@ O(cells touched + candidates). Suits many things of one size, moving or not.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.broadphase.cell_pairs import find_in_cells, near_in_cells
 from physics.broadphase.cells import ENTRY, LEVELS, place_changed
-from physics.broadphase.proxies import find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs
 
 CELL_OF_MEDIAN = 2.0  # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
 SMALLEST_CELL = 2.0**-1000  # its inverse is still finite
 
 
 class SpatialHashGrid:
-    """cell: size of the finest cells [px]; None tunes itself to the bodies. Raises ValueError for a cell below 2^-1000."""
+    """cell: size of the finest cells [px]; None tunes itself to the bodies.
+    Raises ValueError for a cell below 2^-1000."""
 
     name = "hash"
 
-    def __init__(self, cell=None):
+    def __init__(self, cell: float | None = None) -> None:
         self.cell = None if cell is None else checks.number("cell", cell, low=SMALLEST_CELL)
         self.base = self.cell or 0.0
         self.tuned_for = 0
@@ -37,15 +39,15 @@ class SpatialHashGrid:
         self.level_heads = np.full(LEVELS + 1, -1, np.int64)
         self.level_counts = np.zeros(LEVELS + 1, np.int64)
 
-    def find_pairs(self, lower, upper):
+    def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
-    def fresh(self):
+    def fresh(self) -> "SpatialHashGrid":
         """A copy without state."""
         return SpatialHashGrid(self.cell)
 
-    def update(self, arena):
+    def update(self, arena: Arena) -> None:
         """Move what changed to its cells; grow, and tune the cell size anew, when the number of bodies doubled."""
         proxies = arena.proxies
         changed = arena.changed
@@ -78,11 +80,11 @@ class SpatialHashGrid:
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
         return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
-    def query(self, arena):
+    def query(self, arena: Arena) -> Query:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_cells(arena.proxies, arena.changed, self.base, *self._state(), pairs, work)
 
-    def near(self, proxies, box, slots, work) -> int:
+    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
         return near_in_cells(
             self.base,
@@ -97,7 +99,7 @@ class SpatialHashGrid:
             work,
         )
 
-    def cells(self):
+    def cells(self) -> tuple[np.ndarray, np.ndarray]:
         """Occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
         used = self.entries[self.entries["bucket"] >= 0]
         level = np.repeat(self.levels, 4)[self.entries["bucket"] >= 0]

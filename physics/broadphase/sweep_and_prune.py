@@ -7,8 +7,9 @@ Detection, 7.5. O(n + swaps + interval overlaps of the changed). Suits slow move
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from physics.broadphase.proxies import find_pairs, may_meet, write_pair
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
 from physics.jit import kernel
 from physics.tables.counters import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
 
@@ -267,7 +268,7 @@ def near_in_order(
 class Axis:
     """The proxies in order of their lower ends along one axis, kept from step to step."""
 
-    def __init__(self, axis):
+    def __init__(self, axis: int) -> None:
         self.axis = axis
         self.order = np.zeros(0, np.int64)
         self.known = np.zeros(0, bool)  # slot -> is in the order
@@ -276,7 +277,7 @@ class Axis:
         self.keys = np.zeros(64, np.int64)
         self.highest = None  # the greatest upper end so far, along the order; None until a query asks
 
-    def update(self, arena):
+    def update(self, arena: Arena) -> None:
         """Bring the order up to date with the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
@@ -299,7 +300,7 @@ class Axis:
         sort_boxes(proxies, order, len(order), self.axis, self.boxes, self.next_changed)
         self.highest = None
 
-    def near(self, box, slots, work):
+    def near(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px]; how many there are."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
@@ -316,10 +317,10 @@ class Axis:
             work,
         )
 
-    def sweep(self, arena, pairs, work):
+    def sweep(self, arena: Arena, pairs: np.ndarray, work: np.ndarray) -> int:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
-    def intervals(self, arena, work):
+    def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
         """Sorted keys of the interval overlaps along this axis."""
         before = work.copy()
         count = sweep_intervals(
@@ -338,22 +339,22 @@ class SweepAndPrune:
 
     name = "sweep"
 
-    def __init__(self, axes="auto"):
+    def __init__(self, axes: str = "auto") -> None:
         if axes not in ("auto", "both"):
             raise ValueError(f"axes must be auto or both (got {axes!r})")
         self.axes = axes
         self.updates = 0
         self.sorted = [Axis(0), Axis(1)] if axes == "both" else [Axis(0)]
 
-    def find_pairs(self, lower, upper):
+    def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
-    def fresh(self):
+    def fresh(self) -> "SweepAndPrune":
         """A copy without state."""
         return SweepAndPrune(self.axes)
 
-    def update(self, arena):
+    def update(self, arena: Arena) -> None:
         """Sort what changed into its place."""
         self.updates += 1
         if self.axes == "auto" and (
@@ -376,14 +377,11 @@ class SweepAndPrune:
         if not len(alive):
             return now
         with np.errstate(over="ignore", invalid="ignore"):
-            spread = [
-                float(np.var(alive["lower_x"] + alive["upper_x"])),
-                float(np.var(alive["lower_y"] + alive["upper_y"])),
-            ]
+            spread = [float(np.var(alive["lower_" + axis] + alive["upper_" + axis])) for axis in "xy"]
         needed = AXIS_SWITCH if len(self.sorted[0].order) else 1.0
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
-    def query(self, arena):
+    def query(self, arena: Arena) -> Query:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
@@ -395,6 +393,6 @@ class SweepAndPrune:
 
         return both
 
-    def near(self, proxies, box, slots, work) -> int:
+    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
         return self.sorted[0].near(box, slots, work)

@@ -67,8 +67,8 @@ def rebuild(
 ):
     """Build the tree of the still leaves (still 1) or of the moving ones (0) anew by median splits.
 
-    leaf_of (slots): leaf or -1; leaves_out (slots), spans_out (slots, 4): scratch. The inner nodes of the old tree are freed
-    first. O(n log n).
+    leaf_of (slots): leaf or -1; leaves_out (slots), spans_out (slots, 4): scratch. The inner nodes of the old tree are
+    freed first. O(n log n).
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0

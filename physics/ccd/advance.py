@@ -68,7 +68,8 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 
 @subkernel
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
-    """Separation [px] at a fraction of the motion; workspace.gap.gap has the normal, workspace.a and workspace.b the corners."""
+    """Separation [px] at a fraction of the motion; workspace.gap.gap has the normal,
+    workspace.a and workspace.b the corners."""
     x = workspace.motion_a[CENTER_X]
     y = workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
@@ -153,7 +154,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Speed along n [px per motion] of the point of a body that is at (x, y), seen from where another's motion starts."""
+    """Speed along n [px per motion] of the point of a body that is at (x, y),
+    seen from where another's motion starts."""
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
     return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
@@ -209,9 +211,10 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 def advance(a_count, a_radius, b_count, b_radius, workspace):
     """The first fraction at which two hulls meet on their way, or MISS; workspace.gap.gap has normal and points at it.
 
-    workspace: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the start
-    counts only when they approach: 0. When they part they are looked at until they approach again. workspace.totals counts
-    GJK's rounds and caps; when ADVANCE_CAP is hit it counts too, and the motion ends there, before the impact.
+    workspace: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the
+    start counts only when they approach: 0. When they part they are looked at until they approach again.
+    workspace.totals counts GJK's rounds and caps; when ADVANCE_CAP is hit it counts too, and the motion ends there,
+    before the impact.
     """
     turn_a = abs(workspace.motion_a[TURN])
     turn_b = abs(workspace.motion_b[TURN])

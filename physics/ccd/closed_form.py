@@ -12,7 +12,7 @@ MISS = 2.0  # a fraction beyond the step
 
 @subkernel
 def sweep_circles(x, y, dx, dy, radius):
-    """A point at (x, y) seen from the centre of a disc [px], moved by (dx, dy): (fraction or MISS, normal to the point).
+    """A point at (x, y) from the centre of a disc [px], moved by (dx, dy): (fraction or MISS, normal to it).
 
     radius: the sum of both discs'. Touching at the start: 0 when it approaches.
     """

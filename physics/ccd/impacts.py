@@ -52,8 +52,8 @@ def find_fast(
     # write
     fast_out,
 ):
-    """Flag the bodies that a sweep is asked for. Returns (their number, the number of those that are swept without turning,
-    moving or not). O(rows).
+    """Flag the bodies that a sweep is asked for. Returns (their number, the number of those that are swept without
+    turning, moving or not). O(rows).
 
     "toi", "ray" and "swept" always, while they move; "auto" when a point may move by more than half the body's size.
     fast_out (bodies) bool.
@@ -110,7 +110,8 @@ def cut_path(paths, row, start, end, cut_out):
 
 @subkernel
 def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts_out, workspace, work_inout):
-    """Fraction of the step at which `mover` first meets `other`, each going as far as its body's fraction and resting then.
+    """Fraction of the step at which `mover` first meets `other`,
+    each going as far as its body's fraction and resting then.
 
     Returns (fraction or MISS, normal from other to mover).
     """
@@ -183,11 +184,11 @@ def find_rotational_impacts(
 ):
     """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets on its path.
 
-    paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for the
-    others; everyone: 0 where only bullets mind what moves, 1 where all do, 2 where besides nothing turns and what has a
-    closed form was found by it; slack [px]: closer at the start
-    is in contact already. Without a stacking solver motion into the other by less than a quarter of the half size stops
-    nobody: the contact lets it out at once. impacts_out (n, 5). Returns the number found. O(candidates).
+    paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for
+    the others; everyone: 0 where only bullets mind what moves, 1 where all do, 2 where besides nothing turns and what
+    has a closed form was found by it; slack [px]: closer at the start is in contact already. Without a stacking solver
+    motion into the other by less than a quarter of the half size stops nobody: the contact lets it out at once.
+    impacts_out (n, 5). Returns the number found. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -279,8 +280,8 @@ def write_impacts(
 ):
     """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
-    impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the two boxes.
-    With response 1 the separation is that at the final poses: what a side went on by after the impact.
+    impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the
+    two boxes. With response 1 the separation is that at the final poses: what a side went on by after the impact.
     """
     found = 0
     for i in range(count):

@@ -6,6 +6,7 @@ enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: 
 """
 
 import math
+from collections.abc import Callable
 
 from physics.ccd.closed_form import MISS, sweep_circle_polygon, sweep_circles, sweep_polygons
 from physics.collision.circles import collide_polygon_circle
@@ -22,7 +23,7 @@ from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
 
 @subkernel
 def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, edges, slack, corners_inout):
-    """One moving circle or polygon (or a ray from its middle) against an outline at rest: (fraction or MISS, normal to it)."""
+    """A moving circle or polygon (or a ray from its middle) against an outline: (fraction or MISS, normal to it)."""
     s = shapes[row]
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
@@ -171,7 +172,7 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
-    """Write an impact of a candidate pair when there is workspace, and return the count, which goes on past the capacity.
+    """Write an impact of a candidate pair when there is room. Returns the count, which goes on past the capacity.
 
     nx, ny: from what was met to the mover, which is A of the pair where from_a says so.
     """
@@ -184,7 +185,7 @@ def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
     return found + 1
 
 
-def make_impact_pass(one_way: bool):
+def make_impact_pass(one_way: bool) -> Callable:
     """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
 
     @kernel

@@ -21,11 +21,11 @@ def advance_parts(
     impact_out,
     totals_out,
 ):
-    """Write (fraction or MISS, normal from A to B) of the first impact of any part of A with any of B to impact_out (3,).
+    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with one of B to impact_out (3,).
 
-    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceWorkspace; workspace: RotationalWorkspace; totals_out (2,):
-    rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are skipped. O(parts of
-    A · parts of B).
+    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceWorkspace; workspace: RotationalWorkspace;
+    totals_out (2,): rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are
+    skipped. O(parts of A · parts of B).
     """
     r = workspace.advance
     for k in range(6):
@@ -77,7 +77,7 @@ def advance_on_ground(
     impact_out,
     totals_out,
 ):
-    """As advance_parts, of A's parts against tiles (is_chain 0) or a chain (1): through no covered side, from its front.
+    """As advance_parts, against tiles (is_chain 0), through no covered side, or a chain (1), from its front.
 
     ground: row of the grid or chain.
     """

@@ -1,9 +1,9 @@
-"""The sweep of a body that moves and turns through a step, about its centre of mass: hulls against hulls, tiles, chains.
+"""The sweep of a hull that moves and turns about its centre of mass: against hulls, tiles, chains.
 
 What touches at the start is in the hands of the solver, and a body that rests or slides must not be held by it. But it
 must not pass through either: then a core circle, a quarter of the body's smallest half extent about its centre of mass,
 is swept in its place (the rule of Box2D v3), and the hull itself counts again once it is a slop deeper. The same holds
-where a tile or link is met from a side that its neighbour covers: there is no such side, but the core must not get through.
+where a tile or link is met from a side that its neighbour covers: no such side exists, but the core must not pass.
 """
 
 import math
@@ -100,7 +100,7 @@ def sweep_at(count, radius, other_count, other_radius, core_radius, slack, works
 
 @subkernel
 def sweep_core(core_radius, other_count, other_radius, workspace):
-    """Fraction, or MISS, of the core circle against what stands in workspace.advance.local_b; MISS when its centre is in it.
+    """Fraction, or MISS, of the core circle against workspace.advance.local_b; MISS when its centre is in it.
 
     Where the circle touches already it shrinks to half the distance that is left: the centre never gets across.
     """
@@ -114,7 +114,7 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 @subkernel
 def only_grazes(count, radius, other_count, fraction, slack, workspace):
-    """Whether the mover, where it meets a piece of ground, would not go into it by more than slack [px]: it slides along."""
+    """Whether the mover slides along a piece of ground that it meets: goes into it by no more than slack [px]."""
     reach = reach_of(workspace.advance.local_a, count)
     size = reach + radius
     approach = approach_at(count, other_count, fraction, TOUCHING_BAND * size, workspace.advance)

@@ -179,7 +179,7 @@ def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, 
     fraction, core = sweep_at(count, radius, 2, 0.0, core_radius, slack, workspace)
     if fraction <= 1.0 and not core and only_grazes(count, radius, 2, fraction, slack, workspace):
         return MISS, core
-    for attempt in range(2):
+    for _ in range(2):
         if fraction > 1.0 or front_side(workspace.mover, count, motion, other, fraction, local_x, local_y, link) < 0.0:
             return MISS, core
         angle = other[ANGLE] + fraction * other[TURN]
@@ -197,7 +197,7 @@ def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, 
 
 @subkernel
 def sweep_chain(geometry, chain, local_x, local_y, count, radius, core_radius, half, slack, workspace):
-    """(fraction or MISS, normal from the chain, core) of the mover against a chain's links; blocks out of reach are skipped."""
+    """(fraction or MISS, normal from the chain, core) of the mover against the links of a chain within reach."""
     span = geometry.chains[chain]
     reach = reach_of(workspace.mover, count) + radius
     other = workspace.advance.motion_b

@@ -13,11 +13,13 @@ from physics.tables.shape import CHAIN, TILES
 
 @subkernel
 def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, workspace, work_inout):
-    """Shape `row` against shape `other`, both on their way through a step: (fraction or MISS, normal from other to row, core).
+    """Shape `row` against shape `other`, both on their way through a step:
+    (fraction or MISS, normal from other to row, core).
 
     motions (bodies, 6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step.
-    row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: apart by no more at
-    the start counts as in contact, and the core circle is swept instead: core tells. one_way: whether such tiles take part.
+    row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: apart by no more
+    at the start counts as in contact, and the core circle is swept instead: core tells. one_way: whether such tiles
+    take part.
     """
     s = shapes[row]
     o = shapes[other]

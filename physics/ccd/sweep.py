@@ -1,8 +1,8 @@
 """The stages that stop fast bodies at what they meet on their way.
 
-Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the solver
-moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first met
-something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
+Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the
+solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first
+met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ from physics.settings import IMPACT_ROUNDS
 from physics.tables.body import DYNAMIC, RAY, SWEPT
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
 NO_IMPACTS = np.zeros((0, 5))
@@ -29,13 +29,13 @@ NO_IMPACTS = np.zeros((0, 5))
 class Sweeper:
     """The arrays that sweeps of one world need, grown and used again."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
         self.impacts = np.zeros((16, 5))
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
 
-    def grow(self, state):
+    def grow(self, state: StepState) -> None:
         """Make room for the bodies and the candidates of a step."""
         bodies, candidates = len(state.bodies), len(state.pairs.rows)
         if len(self.fast) < bodies:
@@ -46,7 +46,8 @@ class Sweeper:
 
 
 def _look(state, moving, everyone) -> np.ndarray:
-    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1). everyone: see find_rotational_impacts."""
+    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1).
+    everyone: see find_rotational_impacts."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -94,7 +95,7 @@ PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y",
 
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "work", "workspace", "bodies.fraction"))
-def foresee_impacts(state):
+def foresee_impacts(state: StepState) -> None:
     """What the bodies are about to meet, and which part of their motion is free."""
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
@@ -109,14 +110,14 @@ def foresee_impacts(state):
 
 
 @stage("narrow_phase", reads=(*FORESEEN, "impacts"), writes=("manifolds", "work", "workspace"))
-def detect_moved(state):
+def detect_moved(state: StepState) -> None:
     """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
     manifolds = detect(state)
     if not len(state.impacts):
         state.manifolds = manifolds
         return
     met = _written(state, state.impacts, int(state.effects.response))
-    # Where a side went on after the impact, as a kinematic one does, what is found at the final poses may lie behind it.
+    # Where a side went on after the impact, as a kinematic one does, the final poses may show it from behind.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
     # A body that ended just behind what it flew through is near it, but going away: the impact is what counts.
@@ -158,7 +159,7 @@ def _written(state, impacts, response) -> np.ndarray:
         *PLACED,
     ),
 )
-def sweep_piles(state):
+def sweep_piles(state: StepState) -> None:
     """Find the fast bodies, what they have met in the step, and put them there."""
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None

@@ -20,7 +20,7 @@ from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, refresh_aabbs
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.rows import rows_of
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 
 @subkernel
@@ -195,7 +195,7 @@ def find_stirred(
     return most
 
 
-def near_characters(state) -> tuple[np.ndarray, np.ndarray]:
+def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
     """(near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
     rows, pairs = state.characters, state.pairs.rows
     stirred = np.zeros(len(rows), bool)
@@ -251,9 +251,11 @@ def near_characters(state) -> tuple[np.ndarray, np.ndarray]:
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def carry_characters(state):
-    """Moving solids take characters along, and push them; nothing in a world without any. Those that were moved meet others
-    in this very step."""
+def carry_characters(state: StepState) -> None:
+    """Moving solids take characters along, and push them; nothing in a world without any.
+
+    Those that were moved meet others in this very step.
+    """
     characters = state.characters
     if not len(characters):
         return
@@ -309,7 +311,7 @@ def carry_characters(state):
         *(f"bodies.{name}" for name in ("force_x", "force_y", "torque")),
     ),
 )
-def bear_characters(state):
+def bear_characters(state: StepState) -> None:
     """Before a step: characters weigh on what they ride, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies
     if not len(characters):

@@ -138,9 +138,9 @@ def tell_weight(
     # write
     manifolds_inout,
 ):
-    """Write the weight that characters have put on what they ride into the manifolds with it. O(characters · manifolds).
+    """Write the weight that characters have put on what they ride into the manifolds with it.
 
-    weight_rate [px/s]: gravity times the step; the points between the two share it.
+    weight_rate [px/s]: gravity times the step; the points between the two share it. O(characters · manifolds).
     """
     for me in range(len(characters)):
         c = characters[me]

@@ -5,7 +5,7 @@ from physics.jit import kernel, subkernel
 
 @subkernel
 def closing_speed(a, b, x, y, nx, ny):
-    """Speed [px/s] at which B's surface nears A's at a point [px] along the normal; negative when they part. a, b: BODY rows."""
+    """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows."""
     ax = x - a.center_x
     ay = y - a.center_y
     bx = x - b.center_x

@@ -1,4 +1,5 @@
-"""The pass over the candidate pairs with a chain, link by link; links far from the other shape are skipped in blocks."""
+"""The pass over the candidate pairs with a chain, link by link;
+links far from the other shape are skipped in blocks."""
 
 import math
 

@@ -6,9 +6,10 @@
                              \\
                               after    a convex corner: the solid side bends away
 
-What is pushed goes along the link's own normal, or, at a convex corner, along one between the normals of both links: so a
-corner between two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one reports it,
-unless what meets it is behind that one. An open end may push up to a quarter turn around. Names as in tables.LINK.
+What is pushed goes along the link's own normal, or, at a convex corner, along one between the normals of both links: so
+a corner between two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one
+reports it, unless what meets it is behind that one. An open end may push up to a quarter turn around. Names as in
+tables.LINK.
 """
 
 from physics.collision.clipping import ALL_EDGES, best_edge, clip_edges, support_manifold
@@ -142,7 +143,7 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def judge_normal(link, points, nx, ny):
-    """What a link makes of a normal from it to a hull: ADMIT, SNAP to its own, or SKIP: it is for a neighbour to push so."""
+    """What a link makes of a normal from it to a hull: ADMIT, SNAP to its own, SKIP: a neighbour's."""
     towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -167,7 +168,7 @@ def judge_normal(link, points, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, count, x, y, face):
-    """Whether the neighbour on the side of a normal meets a hull with its centre at (x, y), by less than `face` [px] deep."""
+    """Whether the neighbour at a normal's side meets a hull with its centre at (x, y), less than `face` [px] deep."""
     towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     i = 1 if towards_end else 2
     j = 3 if towards_end else 0
@@ -181,7 +182,7 @@ def neighbour_separates(points, nx, ny, hull, count, x, y, face):
 
 @subkernel
 def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_out):
-    """One point on the face across an open end, where it separates more than the link's own [px]. Returns the number."""
+    """One point on the face across an open end, where it separates more than the link's own [px]; the number."""
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face
@@ -211,7 +212,7 @@ def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_o
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the points of a manifold that lie at a corner which is the link before's to report. Returns how many stay."""
+    """Drop the points of a manifold at a corner that is the link before's to report. Returns how many stay."""
     nx = manifold_out[1]
     ny = manifold_out[2]
     if along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):

@@ -22,7 +22,7 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 
 @subkernel
 def collide_polygon_circle(corners, count, edges, x, y, radius):
-    """A convex polygon against a disc [px]: (found, normal from the polygon to the disc, point midway, separation, feature).
+    """A convex polygon against a disc [px]: (found, normal to the disc, point midway, separation, feature).
 
     edges: bits of the edges that may be touched. An edge that may not be touched is covered by a neighbour, so nothing
     is found where it, or a corner it ends in, is the nearest: the neighbour finds it. With the centre inside, the

@@ -9,13 +9,13 @@ from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import in_order
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
 BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
 
 
-def detect(state) -> np.ndarray:
+def detect(state: StepState) -> np.ndarray:
     """Manifolds at the present poses, with how fast their sides approach."""
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
@@ -31,7 +31,7 @@ def detect(state) -> np.ndarray:
     reads=("tolerances", "bodies", "shapes", "library", "pairs", "workspace"),
     writes=("manifolds", "work", "workspace"),
 )
-def detect_ended(state):
+def detect_ended(state: StepState) -> None:
     """Manifolds where the bodies ended."""
     state.manifolds = detect(state)
 
@@ -41,7 +41,7 @@ def detect_ended(state):
     reads=("tolerances", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
     writes=("manifolds", "anchors", "work", "workspace"),
 )
-def detect_piles(state):
+def detect_piles(state: StepState) -> None:
     """Manifolds where the step begins, up to the speculative distance, with the forces of the step before."""
     tolerances, previous, bodies = state.tolerances, state.manifolds, state.bodies
     if not len(state.awake.bodies):
@@ -78,7 +78,7 @@ def detect_piles(state):
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def sense(state):
+def sense(state: StepState) -> None:
     """Sensors see the final poses, and what a sweep met on the way."""
     tables, bodies, shapes = state.library.tables, state.bodies, state.shapes
     refresh_aabbs(state.awake.shapes, tables, bodies, shapes)

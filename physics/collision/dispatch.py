@@ -29,6 +29,7 @@ from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid
 from physics.dynamics.awake import is_active
 from physics.jit import kernel, subkernel
 from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
+from physics.tables.geometry import Geometry
 from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
@@ -101,10 +102,11 @@ def classify(
 class NarrowPhase:
     """Turns candidates into manifolds; keeps the workspace for them from step to step.
 
-    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at AABBs.
+    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at
+    AABBs.
     """
 
-    def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool):
+    def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
         self.boxes_only, self.one_way = boxes_only, one_way
         masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
@@ -124,13 +126,23 @@ class NarrowPhase:
         self.last_raw, self.last_ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
 
     def collide(
-        self, geometry, bodies, shapes, candidates, margin, work, which=ALL, bias=0.0, memory=None, recycle=0.0
+        self,
+        geometry: Geometry,
+        bodies: np.ndarray,
+        shapes: np.ndarray,
+        candidates: np.ndarray,
+        margin: float,
+        work: np.ndarray,
+        which: int = ALL,
+        bias: float = 0.0,
+        memory: tuple[np.ndarray, np.ndarray] | None = None,
+        recycle: float = 0.0,
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
-        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters; which:
-        see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used again where
-        nothing moved by more than `recycle` [px].
+        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
+        which: see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used
+        again where nothing moved by more than `recycle` [px].
         """
         count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw

@@ -1,8 +1,8 @@
 """Feature ids: by what a point of a manifold is known again in the next step.
 
 A feature is a whole number that says which edge, corner, tile, link or pixel met which. It is the same in the next step
-as long as the same parts meet, whatever the poses; a point that finds its feature among those of the step before goes on
-with its impulses. One layout for all colliders:
+as long as the same parts meet, whatever the poses; a point that finds its feature among those of the step before goes
+on with its impulses. One layout for all colliders:
 
     hulls, a face     ((edge * 16 + corner) * 2 + side) * 2 + flipped           0 .. 1023
     hulls, a support  (edge * 16 + corner) * 4 + flipped                        0 .. 1023

@@ -71,7 +71,7 @@ def collide_polygon_circle_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of a hull of two or more corners and a circle, appended at `found`. Returns the new count."""
+    """Contacts of all pairs of a hull of two or more corners and a circle, from `found` on; the new count."""
     geometry = batch.geometry
     bodies = batch.bodies
     shapes = batch.shapes

@@ -1,8 +1,8 @@
 """Rounded convex hulls against each other: corners by separating axes and clipping, the radii added afterwards.
 
-A hull of two corners (capsule, segment) is a polygon with two edges back to back. While the cores overlap, the least way
-out leads across a face and both radii. While they are apart the nearest features decide: a face and what stands over it,
-or, where nothing stands over the faces, two corners, whose distance less the radii is exact.
+A hull of two corners (capsule, segment) is a polygon with two edges back to back. While the cores overlap, the least
+way out leads across a face and both radii. While they are apart the nearest features decide: a face and what stands
+over it, or, where nothing stands over the faces, two corners, whose distance less the radii is exact.
 
 Degenerate cases have one answer each: among faces that push equally the first of A wins; cores that cross without depth
 (a segment on a segment's line) push along that face's normal; coincident corners push along (0, -1).
@@ -84,7 +84,7 @@ def nearest_corners(a, a_count, b, b_count):
 
 @subkernel
 def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
-    """One point between a corner of A and one of B, rounded, when they are within the limit [px]. Returns the number."""
+    """One point between rounded corners of A and B, when within the limit [px]. Returns the number."""
     dx = b[j, 0] - a[i, 0]
     dy = b[j, 1] - a[i, 1]
     nx, ny = unit(dx, dy, 0.0, -1.0)
@@ -148,7 +148,8 @@ def passes_by(a, a_count, b, b_count, rounding, vx, vy):
 
 @subkernel
 def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, margin, bias, deepest, manifold_out):
-    """Manifold of two hulls of two or more corners, normal from A to B. Returns the number of points, 0 when apart by > margin.
+    """Manifold of two hulls of two or more corners, normal from A to B.
+    Returns the number of points, 0 when apart by > margin.
 
     a, b: world corners (n, 2) [px], grown by the radii [px]; a_edges, b_edges: bits of the edges that may be touched;
     bias [px]: how much better B's face must separate to be the reference, so that it does not flip between equal faces;
@@ -205,7 +206,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """The line from a to b against a disc [px]: (normal from the line to the disc, point of the line, separation, feature).
+    """The line from a to b against a disc [px]: (normal to the disc, point of the line, separation, feature).
 
     Feature: 0 or 1, the side; 32 or 33, the end. A centre on the line takes the normal of its first side.
     """

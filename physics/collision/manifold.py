@@ -86,7 +86,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a point to the last manifold, where that is of the same pair, has the same normal and one point; else begin one.
+    """Add a point to the last manifold, if that is of this pair, with this normal and one point; else begin one.
 
     Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
     area [px2]. What depends on the bodies' motion is left to approach.py.
@@ -117,8 +117,8 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
 
 @subkernel
 def add_points(shapes, candidates, pair, found, sign, points, count, part, manifolds_out):
-    """Add the points of a manifold in flight (see clipping.py). sign: -1.0 where it was asked the other way round; part:
-    what is added to its features. Returns the number of manifolds."""
+    """Add the points of a manifold in flight (see clipping.py). sign: -1.0 where it was asked the other way round;
+    part: what is added to its features. Returns the number of manifolds."""
     for k in range(count):
         at = 3 + 4 * k
         found = add_point(
@@ -251,7 +251,7 @@ def write_contacts(
     return found
 
 
-def contacts_of(manifolds) -> np.ndarray:
+def contacts_of(manifolds: np.ndarray) -> np.ndarray:
     """The points of MANIFOLD rows as CONTACT rows, in their order."""
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
     write_contacts(manifolds, contacts)

@@ -65,7 +65,8 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
 def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by):
     """Contact of two masks that share pixels: (area, point x, point y in A's raster, normal from A to B, separation).
 
-    rest_*: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends the overlap.
+    rest_*: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends
+    the overlap.
     """
     a = rasters[mask_a]
     b = rasters[mask_b]

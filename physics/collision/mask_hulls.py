@@ -44,7 +44,8 @@ def leave_square(x, y, nx, ny, radius):
 
 @subkernel
 def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
-    """(area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a mask and a disc [px].
+    """(area in whole pixels, normal from mask to disc, point, separation,
+    first pixel number) of a mask and a disc [px].
 
     left, top: where the raster is drawn. The point is the centroid of the pixels that overlap. The separation is the
     move of the disc along the normal that clears them all. O(pixels under the disc's bounds).
@@ -83,7 +84,7 @@ def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
 
 @subkernel
 def thick_line(points, front, back, corners_out):
-    """Write the rectangle that reaches `front` and `back` [px] to both sides of the line from points[0] to points[1]."""
+    """Write the rectangle `front` and `back` [px] to both sides of the line from points[0] to points[1]."""
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
         end = 0 if k == 0 or k == 3 else 1

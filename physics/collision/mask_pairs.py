@@ -1,5 +1,7 @@
 """Passes over the candidate pairs with masks: mask against mask by AND, mask against circle, polygon and bounds."""
 
+from collections.abc import Callable
+
 from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import pixel_feature
 from physics.collision.manifold import MASK_CIRCLE, MASK_POLYGON, MASKS, add_point, circle_at, corners_of
@@ -14,7 +16,7 @@ from physics.tables.counters import MASK_TESTS
 from physics.tables.shape import MASK
 
 
-def make_mask_pass(full: bool):
+def make_mask_pass(full: bool) -> Callable:
     """The pass over pairs of masks: with area, centroid, normal and depth, or with the first shared pixel alone.
 
     Without them the normal is the direction between the centres and the separation -1: one shared pixel is known.

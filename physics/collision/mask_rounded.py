@@ -1,4 +1,4 @@
-"""A mask against a rounded hull (capsule, rounded polygon): the union of its pixel squares, as drawn, against the exact shape.
+"""A mask, as the union of its pixel squares as drawn, against an exact rounded hull (capsule, rounded polygon).
 
 Masks are open: a hit shares area, touching is none. See masks/shapes.py for discs and sharp polygons.
 """
@@ -54,7 +54,7 @@ def way_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny):
-    """How far [px] a rounded hull moves along a unit direction until a line parts it from the pixels that it overlaps."""
+    """How far [px] a rounded hull moves along a unit direction until a line parts it from the pixels in it."""
     r = rasters[mask]
     least = math.inf
     for k in range(count):
@@ -71,11 +71,13 @@ def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x
 
 @subkernel
 def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius):
-    """(area in whole pixels, normal from mask to hull, point, separation, first pixel number) of a mask and a rounded hull.
+    """(area in whole pixels, normal from mask to hull, point, separation,
+    first pixel number) of a mask and a rounded hull.
 
-    corners (n, 2) [px] world, clockwise on the screen; left, top: where the raster is drawn. The point is the centroid of
-    the pixels that overlap. The way out leads through the face, or away from the centroid where the rounding is met,
-    whichever is shorter; the separation is the move along it that clears them. O(pixels under the hull's bounds · count).
+    corners (n, 2) [px] world, clockwise on the screen; left, top: where the raster is drawn. The point is the centroid
+    of the pixels that overlap. The way out leads through the face, or away from the centroid where the rounding is met,
+    whichever is shorter; the separation is the move along it that clears them. O(pixels under the hull's bounds ·
+    count).
     """
     r = rasters[mask]
     min_x = math.inf

@@ -42,8 +42,8 @@ def follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k):
 
 @subkernel
 def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
-    """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other [px],
-    by how much a separation differs from that at its detection [px]).
+    """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other
+    [px], by how much a separation differs from that at its detection [px]).
 
     a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
     """
@@ -89,7 +89,8 @@ def core_in_body(body, cosine, sine, x, y, nx, ny, inside):
 def anchor_manifold(bodies, shapes, manifold, anchor_out):
     """Remember a manifold that was detected at the present poses in the body spaces of its sides.
 
-    A round side keeps its core, or the point would wander off with its spin; the normal turns with the side that is not.
+    A round side keeps its core, or the point would wander off with its spin; the normal turns with the side that is
+    not.
     """
     m = manifold
     c = anchor_out
@@ -208,7 +209,7 @@ def remember_grids(
     # write
     memory_out,
 ):
-    """Write where the previous manifolds of every candidate with a tile grid stand: memory_out (count, 2) first, number.
+    """Write where a tile grid's previous manifolds of each candidate stand: memory_out (count, 2) first, number.
 
     Both in the order of shape ids. One-way tiles ask who stood on them. O(candidates + previous).
     """
@@ -264,8 +265,8 @@ def copy_anchor(source, anchor_out):
 
 @subkernel
 def take_over(previous, anchors, first, manifold_inout, anchor_inout):
-    """Give the points of a new manifold the forces of the points with their features, among the previous manifolds of its
-    pair, which begin at `first`."""
+    """Give the points of a new manifold the forces of the points with their features, among the previous manifolds of
+    its pair, which begin at `first`."""
     m = manifold_inout
     c = anchor_inout
     for point in range(m.count):
@@ -303,8 +304,8 @@ def carry_over(
     manifolds_inout,
     anchors_out,
 ):
-    """Write the anchor of every manifold: as it was where that is used again; else a new one, with the forces of the points
-    of the same pair and feature in the step before. O(both).
+    """Write the anchor of every manifold: as it was where that is used again; else a new one, with the forces of the
+    points of the same pair and feature in the step before. O(both).
 
     previous and manifolds_inout MANIFOLD rows in the order of shape ids, anchors row by row beside them.
     """

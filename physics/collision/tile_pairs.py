@@ -1,6 +1,7 @@
 """The pass over the candidate pairs with a tile grid, run by run: like cells next to each other are one rectangle."""
 
 import math
+from collections.abc import Callable
 
 from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import part_feature, part_of
@@ -30,7 +31,7 @@ def stood_on(workspace, pair, run):
     return False
 
 
-def make_grid_pass(one_way: bool):
+def make_grid_pass(one_way: bool) -> Callable:
     """The pass over pairs of a tile grid and anything else; one-way tiles only where the effect is declared."""
 
     @kernel

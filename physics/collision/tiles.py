@@ -11,7 +11,7 @@ from physics.tables.geometry import ONE_WAY, SLOPE, SOLID
 
 @subkernel
 def covered(grids, cells, grid, row, column, from_row, from_column):
-    """Whether the neighbour at (row, column) covers the whole edge it shares with the cell at (from_row, from_column)."""
+    """Whether the cell at (row, column) covers the whole edge that it shares with that at (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -32,7 +32,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def turns_away(grids, cells, grid, row, column, side):
-    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1: their common corner sticks out."""
+    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1: a corner sticks out."""
     g = grids[grid]
     other = column + side
     if other < 0 or other >= g.columns:
@@ -47,7 +47,8 @@ def turns_away(grids, cells, grid, row, column, side):
 
 @subkernel
 def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
-    """World corners [px] of the run of solid or one-way cells that a cell belongs to, and the bits of its touchable edges.
+    """World corners [px] of the run of solid or one-way cells that a cell belongs to,
+    and the bits of its touchable edges.
 
     As tile_at, as one rectangle, so that nothing is felt between its cells. low..high: columns under what may touch it;
     its top and bottom can be touched where a cell among these is not covered. Returns (corners, edges).

@@ -1,8 +1,8 @@
 """What is awake: the rows that the passes of a step go over.
 
-In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones that
-move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs nothing.
-The lists are kept as things wake and fall asleep, not searched for.
+In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones
+that move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs
+nothing. The lists are kept as things wake and fall asleep, not searched for.
 """
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.rows import rows_of
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
+from physics.tables.world_tables import WorldTables
 
 NONE = np.zeros(0, np.int64)
 
@@ -45,7 +46,7 @@ def list_active(bodies, rows, rows_out):
 class Awake:
     """The awake rows of one world: `bodies` and `shapes`, int64, ascending."""
 
-    def __init__(self, sleeping: bool):
+    def __init__(self, sleeping: bool) -> None:
         self.sleeping = sleeping
         self.bodies = self.shapes = NONE
         self.dynamic = NONE  # rows of the dynamic bodies that are awake
@@ -56,23 +57,23 @@ class Awake:
         self.known = (0, 0)  # bodies and shapes that the lists have taken in
         self.stale = True  # rows have moved: everything is looked for again
 
-    def start_over(self):
+    def start_over(self) -> None:
         """The tables were replaced, or rows dropped or changed in kind: everything is looked for again."""
         self.stale = True
 
-    def stir(self, ids):
+    def stir(self, ids: list[int]) -> None:
         """Have what was added or written by hand looked at in the next step."""
         if self.sleeping:
             self.stirred += ids
 
-    def all_rows(self, bodies, shapes):
+    def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
         """Every row: for worlds without sleeping."""
         most = max(len(bodies), len(shapes))
         if len(self.numbers) < most:
             self.numbers = np.arange(2 * most)
         self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
-    def keep_rows(self, kept_bodies):
+    def keep_rows(self, kept_bodies: np.ndarray) -> None:
         """Bodies were dropped: the others have new rows. kept_bodies bool."""
         if self.sleeping and not self.stale:
             new = np.cumsum(kept_bodies) - 1
@@ -81,11 +82,11 @@ class Awake:
                 setattr(self, name, new[rows[kept_bodies[rows]]])
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
-    def forget_shapes(self):
+    def forget_shapes(self) -> None:
         """Shape rows came or went: which shapes are whose is looked for again."""
         self.known = (self.known[0], -1)
 
-    def take_in(self, tables):
+    def take_in(self, tables: WorldTables) -> None:
         """Bring the lists up to date with what was added, or with everything."""
         bodies, shapes = tables.bodies, tables.shapes
         count, shape_count = len(bodies), len(shapes)
@@ -115,23 +116,23 @@ class Awake:
         self.order = np.argsort(owners, kind="stable")
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
 
-    def is_known(self, bodies, shapes) -> bool:
+    def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
         """Whether the lists are those of these tables."""
         return not self.stale and self.known == (len(bodies), len(shapes))
 
-    def may_move(self, bodies, before) -> np.ndarray:
+    def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Body rows that may stand elsewhere than where those of `before` were awake, a step ago or since."""
         stirred = rows_of(bodies, np.array(self.stirred, np.int64))
         return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, stirred[stirred >= 0]]))
 
-    def shapes_of(self, rows) -> np.ndarray:
+    def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
         first, counts = self.starts[rows], self.starts[rows + 1] - self.starts[rows]
         total = int(counts.sum())
         places = np.repeat(first - (np.cumsum(counts) - counts), counts) + np.arange(total)
         return np.sort(self.order[places])
 
-    def include(self, tables, rows):
+    def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
         self.take_in(tables)
         self.bodies = np.union1d(self.bodies, rows)
@@ -141,7 +142,7 @@ class Awake:
         self._set_active(tables, rows, True)
         self.shapes = self.shapes_of(self.bodies)
 
-    def exclude(self, tables, rows):
+    def exclude(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Drop body rows from the lists: nothing about them changes until they are included again."""
         self.take_in(tables)
         self._set_active(tables, rows, False)
@@ -161,7 +162,7 @@ class Awake:
     reads=("bodies", "shapes", "characters", "awake", "sleepers", "pairs", "touching", "sensing"),
     writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active"),
 )
-def list_awake(state):
+def list_awake(state: StepState) -> None:
     """The rows that this step goes over; who begins to move, and who has come to a stand, among what is not dynamic."""
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)

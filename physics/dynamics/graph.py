@@ -1,9 +1,10 @@
-"""The graph of bodies and constraints: islands, adjacency, colours. A constraint of any kind is an edge (a, b) of two nodes.
+"""The graph of bodies and constraints: islands, adjacency, colours.
+A constraint of any kind is an edge (a, b) of two nodes.
 
-Union-find over the edges in their canonical order, the lower node as the root, so islands are the same whatever found the
-edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two constraints share a node that can be pushed, so
-their order, and any number of lanes or threads that take them at once, gives the same bits (Catto, SIMD Matters, 2024).
-Edges with what cannot be pushed get the last colours: they are solved last and win.
+Union-find over the edges in their canonical order, the lower node as the root, so islands are the same whatever found
+the edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two constraints share a node that can be
+pushed, so their order, and any number of lanes or threads that take them at once, gives the same bits (Catto, SIMD
+Matters, 2024). Edges with what cannot be pushed get the last colours: they are solved last and win.
 """
 
 from physics.jit import kernel, subkernel
@@ -27,7 +28,7 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of every edge's two nodes. edges (count, 2) int32; parents_inout: the root, or a way to it. O(count)."""
+    """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: root, or way to it. O(count)."""
     for i in range(count):
         first = root_of(edges[i, 0], parents_inout)
         second = root_of(edges[i, 1], parents_inout)

@@ -1,9 +1,11 @@
 """Velocities from forces, poses from velocities: semi-implicit Euler, velocities first.
 
-Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC 2015.
+Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC
+2015.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -16,12 +18,12 @@ from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.contact import QUARANTINE
 from physics.tables.counters import BODIES_INTEGRATED
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
 
 
-def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
+def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
     """The pass over the dynamic bodies for a world with these effects.
 
     Wind pushes by drag_rate · wind; with drag too, bodies tend to the velocity of the wind.
@@ -68,7 +70,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool):
     return integrate_velocities
 
 
-def make_position_pass(rotation: bool):
+def make_position_pass(rotation: bool) -> Callable:
     """The pass over the moving bodies; with rotation they turn about their centres of mass."""
 
     @kernel
@@ -216,8 +218,9 @@ REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_veloc
         *(f"bodies.{name}" for name in REST),
     ),
 )
-def quarantine(state):
-    """Take what is no longer finite out of the simulation, and tell it; its neighbours go on as if it had been removed."""
+def quarantine(state: StepState) -> None:
+    """Take what is no longer finite out of the simulation, and tell it;
+    its neighbours go on as if it had been removed."""
     rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
     broken = np.empty(len(rows), np.int64)
     broken = broken[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, broken)]
@@ -239,7 +242,7 @@ def quarantine(state):
     reads=("effects", "awake", "bodies", "gravity", "drag", "wind", "dt"),
     writes=tuple(f"bodies.{name}" for name in ("vx", "vy", "angular_velocity", "force_x", "force_y", "torque")),
 )
-def integrate_velocities(state):
+def integrate_velocities(state: StepState) -> None:
     """Velocities from forces."""
     e = state.effects
     integrate = VELOCITIES[e.gravity, e.drag, e.wind, e.rotation]
@@ -257,7 +260,7 @@ def integrate_velocities(state):
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def integrate_positions(state):
+def integrate_positions(state: StepState) -> None:
     """Poses from velocities, as far as the way is free; boxes and pixels where the bodies are now."""
     rows, bodies = state.awake.bodies, state.bodies
     POSITIONS[state.effects.rotation](rows, state.dt, bodies, state.work)
@@ -265,7 +268,7 @@ def integrate_positions(state):
     place_shapes(state)
 
 
-def place_shapes(state):
+def place_shapes(state: StepState) -> None:
     """Boxes, and the pixels of masks, at the present poses of what is awake."""
     # What was stopped on its way, or pushed round, may stand at an angle that was not foreseen.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)

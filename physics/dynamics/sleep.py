@@ -1,13 +1,14 @@
 """Falling asleep and waking: an island keeps its contacts aside while it sleeps, and comes back with their forces.
 
-An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its pairs have
-not ended. Sleeping by the larger of velocity and half the real displacement: Box2D v3.2, solver.c.
+An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its pairs
+have not ended. Sleeping by the larger of velocity and half the real displacement: Box2D v3.2, solver.c.
 
 These functions take a world, between steps, or the StepState of a step: both have the tables, `manifolds`, `anchors`,
 `awake`, `sleepers`, `pairs`, `touching` and `sensing`.
 """
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -22,10 +23,11 @@ from physics.tables.contact import EVENT
 from physics.tables.counters import ISLANDS
 from physics.tables.manifold import ANCHOR
 from physics.tables.rows import rows_of
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
+from physics.tables.world_tables import WorldTables
 
 
-def disturb(tables, ids):
+def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     """Wake the islands of bodies by id, and of what touches them: what is moved, changed or taken away; and have these
     bodies looked at in the next step."""
     awake, sleepers = tables.awake, tables.sleepers
@@ -54,12 +56,12 @@ def _islands_beside(tables, manifolds, identity):
     return {key for key in tables.bodies["island"][rows[asleep]].tolist() if key in tables.sleepers.islands}
 
 
-def wake_all(tables):
+def wake_all(tables: WorldTables) -> None:
     """Wake everything: gravity, or the solver, changed."""
     wake(tables, list(tables.sleepers.islands))
 
 
-def wake(tables, keys):
+def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     """Wake islands: their bodies, and the contacts that name these, come back into the step."""
     sleepers = tables.sleepers
     keys = [key for key in sorted(keys) if key in sleepers.islands]
@@ -99,8 +101,8 @@ def _bring_back(tables, manifolds, anchors):
         tables.manifolds, tables.anchors = both[order], np.concatenate([tables.anchors, anchors])[order]
 
 
-def with_rows(tables, manifolds, anchors):
-    """Manifolds, and their anchors, with the rows that bodies and shapes have now; without those whose sides are gone."""
+def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Manifolds and anchors with the rows that bodies and shapes have now; without those whose sides are gone."""
     there = np.ones(len(manifolds), bool)
     for side in "ab":
         for table, name, column in ((tables.bodies, "body_", "body_row_"), (tables.shapes, "shape_", "row_")):
@@ -110,7 +112,7 @@ def with_rows(tables, manifolds, anchors):
     return (manifolds, anchors) if there.all() else (manifolds[there], anchors[there])
 
 
-def forget(tables):
+def forget(tables: WorldTables) -> None:
     """Drop the manifolds of bodies and shapes that are gone; refresh the rows of the others."""
     if len(tables.manifolds):
         anchors = tables.anchors if len(tables.anchors) else np.zeros(len(tables.manifolds), ANCHOR)
@@ -128,7 +130,8 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that something on its way touches, or will within dt [s]. Returns their number. O(manifolds).
+    """List the sleeping bodies that something on its way touches, or will within dt [s]. Returns their number.
+    O(manifolds).
 
     rows_out (2 · manifolds) int64; one may be named twice.
     """
@@ -170,7 +173,7 @@ def find_disturbed(
         "bodies.island",
     ),
 )
-def wake_disturbed(state):
+def wake_disturbed(state: StepState) -> None:
     """Wake the islands that something touches, or on which something that stood has begun to move."""
     sleepers, bodies = state.sleepers, state.bodies
     if not sleepers.islands:
@@ -292,11 +295,11 @@ def fall_asleep(
 class IslandWorkspace:
     """Scratch for the search for islands."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.parents, self.least = np.zeros(16, np.int32), np.zeros(16)
         self.edges = np.zeros((16, 2), np.int32)
 
-    def grow(self, bodies: int, manifolds: int):
+    def grow(self, bodies: int, manifolds: int) -> None:
         """Make room; nothing is kept."""
         if len(self.parents) < bodies:
             self.parents, self.least = np.zeros(2 * bodies, np.int32), np.zeros(2 * bodies)
@@ -328,7 +331,7 @@ class IslandWorkspace:
         "bodies.previous_angle",
     ),
 )
-def rest(state):
+def rest(state: StepState) -> None:
     """Let islands fall asleep that have been slow for long enough; their contacts go with them."""
     awake, bodies, manifolds, search = state.awake, state.bodies, state.manifolds, state.workspace.islands
     if not len(awake.dynamic):
@@ -348,8 +351,8 @@ def rest(state):
 
 
 def _park(state, slept):
-    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the manifolds
-    that went with them, in order, and the island of each."""
+    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the
+    manifolds that went with them, in order, and the island of each."""
     bodies, m, anchors = state.bodies, state.manifolds, state.anchors
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
     still &= (bodies["kind"][m["body_row_b"]] != DYNAMIC) | ~bodies["awake"][m["body_row_b"]]

@@ -6,6 +6,7 @@ import numpy as np
 
 from physics.tables.contact import EVENT
 from physics.tables.manifold import MANIFOLD
+from physics.tables.world_tables import WorldTables
 
 
 class Island(NamedTuple):
@@ -20,18 +21,18 @@ class Island(NamedTuple):
 class Sleepers:
     """The sleeping islands of a world, by the lowest id of their bodies; and the pairs that touch among what stands."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.islands = {}
         self.links = {}  # id of a body that is in none of them, or in another -> islands with a manifold that names it
         self.touching = np.zeros(0, EVENT)  # pairs of which neither side is awake, nor asleep in an island
         self.sensing = np.zeros(0, EVENT)
 
-    def put(self, key, island):
+    def put(self, key: int, island: Island) -> None:
         """Keep an island."""
         self.islands[key] = island
         self._link(self._named(island), [key])
 
-    def put_many(self, keys, islands, named, owners):
+    def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
         """Keep many islands; named, owners: ids that manifolds name and that are none of their island's bodies, and the
         island of each."""
         self.islands.update(zip(keys, islands, strict=True))
@@ -42,7 +43,7 @@ class Sleepers:
         for identity in named:
             self.links.setdefault(identity, set()).update(keys)
 
-    def take(self, key) -> Island:
+    def take(self, key: int) -> Island:
         """Give an island back."""
         island = self.islands.pop(key)
         for identity in self._named(island):
@@ -58,7 +59,7 @@ class Sleepers:
         named = np.union1d(island.manifolds["body_a"], island.manifolds["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
-    def take_naming(self, identity) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """The (manifolds, anchors, touching) of other islands that name a body, taken out of them."""
         found = []
         for key in sorted(self.links.get(identity, ())):
@@ -70,7 +71,7 @@ class Sleepers:
             self.put(key, Island(island.bodies, m[~goes], island.anchors[~goes], t[~told]))
         return found
 
-    def keep_touching(self, rows, parked, keys):
+    def keep_touching(self, rows: np.ndarray, parked: np.ndarray, keys: np.ndarray) -> None:
         """Give islands that have just been put aside the pairs of theirs that touch, EVENT rows."""
         place = np.searchsorted(parked["shape_a"] << 32 | parked["shape_b"], rows["shape_a"] << 32 | rows["shape_b"])
         owners = keys[place]
@@ -83,18 +84,18 @@ class Sleepers:
         """MANIFOLD rows of all islands in the order of shape ids."""
         return in_order(np.concatenate([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
 
-    def keep_told(self, tables):
+    def keep_told(self, tables: WorldTables) -> None:
         """Put the pairs aside that touch, or are sensed, and of which neither side is in the step any longer."""
         self.touching = np.concatenate([self.touching, tables.touching.take_resting(tables.bodies)])
         self.sensing = np.concatenate([self.sensing, tables.sensing.take_resting(tables.bodies)])
 
-    def return_all(self, tables):
+    def return_all(self, tables: WorldTables) -> None:
         """Bring all pairs that stand aside back into the step."""
         for name in ("touching", "sensing"):
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
-    def return_told(self, tables, ids):
+    def return_told(self, tables: WorldTables, ids: np.ndarray) -> None:
         """Bring the pairs that name one of these bodies back into the step."""
         for name in ("touching", "sensing"):
             kept = getattr(self, name)
@@ -104,11 +105,11 @@ class Sleepers:
                 setattr(self, name, kept[~back])
 
 
-def order_of(manifolds) -> np.ndarray:
+def order_of(manifolds: np.ndarray) -> np.ndarray:
     """The order of shape ids; the manifolds of a pair keep theirs."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
-def in_order(manifolds) -> np.ndarray:
+def in_order(manifolds: np.ndarray) -> np.ndarray:
     """Manifolds in the order of shape ids."""
     return manifolds[order_of(manifolds)]

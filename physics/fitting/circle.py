@@ -1,9 +1,12 @@
 """Least circle that holds a set of points. Source: Welzl 1991, in the incremental form."""
 
 import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
 
 
-def least_circle(points) -> tuple[float, float, float]:
+def least_circle(points: Iterable[Sequence[float]] | np.ndarray) -> tuple[float, float, float]:
     """(x, y, radius) [px] of the least circle around points (n, 2), n >= 1."""
     points = [(float(x), float(y)) for x, y in points]
     x, y, radius = (*points[0], 0.0)

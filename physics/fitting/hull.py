@@ -1,9 +1,18 @@
 """Convex hull of a mask's pixel corners. Source: Andrew's monotone chain, 1979."""
 
+from typing import Protocol
+
 import numpy as np
 
 
-def mask_hull(mask) -> np.ndarray:
+class Sprite(Protocol):
+    """What a hull is taken of: shapes.mask.PixelMask has it."""
+
+    solid: np.ndarray  # bool [row, col]
+    origin: tuple[float, float]
+
+
+def mask_hull(mask: Sprite) -> np.ndarray:
     """Hull corners (n, 2) [px] of the union of pixel squares in body space, clockwise on the screen."""
     rows = np.flatnonzero(mask.solid.any(axis=1))
     left = mask.solid[rows].argmax(axis=1)

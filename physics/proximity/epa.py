@@ -3,7 +3,8 @@
 A polygon inside the difference grows through its edge nearest to the origin until that edge is one of the difference
 itself: no corner lies further out. In the plane that is exact and takes at most as many rounds as the difference has
 corners. The polygon starts as two corners, so that nothing depends on how the origin lies in a thin triangle, and a
-depth may be slightly negative: hulls that are a hair apart get their face's normal as well. Source: van den Bergen 2001.
+depth may be slightly negative: hulls that are a hair apart get their face's normal as well. Source: van den Bergen
+2001.
 """
 
 from physics.jit import subkernel
@@ -120,14 +121,14 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap how far, and along which normal, B has to move until it only touches A. O(corners squared).
+    """Write to workspace.gap how far, and along which normal, B has to move to touch A. O(corners squared).
 
     Rounds are added to workspace.state, and whether they hit EPA_CAP.
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
         capped = True
-        for k in range(EPA_CAP):
+        for _ in range(EPA_CAP):
             workspace.state[ROUNDS] += 1.0
             grown = grow_polytope(a, a_count, b, b_count, count, workspace.polytope)
             if grown == count:

@@ -2,8 +2,8 @@
 
 The difference A - B holds a point a - b for each pair of points; its point nearest to the origin is as far from it as
 A is from B. The walk keeps up to three corners of it. It ends when the corner furthest towards the origin is one of
-them already, or is no further by more than rounding: there is no tolerance that has a length. Source: Gilbert, Johnson and
-Keerthi 1988; Catto, Computing Distance, GDC 2010.
+them already, or is no further by more than rounding: there is no tolerance that has a length. Source: Gilbert, Johnson
+and Keerthi 1988; Catto, Computing Distance, GDC 2010.
 
 A normal points from A to B: out of the difference, towards the origin.
 """

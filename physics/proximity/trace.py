@@ -24,11 +24,12 @@ from physics.proximity.gjk import (
 )
 
 
-def steps_of(a, b) -> list[dict]:
+def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
     """What is known after each round for two hulls of corners (n, 2) [px], radii left out.
 
     "phase" gjk or epa; "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B; "witness": the
-    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they overlap.
+    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they
+    overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()

@@ -70,7 +70,8 @@ def cast_hull_at_rows(
     """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
 
     Returns their number. rows: SHAPE rows, of which masks are left out; corners (16, 2) [px] from (x, y), `count` of
-    them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it approaches: 0.
+    them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it
+    approaches: 0.
     """
     r = workspace.advance
     found = 0

@@ -3,6 +3,7 @@ the broad phase's structure; what the last one cost is in `world.queries.counter
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -10,12 +11,14 @@ from physics import checks
 from physics.ccd.closed_form import MISS
 from physics.ccd.parts import advance_parts
 from physics.ccd.rotational import new_rotational_workspace
+from physics.checks import Pair, Pose
 from physics.collision.dispatch import narrow_phase_for_queries
 from physics.proximity.gjk import AX, AY, BX, BY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_rows, nearest_hull
+from physics.queries.index import AskedWorld
 from physics.shapes.filter import Filter
-from physics.shapes.kinds import SHAPES
+from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.parts import Parts, parts_of, placed_parts
 from physics.shapes.placement import is_hull, refresh_aabbs
 from physics.shapes.rows import place
@@ -31,14 +34,16 @@ PIECE = 8.0  # [m] … each about that wide
 class RayHit:
     """Where a ray meets a shape: the body, the shape's id, point [px], unit normal, fraction of the translation."""
 
-    body: object
+    body: Any  # a Body, which is defined to the right of this folder
     shape: int
     point: tuple[float, float]
     normal: tuple[float, float]
     fraction: float
 
 
-def ray_cast_all(world, origin, translation, filter, sensors, first=False) -> list[RayHit]:
+def ray_cast_all(
+    world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
+) -> list[RayHit]:
     """All hits of a ray, nearest first, ties by shape id; with `first` no more than what is nearest.
 
     Inside a shape at the start: fraction 0 and the normal against the direction. Zero length: a point query, whose
@@ -72,7 +77,7 @@ def ray_cast_all(world, origin, translation, filter, sensors, first=False) -> li
     ]
 
 
-def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
+def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
     """The first shape that a shape at a pose (x, y, angle) touches when it is moved by a translation, ties by shape id.
 
     Sensors are left out. The normal points from what is met to the shape, the point lies midway between them. Touching
@@ -113,7 +118,8 @@ def shape_cast(world, shape, pose, translation, filter) -> RayHit | None:
 
 
 def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
-    """(row, fraction, normal to the probe) of the shapes that a probe meets, by its parts where masks or more are in play."""
+    """(row, fraction, normal to the probe) of the shapes that a probe meets,
+    by its parts where masks or more are in play."""
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     kinds = world.shapes["kind"][rows]
@@ -146,7 +152,7 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
     return hits[:found]
 
 
-def closest(world, point, filter):
+def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, tuple[float, float], float] | None:
     """(body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
 
     Inside a shape: the point itself, and 0. Sensors are left out; a Chain is near from both sides, a one-way tile from
@@ -197,7 +203,7 @@ def _nearest(world, rows, x, y):
     return row, gap, at
 
 
-def query_aabb(world, lower, upper) -> list:
+def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
     """Bodies with a shape whose AABB meets the closed box [px]. Raises ValueError for lower > upper."""
     lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
     if lower[0] > upper[0] or lower[1] > upper[1]:
@@ -211,14 +217,14 @@ def query_aabb(world, lower, upper) -> list:
     return [world.body(each) for each in np.unique(world.shapes["body"][rows]).tolist()]
 
 
-def query_point(world, point) -> list:
+def query_point(world: AskedWorld, point: Pair) -> list:
     """Bodies with a shape that holds the point [px], sensors included."""
     checks.vector("point", point)
     hits = ray_cast_all(world, point, (0.0, 0.0), Filter.ALL, True)
     return [world.body(each) for each in sorted({hit.body.id for hit in hits})]
 
 
-def overlap(world, shape, pose, filter) -> list:
+def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
     """Bodies that a shape at a pose (x, y, angle) overlaps, sensors included. Raises TypeError, ValueError."""
     pose, filter = _placeable(shape, pose), _checked(filter)
     world.queries.begin(world)

@@ -2,16 +2,21 @@
 
 The structure is as the last step left it. What has moved out of its box since then, was added, or was pushed there by
 the step itself is listed as loose and looked at one by one, so an answer is always that of a look at every shape.
-Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies that
-may have moved.
+Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies
+that may have moved.
 """
+
+from typing import Any, Protocol
 
 import numpy as np
 
+from physics.broadphase.proxies import Strategy
+from physics.checks import Pair
 from physics.jit import kernel
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.counters import COUNTERS, PAIRS_TESTED
+from physics.tables.world_tables import WorldTables
 
 ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
 
@@ -49,8 +54,7 @@ def find_loose(
     row_of_slot_inout,
     loose_out,
 ):
-    """List those of the shape rows that the structure may not find, and write which row each slot stands for (-1: look
-    elsewhere).
+    """List those of the shape rows that the structure may not find, and the row that each slot stands for (-1: none).
 
     A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
     the number of loose rows; those of quarantined bodies are neither. O(rows).
@@ -97,7 +101,7 @@ def rows_meeting(
     rows_out,
     work_inout,
 ):
-    """List the rows of the slots, and of the loose ones, whose present AABB meets a closed box [px]. Returns their number."""
+    """List the rows of the slots, and of the loose ones, whose AABB meets a closed box [px]. Returns their number."""
     found = 0
     for k in range(slot_count + loose_count):
         if k >= slot_count:
@@ -114,10 +118,26 @@ def rows_meeting(
     return found
 
 
+class AskedWorld(WorldTables, Protocol):
+    """What queries read of a world. Any stands for what is defined to the right of this folder."""
+
+    queries: "QueryIndex"
+    steps: int
+
+    @property
+    def broadphase(self) -> Strategy:
+        """Whose structure is asked."""
+        ...
+
+    def body(self, identity: int) -> Any:
+        """The Body of an id."""
+        ...
+
+
 class QueryIndex:
     """The look-up of one world. The counters of its last step are left alone: a query counts in `work`."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.seen = ()  # what everything was looked at for: other tables make it stale
         self.step = -1  # the step after which it was last brought up to date
@@ -131,14 +151,14 @@ class QueryIndex:
     @property
     def counters(self) -> dict[str, int]:
         """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
-        return dict(zip(COUNTERS, self.work.tolist()))
+        return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
-    def begin(self, world):
+    def begin(self, world: AskedWorld) -> None:
         """Start a query: counters to zero, AABBs and loose rows up to date."""
         self.work[:] = 0
         self.refresh(world)
 
-    def refresh(self, world):
+    def refresh(self, world: AskedWorld) -> None:
         """Bring AABBs and loose rows up to date. world: a World, or the StepState of its step.
 
         After a step of a world with sleeping that is what was awake before or after it, moved by itself or was touched;
@@ -174,8 +194,8 @@ class QueryIndex:
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
-    def rows_in(self, world, lower, upper) -> np.ndarray:
-        """Shape rows, in order, whose AABB meets the closed box [px], or comes within rounding of it; none quarantined."""
+    def rows_in(self, world: AskedWorld, lower: Pair, upper: Pair) -> np.ndarray:
+        """Shape rows, in order, whose AABB meets the closed box [px] within rounding; none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         found = 0

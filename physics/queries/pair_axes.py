@@ -1,10 +1,12 @@
-"""Every axis that could part two convex shapes, as the separating axis test sees them: for drawing, not for the step."""
+"""Every axis that could part two convex shapes, as the separating axis test sees them: for drawing."""
 
 import numpy as np
 
 from physics import checks
+from physics.checks import Pose
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Segment
 from physics.shapes.placement import write_hull
@@ -23,14 +25,14 @@ AXIS = np.dtype(
 HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
-def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
+def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
     """(n,) AXIS rows of two shapes at poses (x, y, angle), the axis that separates most first.
 
     The greatest separation is the distance, or minus the depth. Raises TypeError for what is no convex shape.
     """
     a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
     rows = []
-    for owner, (mine, other) in enumerate(((a[0], b[0]), (b[0], a[0]))):
+    for owner, mine in enumerate((a[0], b[0])):
         sign = 1.0 if owner == 0 else -1.0
         for edge in range(len(mine) if len(mine) > 1 else 0):
             dx, dy = mine[(edge + 1) % len(mine)] - mine[edge]
@@ -44,7 +46,7 @@ def sat_axes(shape_a, pose_a, shape_b, pose_b) -> np.ndarray:
     elif not rows:
         rows.append((1.0, 0.0, 0, -1))  # two circles about one point: as collide has it
     found = np.zeros(len(rows), AXIS)
-    for row, (nx, ny, owner, edge) in zip(found, rows):
+    for row, (nx, ny, owner, edge) in zip(found, rows, strict=True):
         apart = (b[0] @ (nx, ny)).min() - (a[0] @ (nx, ny)).max() - a[1] - b[1]
         row["normal_x"], row["normal_y"], row["separation"], row["owner"], row["edge"] = (
             nx + 0.0,

@@ -2,16 +2,19 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from physics import checks
+from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, NX, NY, new_gap_workspace
 from physics.proximity.trace import steps_of
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_manifold import collide
 from physics.shapes.bounds import Bounds
-from physics.shapes.kinds import SHAPES
+from physics.shapes.convex import Circle
+from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
@@ -41,7 +44,7 @@ class Distance:
     iterations: int
 
 
-def distance(shape_a, pose_a, shape_b, pose_b) -> Distance:
+def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
     """Distance of two shapes at poses (x, y, angle). <= 0 exactly where `collide` finds a contact.
 
     Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
@@ -96,7 +99,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     return Distance(float(found), point_a, (point_a[0] + found * nx, point_a[1] + found * ny), (nx, ny), int(totals[0]))
 
 
-def gjk_steps(shape_a, pose_a, shape_b, pose_b) -> list[dict]:
+def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
     """The rounds of GJK, and of EPA when they overlap, between the cores of two convex shapes: see trace.steps_of.
 
     Points are seen from A's origin. Raises TypeError for shapes that are not convex, ValueError.
@@ -118,7 +121,7 @@ def _parts(shape_a, pose_a, shape_b, pose_b, x, y):
     return tuple(placed_parts(library, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])) for row in (0, 1))
 
 
-def checked(shape_name, shape, pose_name, pose) -> tuple[float, float, float]:
+def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
     """The pose as numbers. Raises TypeError or ValueError that names the argument."""
     if not isinstance(shape, SHAPES):
         raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {shape!r})")
@@ -128,7 +131,7 @@ def checked(shape_name, shape, pose_name, pose) -> tuple[float, float, float]:
     return pose
 
 
-def order_of(shape, *poses) -> tuple:
+def order_of(shape: Shape, *poses: tuple[float, float, float]) -> tuple:
     """A key that orders any two shapes at poses, so that swapping them changes no bit of the result but the signs."""
     kind = next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
     if isinstance(shape, Bounds):
@@ -144,6 +147,6 @@ def order_of(shape, *poses) -> tuple:
     elif isinstance(shape, PixelMask):
         value = (*shape.size, *shape.origin, shape.solid.tobytes())
     else:
-        points = shape.points if hasattr(shape, "points") else (shape.center,)
+        points = (shape.center,) if isinstance(shape, Circle) else shape.points
         value = (getattr(shape, "radius", 0.0), len(points), *(each for point in points for each in point))
     return (kind, *value, *poses)

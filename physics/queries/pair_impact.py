@@ -9,11 +9,13 @@ from physics.ccd.advance import TOLERANCE
 from physics.ccd.closed_form import MISS, sweep_circles
 from physics.ccd.parts import advance_on_ground, advance_parts
 from physics.ccd.rotational import new_rotational_workspace
+from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_distance import checked, order_of
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Circle
+from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
@@ -26,7 +28,8 @@ LOOKS = 1024  # of shapes that touch and do not approach
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """Whether two motions meet; the first fraction 0..1 at which they touch; where [px]; the unit normal from A to B."""
+    """Whether two motions meet; the first fraction 0..1 at which they touch; where [px];
+    the unit normal from A to B."""
 
     hit: bool
     fraction: float
@@ -37,8 +40,11 @@ class TimeOfImpact:
 NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 
 
-def time_of_impact(shape_a, start_a, end_a, shape_b, start_b, end_b) -> TimeOfImpact:
-    """First fraction at which two shapes touch while their poses (x, y, angle) go straight from start to end, angles unwrapped.
+def time_of_impact(
+    shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
+) -> TimeOfImpact:
+    """First fraction at which two shapes touch while their poses (x, y, angle) go straight from start to end,
+    angles unwrapped.
 
     Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
     fraction 0 when they approach; when they part or slide they are looked at until they approach. A Chain is met from
@@ -103,7 +109,7 @@ def _turned_point(point, angle):
 
 def _motion(move):
     start, end = move
-    return np.array([*start, *(q - p for p, q in zip(start, end))])
+    return np.array([*start, *(q - p for p, q in zip(start, end, strict=True))])
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
@@ -148,7 +154,7 @@ def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
 
 
 def _at(move, fraction):
-    return tuple(p + fraction * (q - p) for p, q in zip(*move))
+    return tuple(p + fraction * (q - p) for p, q in zip(*move, strict=True))
 
 
 def _parts_at(shape, parts, move, fraction, x, y) -> Parts:

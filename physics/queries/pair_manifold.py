@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics import checks
+from physics.checks import Pose
 from physics.collision.dispatch import exact_narrow_phase, no_work
 from physics.collision.manifold import contacts_of
-from physics.shapes.kinds import SHAPES
+from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.library import Library
 from physics.shapes.mask import PixelMask
 from physics.shapes.placement import refresh_aabbs
@@ -36,12 +37,13 @@ class Manifold:
 
 
 def _order(shape, pose):
-    """What decides which of two shapes goes first, whichever is named first: ties between equal ways out fall the same."""
+    """What decides which of two shapes goes first, whichever is named first:
+    ties between equal ways out fall the same."""
     pixels = shape.solid.tobytes() if isinstance(shape, (PixelMask, TileGrid)) else b""
     return SHAPES.index(type(shape)), repr(shape), pose, pixels
 
 
-def collide(shape_a, pose_a, shape_b, pose_b, margin=0.0) -> Manifold:
+def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
     """Contact of two shapes at poses (x, y, angle); apart by more than margin [px]: no points.
 
     Asked in the other order the points and separations are the same, and the normal is turned round. Against a TileGrid

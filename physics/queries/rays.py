@@ -59,7 +59,7 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
-    """A ray, seen from the grid's origin [px], against one of its cells: (fraction or MISS, normal). One-way from above."""
+    """A ray, seen from the grid's origin [px], against a cell: (fraction or MISS, normal). One-way from above."""
     g = geometry.grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return MISS, 0.0, -1.0
@@ -183,7 +183,7 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
-    """A ray from (x, y) by (dx, dy) [px] against one shape: (fraction or MISS, normal). Zero length asks for the point."""
+    """A ray from (x, y) by (dx, dy) [px] against a shape: (fraction or MISS, normal). No length: of the point."""
     s = shapes[row]
     b = bodies[s.body_row]
     point = dx == 0.0 and dy == 0.0

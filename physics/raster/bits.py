@@ -70,7 +70,8 @@ def shared_word(words, word_a, shift_a, word_b, shift_b, keep):
 
 @subkernel
 def first_shared_row(words, word_a, shift_a, word_b, shift_b, rows, keep):
-    """(row, shared pixels) of the first of `rows` rows of one word each that share a kept pixel; (rows, 0) when none does.
+    """(row, shared pixels) of the first of `rows` rows of one word each that share a kept pixel;
+    (rows, 0) when none does.
 
     Looks at all rows: without a branch the loop is vectorised, and beats one that stops at the first hit, whose place
     no processor predicts. Unsigned indices spare the check for negative ones. O(rows).

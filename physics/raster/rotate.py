@@ -40,7 +40,7 @@ def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: i
     return _any_turn(solid, origin, math.tau * bucket / buckets)
 
 
-def _quarter_turns(solid, origin, source_x, source_y, turns):
+def _quarter_turns(solid, origin, source_x, source_y, turns: int):
     height, width = solid.shape
     x, y = origin
     origins = ((x, y), (height - y, x), (width - x, height - y), (y, width - x))
@@ -85,7 +85,7 @@ def _any_turn(solid, origin, angle):
 
 
 def _as_many(centered, coverage, wanted):
-    """The centred pixels, with the best covered others added, or the worst covered taken away, up to the wanted number."""
+    """The centred pixels, up to the wanted number by adding the best covered or dropping the worst covered."""
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:

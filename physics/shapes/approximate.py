@@ -11,7 +11,7 @@ from physics.shapes.mask import PixelMask
 TIERS = ("circle", "aabb", "obb", "pixels")
 
 
-def fit(mask, tier, tolerance=1.0) -> tuple:
+def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     """The shapes that stand for a mask in a tier; () for a mask without pixels.
 
     circle: the least circle that holds all pixels; aabb: the bounds at each pose; obb: the least turned box; pixels:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.mask import PixelMask
+from physics.shapes.mass import Mass
 
 
 @dataclass(frozen=True)
@@ -18,12 +19,12 @@ class Bounds:
             raise TypeError(f"shape must be a Circle, Capsule, Polygon or PixelMask (got {self.shape!r})")
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return self.shape.smallest_half
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         return self.shape.mass_of(density)
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         """Of the AABB at any angle: no corner of it is further from the origin than the shape reaches, times sqrt 2."""
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)

@@ -1,18 +1,21 @@
-"""Convex shapes: a hull of corners with a rounding radius. Circle has one corner, Capsule two, Polygon three to sixteen."""
+"""Convex shapes: a hull of corners with a rounding radius.
+Circle has one corner, Capsule two, Polygon three to sixteen."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from physics import checks
+from physics.checks import Pair, Points
 from physics.shapes.mass import Mass, polygon_mass, rounded_mass
 
 MAX_CORNERS = 16
 SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
 
 
-def reach(points, radius, x, y):
+def reach(points: Iterable[Pair], radius: float, x: float, y: float) -> float:
     """Distance [px] from (x, y) to the furthest point of a rounded hull."""
     return max(math.hypot(px - x, py - y) for px, py in points) + radius
 
@@ -22,30 +25,31 @@ class Circle:
     """A disc. Raises ValueError for a radius that is not > 0."""
 
     radius: float
-    center: tuple[float, float] = (0.0, 0.0)
+    center: Pair = (0.0, 0.0)
 
     def __post_init__(self):
         object.__setattr__(self, "radius", checks.number("radius", self.radius, above=0.0))
         object.__setattr__(self, "center", checks.vector("center", self.center))
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return self.radius
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         mass = density * math.pi * self.radius * self.radius
-        return Mass(mass, self.center, mass * self.radius * self.radius / 2.0)
+        return Mass(mass, (self.center[0], self.center[1]), mass * self.radius * self.radius / 2.0)
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         return reach((self.center,), self.radius, x, y)
 
 
 @dataclass(frozen=True)
 class Capsule:
-    """All points within a radius of the line from a to b. Raises ValueError for a radius that is not > 0, or no length."""
+    """All points within a radius of the line from a to b.
+    Raises ValueError for a radius that is not > 0, or no length."""
 
-    a: tuple[float, float]
-    b: tuple[float, float]
+    a: Pair
+    b: Pair
     radius: float
 
     def __post_init__(self):
@@ -61,14 +65,14 @@ class Capsule:
         object.__setattr__(self, "radius", radius)
 
     @property
-    def points(self):
+    def points(self) -> tuple[Pair, Pair]:
         return self.a, self.b
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return self.radius
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         """A rectangle and two half discs, whose centres of mass lie 4r/3π beyond the ends of the line."""
         length = math.hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
         r = self.radius
@@ -79,19 +83,20 @@ class Capsule:
         center = (self.a[0] + 0.5 * (self.b[0] - self.a[0]), self.a[1] + 0.5 * (self.b[1] - self.a[1]))
         return Mass(middle + ends, center, inertia)
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         return reach(self.points, self.radius, x, y)
 
 
 @dataclass(frozen=True)
 class Polygon:
-    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen; grown and rounded by a radius.
+    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen;
+    grown and rounded by a radius.
 
     Raises ValueError for too few or many corners, for zero area, for three corners in line or equal ones, for a
     concave outline, and for a radius that is not >= 0.
     """
 
-    points: tuple[tuple[float, float], ...]
+    points: Points
     radius: float = 0.0
 
     def __post_init__(self):
@@ -117,7 +122,7 @@ class Polygon:
         object.__setattr__(self, "points", tuple((float(x), float(y)) for x, y in points))
 
     @classmethod
-    def box(cls, width, height, center=(0.0, 0.0), angle=0.0):
+    def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":
         """A box of full sizes, turned about its centre."""
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
@@ -133,17 +138,17 @@ class Polygon:
         return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         """Half of the least width, over the directions of the edges' normals, and the radius."""
         points = np.array(self.points)
         edges = np.roll(points, -1, axis=0) - points
         normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
         return float(np.ptp(points @ normals.T, axis=0).min() / 2.0) + self.radius
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         if self.radius == 0.0:
             return polygon_mass(self.points, density)
         return rounded_mass(self.points, self.radius, density)
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         return reach(self.points, self.radius, x, y)

@@ -1,6 +1,7 @@
 """Filter: who may meet whom, before any narrow phase."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from physics import checks
 
@@ -8,6 +9,8 @@ from physics import checks
 @dataclass(frozen=True)
 class Filter:
     """Two shapes meet if a.membership & b.mask and b.membership & a.mask; 32 bits each. Raises ValueError."""
+
+    ALL: ClassVar["Filter"]  # meets everybody
 
     membership: int = 1
     mask: int = 0xFFFFFFFF

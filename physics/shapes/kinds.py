@@ -12,17 +12,18 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass, together
 from physics.shapes.tiles import TileGrid
 
+Shape = Circle | Capsule | Polygon | Segment | Chain | TileGrid | PixelMask | Bounds
 SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 
 
-def mass_of(shapes, density) -> Mass:
+def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
     """Mass of one shape or several together: inertia about the common centre of mass.
 
     Raises TypeError for what is no shape, ValueError for a density that is not > 0.
     """
     density = checks.number("density", density, above=0.0)
-    shapes = shapes if isinstance(shapes, (tuple, list)) else (shapes,)
-    for shape in shapes:
+    parts = shapes if isinstance(shapes, (tuple, list)) else (shapes,)
+    for shape in parts:
         if not isinstance(shape, SHAPES):
             raise TypeError(f"shapes must be shapes (got {shape!r})")
-    return together([shape.mass_of(density) for shape in shapes])
+    return together([shape.mass_of(density) for shape in parts])

@@ -3,6 +3,7 @@
 A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up.
 """
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -12,6 +13,7 @@ from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.kinds import Shape
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
 from physics.shapes.tiles import TileGrid
@@ -40,7 +42,7 @@ KIND_OF = {Polygon: POLYGON, Capsule: CAPSULE, Segment: SEGMENT, Chain: CHAIN, T
 class Library:
     """Adds shapes to the flat arrays. The same grid or mask, and equal other shapes, are added once."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.polygons, self.corners = Table(SPAN), Table(CORNER)
         self.chains, self.links, self.link_blocks = Table(CHAIN_SPAN), Table(LINK), Table(LINK_BLOCK)
         self.grids, self.cells = Table(GRID), Table(CELL)
@@ -65,7 +67,7 @@ class Library:
             self.raster_of,
         )
 
-    def add(self, shape) -> tuple[int, int, int]:
+    def add(self, shape: Shape) -> tuple[int, int, int]:
         """(kind, geometry row, kind inside a Bounds) of a shape."""
         if isinstance(shape, Bounds):
             kind, row, _ = self.add(shape.shape)
@@ -149,7 +151,7 @@ class Library:
         self.add_raster(row, 0)
         return row
 
-    def add_raster(self, mask: int, bucket: int):
+    def add_raster(self, mask: int, bucket: int) -> None:
         """Add a mask at an angle bucket: turned from its source, once."""
         shape = self.masks[mask]
         turned = shape.turned_to(bucket)
@@ -162,7 +164,7 @@ class Library:
         self.words.append(words.size)[:] = words.ravel()
         self.tables = self._tables()
 
-    def shape_of(self, row) -> object:
+    def shape_of(self, row: np.void) -> Shape:
         """The shape that a SHAPE row stands for."""
         kind = int(row["kind"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
@@ -175,7 +177,7 @@ class Library:
         return Bounds(shape) if kind == BOUNDS else shape
 
     @contextmanager
-    def visited(self):
+    def visited(self) -> Iterator[None]:
         """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
         kept = [
             (table, table.count)
@@ -210,4 +212,4 @@ class Library:
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
-        return self.rasters.data[self.raster_of[mask, bucket]]
+        return self.rasters.data[int(self.raster_of[mask, bucket])]

@@ -1,11 +1,13 @@
 """Lines without an inside: Segment, met from both sides, and Chain, met from the front of its links."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from physics import checks
+from physics.checks import Pair, Points
 from physics.shapes.convex import reach
-from physics.shapes.mass import NOTHING
+from physics.shapes.mass import NOTHING, Mass
 from physics.shapes.material import Material
 
 SHORTEST = 1e-12  # of the largest coordinate: below, a link has no direction
@@ -20,8 +22,8 @@ def _check_length(name, a, b):
 class Segment:
     """The line from a to b, solid from both sides; no mass. Raises ValueError for one without length."""
 
-    a: tuple[float, float]
-    b: tuple[float, float]
+    a: Pair
+    b: Pair
 
     def __post_init__(self):
         object.__setattr__(self, "a", checks.vector("a", self.a))
@@ -29,17 +31,17 @@ class Segment:
         _check_length("a and b", self.a, self.b)
 
     @property
-    def points(self):
+    def points(self) -> tuple[Pair, Pair]:
         return self.a, self.b
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return 0.0
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         return NOTHING
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         return reach(self.points, 0.0, x, y)
 
 
@@ -52,10 +54,10 @@ class Chain:
     Material per link (None: the body's). Raises ValueError for too few points, a link without length, ghosts of a loop.
     """
 
-    points: tuple[tuple[float, float], ...]
+    points: Points
     loop: bool = False
-    ghosts: tuple | None = None
-    materials: tuple[Material, ...] | None = None
+    ghosts: Sequence[Pair | None] | None = None
+    materials: Sequence[Material] | None = None
 
     def __post_init__(self):
         points = tuple(map(tuple, checks.columns("points", self.points).tolist()))
@@ -107,16 +109,16 @@ class Chain:
         return materials
 
     @property
-    def links(self):
+    def links(self) -> int:
         """How many links there are."""
         return len(self.points) if self.loop else len(self.points) - 1
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return 0.0
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         return NOTHING
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         return reach(self.points, 0.0, x, y)

@@ -1,10 +1,13 @@
 """PixelMask: the solid pixels of a sprite as a shape."""
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks
+from physics.checks import Pair
 from physics.raster.bits import packed
 from physics.raster.rotate import Turned, bucket_of, turn
 from physics.settings import MASK_ANGLE_BUCKETS
@@ -18,7 +21,7 @@ class PixelMask:
     Tested as it is drawn, on the pixel grid and at angles in buckets, by AND of packed 64-bit words.
     """
 
-    def __init__(self, solid, origin=None, snap=True):
+    def __init__(self, solid: ArrayLike, origin: Pair | None = None, snap: bool = True) -> None:
         solid = bools("solid", solid)
         if snap is not True:
             raise ValueError(f"snap must be True (got {snap!r}): masks are tested as drawn")
@@ -35,12 +38,14 @@ class PixelMask:
         return self  # a value: copies of a world share it
 
     @classmethod
-    def from_array(cls, solid, origin=None, snap=True) -> "PixelMask":
+    def from_array(cls, solid: ArrayLike, origin: Pair | None = None, snap: bool = True) -> "PixelMask":
         """From solid[row, col]; origin in pixels, None = the image centre. Raises ValueError, TypeError."""
         return cls(solid, origin, snap)
 
     @classmethod
-    def from_surface(cls, surface, threshold=127, origin=None, snap=True) -> "PixelMask":
+    def from_surface(
+        cls, surface: Any, threshold: int = 127, origin: Pair | None = None, snap: bool = True
+    ) -> "PixelMask":
         """From a pygame surface: solid where alpha > threshold; a colour key is clear. Raises TypeError."""
         import pygame  # the one door through which sprites enter
 
@@ -54,7 +59,7 @@ class PixelMask:
             solid &= pygame.surfarray.array_colorkey(surface) > 0
         return cls(np.ascontiguousarray(solid.T), origin, snap)
 
-    def turned(self, angle=0.0) -> Turned:
+    def turned(self, angle: float = 0.0) -> Turned:
         """The mask at the angle bucket nearest to `angle` [rad], cached; always turned from the source."""
         return self.turned_to(bucket_of(checks.number("angle", angle), MASK_ANGLE_BUCKETS))
 
@@ -64,17 +69,17 @@ class PixelMask:
         return self._turned[bucket]
 
     @cached_property
-    def words(self):
+    def words(self) -> np.ndarray:
         """(h, ceil(w/64)) uint64: bit b of word k in a row is x = 64k + b."""
         return packed(self.solid)
 
     @cached_property
-    def area(self):
+    def area(self) -> int:
         """Solid pixels."""
         return int(self.solid.sum())
 
     @cached_property
-    def centroid(self):
+    def centroid(self) -> tuple[float, float] | None:
         """Mean of the solid pixels' centres in body space [px]; None when there is none."""
         rows, columns = np.nonzero(self.solid)
         if not len(rows):
@@ -82,7 +87,7 @@ class PixelMask:
         return (float(columns.mean()) + 0.5 - self.origin[0], float(rows.mean()) + 0.5 - self.origin[1])
 
     @cached_property
-    def bounds(self):
+    def bounds(self) -> tuple[float, float, float, float] | None:
         """(min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None when there is none."""
         rows, columns = np.nonzero(self.solid)
         if not len(rows):
@@ -91,12 +96,12 @@ class PixelMask:
         return (columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         if self.bounds is None:
             return 0.5
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         """Of the union of pixel squares: each adds 1/6 to the second moment about its own centre."""
         if self.area == 0:
             return NOTHING
@@ -106,7 +111,7 @@ class PixelMask:
         second = float(((x - center[0]) ** 2 + (y - center[1]) ** 2).sum()) + self.area / 6.0
         return Mass(density * self.area, center, density * second)
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         if self.bounds is None:
             return 0.0
         left, top, right, bottom = self.bounds

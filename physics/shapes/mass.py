@@ -1,9 +1,12 @@
-"""Masses of plane figures: exact sums over their parts, each about its own centre, so that a far one loses no digits."""
+"""Masses of plane figures: exact sums over parts, each about its own centre: a far one loses no digits."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+
+from physics.checks import Points
 
 
 @dataclass(frozen=True)
@@ -18,7 +21,7 @@ class Mass:
 NOTHING = Mass(0.0, (0.0, 0.0), 0.0)
 
 
-def together(parts) -> Mass:
+def together(parts: Iterable[Mass]) -> Mass:
     """The mass of several parts: inertia about the common centre of mass, by the theorem of parallel axes."""
     parts = [part for part in parts if part.mass > 0.0]
     if not parts:
@@ -35,7 +38,7 @@ def together(parts) -> Mass:
     return Mass(mass, (base_x + x, base_y + y), inertia)
 
 
-def polygon_mass(points, density) -> Mass:
+def polygon_mass(points: Points, density: float) -> Mass:
     """Of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first corner."""
     base = np.array(points[0])
     a = np.array(points) - base
@@ -49,7 +52,7 @@ def polygon_mass(points, density) -> Mass:
     return Mass(float(density * area), tuple((base + center).tolist()), float(density * second))
 
 
-def rounded_mass(points, radius, density) -> Mass:
+def rounded_mass(points: Points, radius: float, density: float) -> Mass:
     """Of a polygon grown by a radius: the polygon, a rectangle along every edge, a sector of a disc at every corner."""
     parts = [polygon_mass(points, density)]
     count = len(points)

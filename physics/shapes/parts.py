@@ -4,7 +4,9 @@ A hull is one part; a chain has one per link; tiles and masks have a rectangle p
 polygon per slope.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +14,7 @@ import numpy as np
 from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
+from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.placement import write_hull
@@ -27,7 +30,7 @@ class Parts(NamedTuple):
     radius: float  # [px]
 
 
-def parts_of(outlines, radius=0.0) -> Parts:
+def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
     """From a list of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px]."""
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     boxes = np.zeros((len(outlines), 4))
@@ -41,12 +44,12 @@ def parts_of(outlines, radius=0.0) -> Parts:
     return Parts(corners, counts, boxes, float(radius))
 
 
-def solid_blocks(solid) -> list[tuple[int, int, int, int]]:
-    """(left, top, right, bottom) of rectangles that cover solid[row, col] exactly: runs along rows, alike ones joined."""
+def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
+    """(left, top, right, bottom) of rectangles that cover solid[row, col]: runs along rows, alike ones joined."""
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
     for row, line in enumerate(edges):
-        runs = set(zip(np.flatnonzero(line > 0).tolist(), np.flatnonzero(line < 0).tolist()))
+        runs = set(zip(np.flatnonzero(line > 0).tolist(), np.flatnonzero(line < 0).tolist(), strict=True))
         for run in sorted(open_runs.keys() - runs):
             found.append((run[0], open_runs.pop(run), run[1], row))
         for run in runs - open_runs.keys():
@@ -54,24 +57,26 @@ def solid_blocks(solid) -> list[tuple[int, int, int, int]]:
     return found
 
 
-def rectangle(left, top, right, bottom) -> list[tuple[float, float]]:
+def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
     """Corners of a box, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 
 @lru_cache(maxsize=256)
-def tile_blocks(grid):
+def tile_blocks(
+    grid: TileGrid,
+) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
     """Blocks of solid cells, cells with a slope, and blocks of one-way cells of a TileGrid, which never changes."""
     return solid_blocks(grid.solid), np.argwhere((grid.slopes > 0.0).any(axis=2)).tolist(), solid_blocks(grid.one_way)
 
 
 @lru_cache(maxsize=256)
-def mask_blocks(mask, bucket):
+def mask_blocks(mask: PixelMask, bucket: int) -> list[tuple[int, int, int, int]]:
     """Blocks of solid pixels of a PixelMask turned to an angle bucket."""
     return solid_blocks(mask.turned_to(bucket).solid)
 
 
-def tile_outlines(grid, x, y, feet) -> list:
+def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
     """Outlines of a TileGrid whose origin is at (x, y) [px].
 
     feet [px]: the lowest point of the other shape, from the grid's origin: a one-way tile counts, as its top edge, for
@@ -97,21 +102,24 @@ def tile_outlines(grid, x, y, feet) -> list:
     return found
 
 
-def mask_outlines(mask, bucket, x, y) -> list:
+def mask_outlines(mask: PixelMask, bucket: int, x: float, y: float) -> list:
     """Outlines of a mask's pixels at an angle bucket, whose raster's top left corner is at (x, y) [px]."""
     return [
         rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask_blocks(mask, bucket)
     ]
 
 
-def chain_outlines(chain) -> list:
+def chain_outlines(chain: Chain) -> list:
     """Both ends of each link in body space [px]."""
     points = list(chain.points) + ([chain.points[0]] if chain.loop else [])
-    return list(zip(points, points[1:]))
+    return list(pairwise(points))
 
 
-def placed_parts(library, bodies, shapes, row, x, y, feet) -> Parts:
-    """Parts of a SHAPE row as it stands, seen from (x, y) [px]. feet [px]: the lowest point of who asks, see tile_outlines."""
+def placed_parts(
+    library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
+) -> Parts:
+    """Parts of a SHAPE row as it stands, seen from (x, y) [px].
+    feet [px]: the lowest point of who asks, see tile_outlines."""
     shape, placed = library.shape_of(shapes[row]), shapes[row]
     body = bodies[placed["body_row"]]
     at_x, at_y = float(body["x"]) - x, float(body["y"]) - y

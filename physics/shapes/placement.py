@@ -41,7 +41,8 @@ def raster_aabb(geometry, raster, x, y):
 
 @subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
-    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2). Returns their number.
+    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2).
+    Returns their number.
 
     polygons, table: geometry.polygons and geometry.corners, by themselves: handing all of a Geometry on costs more than
     the corners.
@@ -57,7 +58,8 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
 
 @subkernel
 def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
-    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius. Tables as polygon_at."""
+    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius.
+    Tables as polygon_at."""
     span = polygons[polygon]
     first = table[span.offset]
     min_x, min_y = turned(first.x, first.y, cosine, sine)
@@ -184,7 +186,8 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number, and its rounding [px]."""
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2).
+    Returns their number, and its rounding [px]."""
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
@@ -201,8 +204,8 @@ def missing_rasters(
 ):
     """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
 
-    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one twice.
-    O(rows).
+    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one
+    twice. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
@@ -223,6 +226,26 @@ def missing_rasters(
     return found
 
 
+@subkernel
+def place_mask(rasters, raster_of, body, shape_inout):
+    """Write the raster of a MASK at its body's pose, where it is drawn, and the AABB of its solid pixels.
+
+    rasters, raster_of: those of the geometry, by themselves: see polygon_at.
+    """
+    s = shape_inout
+    s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
+    r = rasters[s.raster]
+    s.left = snapped(body.x, r.origin_x)
+    s.top = snapped(body.y, r.origin_y)
+    if r.area == 0:
+        s.min_x, s.min_y, s.max_x, s.max_y = body.x, body.y, body.x, body.y
+        return
+    s.min_x = float(s.left + r.set_left)
+    s.min_y = float(s.top + r.set_top)
+    s.max_x = float(s.left + r.set_right)
+    s.max_y = float(s.top + r.set_bottom)
+
+
 @kernel
 def refresh_aabbs(
     # read
@@ -235,18 +258,23 @@ def refresh_aabbs(
     """Write the tight AABB of the shapes in these rows at their bodies' poses, and where a mask is drawn. O(rows)."""
     polygons = geometry.polygons
     table = geometry.corners
+    rasters = geometry.rasters
+    raster_of = geometry.raster_of
     for k in range(len(rows)):
         row = rows[k]
         s = shapes_inout[row]
         b = bodies[s.body_row]
-        if s.kind == POLYGON:
+        if s.kind == MASK:
+            place_mask(rasters, raster_of, b, s)
+        elif s.kind == CIRCLE:
+            x, y = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+            s.min_x = b.x + x - s.radius
+            s.min_y = b.y + y - s.radius
+            s.max_x = b.x + x + s.radius
+            s.max_y = b.y + y + s.radius
+        elif s.kind == POLYGON:
             s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
                 polygons, table, s.geometry, s.radius, b.x, b.y, math.cos(b.angle), math.sin(b.angle)
             )
-            continue
-        if s.kind == MASK:
-            s.raster = raster_at(geometry, s.geometry, b.angle)
-            r = geometry.rasters[s.raster]
-            s.left = snapped(b.x, r.origin_x)
-            s.top = snapped(b.y, r.origin_y)
-        s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)
+        else:
+            s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from physics.shapes.library import Library
 from physics.shapes.placement import missing_rasters
 
 
-def add_missing_rasters(library, rows, bodies, shapes, dt):
-    """Draw the masks of these shape rows at the angles that they have, or will have after dt [s], and did not have before."""
+def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
+    """Draw the masks of these shape rows at angles, of now or after dt [s], that have not come up before."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

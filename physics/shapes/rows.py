@@ -1,16 +1,21 @@
 """The rows that shapes need: SHAPE rows, masses, places in the broad phase."""
 
-import numpy as np
+from collections.abc import Sequence
 
-from physics.shapes.kinds import SHAPES
+import numpy as np
+from numpy.typing import ArrayLike
+
+from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
+from physics.shapes.mass import Mass
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
 
 
-def check_shapes(shapes, kind, angles, swept):
-    """Refuse what is no shape, dynamic chains, turned or dynamic tiles, and swept masks. Raises TypeError, ValueError."""
+def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> None:
+    """Refuse no shapes, dynamic chains, turned or dynamic tiles, swept masks. Raises TypeError, ValueError."""
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
         raise ValueError(f"shapes of a dynamic body must hold one with mass, a Segment has none (got {shapes!r})")
     for shape in shapes:
@@ -30,13 +35,14 @@ def check_shapes(shapes, kind, angles, swept):
             raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
 
 
-def rounding_of(shape):
-    """(radius, centre of a circle in body space) of a shape, or of what a Bounds wraps: what its SHAPE row holds [px]."""
+def rounding_of(shape: Shape) -> tuple[float, float, float]:
+    """(radius, centre of a circle in body space) [px] of a shape, or of what a Bounds wraps, for its SHAPE row."""
     inner = getattr(shape, "shape", shape)
-    return (getattr(inner, "radius", 0.0), *getattr(inner, "center", (0.0, 0.0)))
+    x, y = getattr(inner, "center", (0.0, 0.0))
+    return getattr(inner, "radius", 0.0), x, y
 
 
-def set_mass(rows, mass, shapes):
+def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape]) -> None:
     """Write mass, inertia and size of BODY rows of one kind of body."""
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
     rows["local_center_x"], rows["local_center_y"] = mass.center
@@ -48,7 +54,9 @@ def set_mass(rows, mass, shapes):
     rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
 
 
-def place(library, shape, bodies, shapes, row, pose):
+def place(
+    library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
+) -> None:
     """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
     kind, geometry, wrapped = library.add(shape)
     inner = getattr(shape, "shape", shape)

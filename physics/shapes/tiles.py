@@ -3,9 +3,10 @@
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.shapes.mass import NOTHING
+from physics.shapes.mass import NOTHING, Mass
 
 
 class TileGrid:
@@ -16,7 +17,9 @@ class TileGrid:
     ValueError when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
     """
 
-    def __init__(self, solid, tile_size, one_way=None, slopes=None):
+    def __init__(
+        self, solid: ArrayLike, tile_size: float, one_way: ArrayLike | None = None, slopes: ArrayLike | None = None
+    ) -> None:
         self.solid = bools("solid", solid)
         self.tile_size = checks.number("tile_size", tile_size, above=0.0)
         self.one_way = bools("one_way", one_way if one_way is not None else np.zeros_like(self.solid))
@@ -46,13 +49,13 @@ class TileGrid:
         return self  # a value: copies of a world share it
 
     @property
-    def smallest_half(self):
+    def smallest_half(self) -> float:
         return self.tile_size / 2.0
 
-    def mass_of(self, density):
+    def mass_of(self, density: float) -> Mass:
         return NOTHING  # tiles are ground: they only carry
 
-    def reach(self, x, y):
+    def reach(self, x: float, y: float) -> float:
         height, width = self.solid.shape
         far_x = max(abs(x), abs(width * self.tile_size - x))
         far_y = max(abs(y), abs(height * self.tile_size - y))
@@ -62,7 +65,7 @@ class TileGrid:
         return f"TileGrid({self.solid.shape[0]} x {self.solid.shape[1]} tiles of {self.tile_size} px)"
 
 
-def bools(name, value):
+def bools(name: str, value: ArrayLike) -> np.ndarray:
     try:
         array = np.array(value)
     except ValueError:

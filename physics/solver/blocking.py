@@ -5,6 +5,8 @@ towards what is in its way. Every body that stays may be in the way of another, 
 new has to stay: at most once per body, usually two or three rounds.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from physics.collision.approach import closing_speed
@@ -12,9 +14,10 @@ from physics.collision.detect import detect
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
+from physics.solver.pushes import PushSet
 from physics.tables.body import DYNAMIC
 from physics.tables.counters import SOLVER_ROWS
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 
 @kernel
@@ -84,7 +87,8 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _advance(bodies, manifolds, anchors):
-    """Carry the separations of manifolds to the present poses; anchors (n, 2): B's centre seen from A's when they were found."""
+    """Carry the separations of manifolds to the present poses;
+    anchors (n, 2): B's centre seen from A's when they were found."""
     a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
     moved_x = b["center_x"] - a["center_x"] - anchors[:, 0]
     moved_y = b["center_y"] - a["center_y"] - anchors[:, 1]
@@ -92,7 +96,7 @@ def _advance(bodies, manifolds, anchors):
         manifolds[f"separation_{k}"] += manifolds["normal_x"] * moved_x + manifolds["normal_y"] * moved_y
 
 
-def solve(state, sets) -> float:
+def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     """Put back whoever would overlap, until nobody does. Returns the step [s]. It needs no rows but the manifolds."""
     bodies, stopped, anchors = state.bodies, [], []
     while True:
@@ -128,6 +132,6 @@ def solve(state, sets) -> float:
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def blocking(state):
+def blocking(state: StepState) -> None:
     """Let whoever would overlap stay where it was."""
     solve(state, state.workspace.sets)

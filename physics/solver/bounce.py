@@ -47,7 +47,8 @@ def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout)
 
 @subkernel
 def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
-    """Bounce two points at once, to part at the wanted speeds [px/s], by the 2 x 2 system. Returns (solved, change of the first, of the second impulse)."""
+    """Bounce two points at once, to part at the wanted speeds [px/s], by the 2 x 2 system.
+    Returns (solved, change of the first, of the second impulse)."""
     nx = r.normal_x
     ny = r.normal_y
     a_1 = r.ax_1 * ny - r.ay_1 * nx

@@ -1,13 +1,13 @@
 """Contacts as a constraint set: which manifolds are solved, in which order, as which rows, and what is stored of them.
 
-A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such as
-joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row holds
-arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides have
-moved since.
+A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such
+as joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row
+holds arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides
+have moved since.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,10 @@ from physics.dynamics.graph import color_edges, order_edges
 from physics.jit import kernel, subkernel
 from physics.settings import COLORS, CROWD
 from physics.solver.bounce import restore_bounces
+from physics.solver.motions import Motions
 from physics.tables.constraint import CONSTRAINT
 from physics.tables.counters import SOLVER_ROWS, TANGENT_ROWS
+from physics.tables.step_state import StepState
 
 BOTH = (False, True)
 
@@ -42,8 +44,8 @@ def select_manifolds(
     selected_out,
     edges_out,
 ):
-    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns their
-    number. O(manifolds).
+    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns
+    their number. O(manifolds).
 
     Sensors, pairs of which neither side can be pushed, and what lies under the feet of a character are left out.
     """
@@ -77,7 +79,7 @@ def effective_mass(a, b, ax, ay, bx, by, x, y):
     return 1.0 / k if k > 0.0 else 0.0
 
 
-def make_prepare(friction: bool, conveyor: bool):
+def make_prepare(friction: bool, conveyor: bool) -> Callable:
     """The pass from contacts to constraint rows for a world with these effects."""
 
     @kernel
@@ -93,8 +95,8 @@ def make_prepare(friction: bool, conveyor: bool):
         constraints_out,
         work_inout,
     ):
-        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a substep
-        of h [s].
+        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
+        substep of h [s].
 
         plan: see Plan. Arms go from the centres of mass to the contact point. O(constraints).
         """
@@ -162,7 +164,7 @@ def make_prepare(friction: bool, conveyor: bool):
     return prepare_constraints
 
 
-def make_warm_start(rotation: bool):
+def make_warm_start(rotation: bool) -> Callable:
     """The pass that applies the impulses a substep starts from."""
 
     @kernel
@@ -242,7 +244,7 @@ class ContactSet:
 
     name = "contacts"  # under which a solver finds its passes over them
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.count = 0
         self.constraints = np.zeros(16, CONSTRAINT)
         self.selected, self.ordered, self.colors = (np.zeros(16, np.int32) for _ in range(3))
@@ -258,7 +260,7 @@ class ContactSet:
             self.constraints, self.edges = np.zeros(n, CONSTRAINT), np.zeros((n, 2), np.int32)
             self.selected, self.ordered, self.colors = (np.zeros(n, np.int32) for _ in range(3))
 
-    def prepare(self, state, motions, h: float):
+    def prepare(self, state: StepState, motions: Motions, h: float) -> None:
         """Choose, colour and fill the rows, for substeps of h [s]."""
         rows, manifolds = motions.used, state.manifolds
         self._grow(len(rows), len(manifolds))
@@ -270,15 +272,15 @@ class ContactSet:
         prepare = PREPARE[state.effects.friction, state.effects.conveyor]
         prepare(state.bodies, rows, manifolds, plan, h, state.anchors, self.constraints, state.work)
 
-    def warm_start(self, motions, rotation: bool):
+    def warm_start(self, motions: Motions, rotation: bool) -> None:
         """Apply the impulses that the rows hold already."""
         WARM_START[rotation](self.constraints, self.count, motions.used)
 
-    def solve(self, motions, run: Callable, *settings):
+    def solve(self, motions: Motions, run: Callable, *settings: Any) -> None:
         """One pass of a solver over the rows."""
         run(self.count, *settings, motions.used, self.constraints)
 
-    def store(self, state, motions, h: float):
+    def store(self, state: StepState, motions: Motions, h: float) -> None:
         """Bounce what has met, and write the impulses back."""
         if state.effects.restitution:
             restore_bounces(

@@ -1,9 +1,11 @@
-"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back in the end.
+"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back.
 
 Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
 """
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.constraint import MOTION
 from physics.tables.counters import BODIES_INTEGRATED
+from physics.tables.step_state import StepState
 
 BOTH = (False, True)
 
@@ -42,7 +45,7 @@ def stand_still(motions_out, pushable_out):
     pushable_out[0] = False
 
 
-def make_gather(gravity: bool, wind: bool, rotation: bool):
+def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
     """The pass from bodies to motions for a world with these effects."""
 
     @kernel
@@ -57,10 +60,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool):
         pushable_out,
         work_inout,
     ):
-        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed. O(rows).
+        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed.
+        O(rows).
 
-        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of each;
-        pushable_out (motions) bool: whether an impulse changes its velocity.
+        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of
+        each; pushable_out (motions) bool: whether an impulse changes its velocity.
         """
         for k in range(len(rows)):
             b = bodies[rows[k]]
@@ -102,7 +106,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool):
     return gather_motions
 
 
-def make_substep_velocities(drag: bool, rotation: bool):
+def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     """The pass that speeds bodies up at the start of each substep."""
 
     @kernel
@@ -132,7 +136,7 @@ def make_substep_velocities(drag: bool, rotation: bool):
     return integrate_substep_velocities
 
 
-def make_substep_positions(rotation: bool):
+def make_substep_positions(rotation: bool) -> Callable:
     """The pass that moves bodies at the end of each substep."""
 
     @kernel
@@ -203,12 +207,12 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 class Motions:
     """The MOTION rows of one world, grown and used again."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.rows, self.pushable = np.zeros(16, MOTION), np.zeros(16, np.bool_)
         self.motion_of = np.zeros(16, np.int32)
         self.used = self.rows[:1]
 
-    def gather(self, state):
+    def gather(self, state: StepState) -> None:
         """Take the awake bodies in."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
@@ -223,7 +227,7 @@ class Motions:
         if len(state.characters):
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
-    def scatter(self, state):
+    def scatter(self, state: StepState) -> None:
         """Write the bodies back, and carry their manifolds along."""
         rows, bodies = state.awake.bodies, state.bodies
         scatter_motions(rows, self.used, self.motion_of, bodies)
@@ -263,7 +267,7 @@ WRITES = (
 )
 
 
-def push_piles(state, solve):
+def push_piles(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
     """What the stages of the stacking solvers do: gather, solve by their door `solve(state, sets)`, write back."""
     if not len(state.awake.bodies):
         return

@@ -4,12 +4,15 @@ Differs from `blocking` in that a body which meets something goes on along it in
 starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the contacts, two loops over none.
 """
 
+from collections.abc import Callable, Sequence
+
 from physics.collision.approach import closing_speed
 from physics.dynamics.integrate import place_shapes
 from physics.jit import kernel, subkernel
 from physics.settings import PROJECTION_PASSES
+from physics.solver.pushes import PushSet
 from physics.tables.counters import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 
 @subkernel
@@ -21,7 +24,7 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
         body_inout.angular_velocity += body_inout.inverse_inertia * (anchor_x * y - anchor_y * x)
 
 
-def make_projection_pass(rotation: bool, friction: bool, restitution: bool):
+def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
     """One pass over the contacts of a world with these effects."""
 
     @kernel
@@ -119,7 +122,7 @@ PASSES = {
 }
 
 
-def solve(state, sets) -> float:
+def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     """Push everything apart. Returns the step [s]."""
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
@@ -145,7 +148,7 @@ def solve(state, sets) -> float:
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
-def projection(state):
+def projection(state: StepState) -> None:
     """Push the bodies apart where they ended. Without time nothing moves: contacts are reported, nothing is pushed."""
     if state.dt > 0.0:
         solve(state, state.workspace.sets)

@@ -1,10 +1,14 @@
 """Contacts as the solvers see them that remember nothing: one PUSH row per point that is no sensor's."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from physics.collision.materials import mixed
 from physics.jit import kernel
 from physics.tables.constraint import PUSH
+from physics.tables.step_state import StepState
 
 
 @kernel
@@ -60,7 +64,7 @@ def store_pushes(
     # write
     manifolds_inout,
 ):
-    """Write impulses, and the separations at the final poses, back to the manifolds, without detecting again. O(pushes).
+    """Write impulses, and separations at the final poses, back to the manifolds; nothing is detected. O(pushes).
 
     The displacement of B against A along the normal changes the separation.
     """
@@ -87,11 +91,11 @@ class PushSet:
 
     name = "contacts"
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.data = np.zeros(16, PUSH)
         self.rows = self.data[:0]
 
-    def prepare(self, state):
+    def prepare(self, state: StepState) -> None:
         """Fill the rows."""
         points = 2 * len(state.manifolds)
         if len(self.data) < points:
@@ -100,10 +104,10 @@ class PushSet:
         found = prepare_pushes(tables, state.bodies, state.shapes, state.manifolds, conveyor, self.data)
         self.rows = self.data[:found]
 
-    def solve(self, state, run, *settings):
+    def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
         """One pass of a solver over the rows."""
         run(*settings, state.bodies, self.rows, state.work)
 
-    def store(self, state):
+    def store(self, state: StepState) -> None:
         """Write what was found back to the manifolds."""
         store_pushes(state.bodies, self.rows, state.manifolds)

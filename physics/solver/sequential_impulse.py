@@ -7,12 +7,14 @@ Box2D-Lite, 2006.
 """
 
 import math
+from collections.abc import Callable, Sequence
 
 from physics.jit import kernel, subkernel
 from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP
+from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
 
@@ -25,7 +27,7 @@ def bias_of(separation, inverse_h, slop, baumgarte, push_speed):
     return max(baumgarte * inverse_h * min(separation + slop, 0.0), -push_speed)
 
 
-def make_sequential_pass(rotation: bool, friction: bool):
+def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     """One pass over the constraints of a world with these effects; the two points of a manifold are solved together."""
 
     @kernel
@@ -42,8 +44,8 @@ def make_sequential_pass(rotation: bool, friction: bool):
     ):
         """Solve every constraint once, friction first, in the order of the rows. O(count).
 
-        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed [px/s]
-        at most.
+        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed
+        [px/s] at most.
         """
         for i in range(count):
             r = constraints_inout[i]
@@ -161,7 +163,7 @@ def sum_up(count, constraints_inout):
 PASSES = {"contacts": {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
 
-def solve(state, sets) -> float:
+def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
     """Advance the motions by a step under the constraints of all sets. Returns the step [s] that impulses belong to."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     rotation, friction = effects.rotation, effects.friction
@@ -183,6 +185,6 @@ def solve(state, sets) -> float:
 
 
 @stage("sequential_impulse", reads=READS, writes=WRITES)
-def sequential_impulse(state):
+def sequential_impulse(state: StepState) -> None:
     """Push and move the bodies of a world that stacks."""
     push_piles(state, solve)

@@ -7,19 +7,21 @@ Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction 
 """
 
 import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
-from physics.tables.step_state import stage
+from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
 
 
 class Softness(NamedTuple):
-    """A damped spring as a constraint over a substep: speed per px of overlap, share of the mass, leak of the impulse."""
+    """A damped spring as a constraint over a substep: speed per px of overlap, shares of mass and impulse."""
 
     bias_rate: float
     mass_scale: float
@@ -27,7 +29,7 @@ class Softness(NamedTuple):
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
-    """The implicit spring of a frequency [1/s] and damping ratio over a substep h [s] (Catto, Soft Constraints, 2011)."""
+    """The implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
     omega = math.tau * hertz
     a1 = 2.0 * damping + h * omega
     a2 = h * omega * a1
@@ -54,13 +56,13 @@ def normal_change(
 
 @subkernel
 def turned_along(a, b, ax, ay, bx, by, nx, ny):
-    """How far apart along the normal the two arms reach, turned by what their bodies turned since the step began [px]."""
+    """How far apart [px] along the normal the two arms reach, turned as their bodies since the step began."""
     x = (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay)
     y = (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay)
     return x * nx + y * ny
 
 
-def make_soft_pass(biased: bool, rotation: bool, friction: bool):
+def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     """One pass over the constraints: with bias (and no friction), or relaxing (with friction where declared)."""
 
     @kernel
@@ -130,7 +132,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool):
                 if rotation:
                     k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
                 solved = False
-                # Hard points are solved together, or the first would spin the body; springs one by one resist tilting more.
+                # Hard points are solved together, or the first would spin the body; single springs resist tilting.
                 if not soft_now and r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
                     solved, both_1, both_2 = solve_two(
                         1.0 / r.normal_mass_1,
@@ -224,8 +226,9 @@ BIASED = {"contacts": {r: make_soft_pass(biased=True, rotation=r, friction=False
 RELAXING = {"contacts": {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
 
-def solve(state, sets) -> float:
-    """Advance the motions by a step under the constraints of all sets. Returns the substep [s] that impulses belong to."""
+def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
+    """Advance the motions by a step under the constraints of all sets.
+    Returns the substep [s] that impulses belong to."""
     effects, motions, push_speed = state.effects, state.workspace.motions, state.tolerances.push_speed
     rotation, friction = effects.rotation, effects.friction
     h = state.dt / state.substeps
@@ -250,6 +253,6 @@ def solve(state, sets) -> float:
 
 
 @stage("soft_step", reads=READS, writes=WRITES)
-def soft_step(state):
+def soft_step(state: StepState) -> None:
     """Push and move the bodies of a world that stacks."""
     push_piles(state, solve)

@@ -1,7 +1,7 @@
 """MANIFOLD: where two shapes touch, as a collider found it; ANCHOR: what a solver remembers of it.
 
-Rows of both stand in the order of shape ids, and belong together: only worlds that stack have anchors. A manifold has one
-normal and one or two points; shapes that touch with several normals, as on tiles, have several manifolds.
+Rows of both stand in the order of shape ids, and belong together: only worlds that stack have anchors. A manifold has
+one normal and one or two points; shapes that touch with several normals, as on tiles, have several manifolds.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
 """Finding rows by id: tables stand in the order of their ids."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics.jit import kernel
 
@@ -30,7 +31,7 @@ def find_rows(
         rows_out[k] = low if low < count and table[low].id == ids[k] else -1
 
 
-def rows_of(table, ids) -> np.ndarray:
+def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
     """Row numbers (n) int64 of ids in a table, -1 where one is not there."""
     ids = np.ascontiguousarray(ids, np.int64)
     rows = np.empty(len(ids), np.int64)

@@ -1,11 +1,16 @@
 """StepState: what the stages of a step hand on to each other, and what each of them says it touches.
 
-A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those that
-it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it. What lasts
-longer than a step lies in the world, which gives it to the state and takes it back at the end.
+A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those
+that it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it.
+What lasts longer than a step lies in the world, which gives it to the state and takes it back at the end.
 """
 
 from collections.abc import Callable
+from typing import Any, Protocol, cast
+
+import numpy as np
+
+from physics.settings import Tolerances
 
 STAGE_FIELDS = (
     # what the world was asked for
@@ -48,19 +53,65 @@ STAGE_FIELDS = (
 
 
 class StepState:
-    """The fields of STAGE_FIELDS for one step."""
+    """The fields of STAGE_FIELDS for one step. Any stands for what is defined in a folder to the right of this one."""
 
     __slots__ = STAGE_FIELDS
 
+    effects: Any  # effects.Effects
+    tolerances: Tolerances
+    gravity: tuple[float, float]
+    drag: float
+    wind: tuple[float, float]
+    dt: float
+    substeps: int
+    broadphase: Any  # broadphase.proxies.Strategy
+    steps: int
+    bodies: np.ndarray
+    shapes: np.ndarray
+    characters: np.ndarray
+    library: Any  # shapes.library.Library
+    awake: Any  # dynamics.awake.Awake
+    sleepers: Any  # dynamics.sleepers.Sleepers
+    queries: Any  # queries.index.QueryIndex
+    pairs: Any  # broadphase.pair_list.PairList
+    changed_count: int
+    impacts: np.ndarray
+    manifolds: np.ndarray
+    anchors: np.ndarray
+    sensed: np.ndarray | None
+    swept_sensors: np.ndarray
+    ghosts: np.ndarray | None
+    parked: tuple[np.ndarray, np.ndarray] | None
+    touching: Any  # events.Pairs
+    sensing: Any
+    events: Any  # events.Events
+    told: tuple[np.ndarray, np.ndarray | None]
+    work: np.ndarray
+    workspace: Any  # step.Workspace
 
-def stage(name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()) -> Callable:
-    """Mark a function of a StepState as a stage: its name in `world.stages`, the fields it reads and those it writes."""
+
+class Stage(Protocol):
+    """A function of a StepState that says what it touches."""
+
+    stage: str
+    reads: tuple[str, ...]
+    writes: tuple[str, ...]
+
+    def __call__(self, state: StepState) -> None: ...
+
+
+def stage(
+    name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()
+) -> Callable[[Callable[[StepState], None]], Stage]:
+    """Mark a function of a StepState as a stage: its name in `world.stages`,
+    the fields it reads and those it writes."""
     for each in (*reads, *writes):
         if each.split(".")[0] not in STAGE_FIELDS:
             raise ValueError(f"a stage may read and write {', '.join(STAGE_FIELDS)} (got {each!r} for {name!r})")
 
-    def mark(function):
-        function.stage, function.reads, function.writes = name, tuple(reads), tuple(writes)
-        return function
+    def mark(function: Callable[[StepState], None]) -> Stage:
+        marked = cast(Stage, function)
+        marked.stage, marked.reads, marked.writes = name, tuple(reads), tuple(writes)
+        return marked
 
     return mark

@@ -1,27 +1,28 @@
 """Table: a structured array that grows."""
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 
 class Table:
     """A structured array that grows by doubling; `rows` is the used part."""
 
-    def __init__(self, dtype, capacity=16):
-        self.data = np.zeros(capacity, dtype)
+    def __init__(self, dtype: DTypeLike, capacity: int = 16) -> None:
+        self.data: np.ndarray = np.zeros(capacity, dtype)
         self.count = 0
 
     @property
-    def rows(self):
+    def rows(self) -> np.ndarray:
         return self.data[: self.count]
 
-    def reserve(self, count):
+    def reserve(self, count: int) -> None:
         """Make room for `count` rows, keeping what is there."""
         if count > len(self.data):
             grown = np.zeros(max(count, 2 * len(self.data)), self.data.dtype)
             grown[: self.count] = self.rows
             self.data = grown
 
-    def append(self, count=1):
+    def append(self, count: int = 1) -> np.ndarray:
         """Room for `count` new zeroed rows at the end; returns them."""
         self.reserve(self.count + count)
         added = self.data[self.count : self.count + count]
@@ -29,7 +30,7 @@ class Table:
         self.count += count
         return added
 
-    def keep(self, flags):
+    def keep(self, flags: np.ndarray) -> None:
         """Drop the rows whose flag is False; the others keep their order."""
         kept = np.flatnonzero(flags)
         first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))  # what stands before stays where it is

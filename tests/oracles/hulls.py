@@ -20,7 +20,8 @@ def projected_gap(a, b, normal):
 
 
 def best_face_gap(a, b):
-    """The greatest gap over the normals of all faces: the distance's lower bound, and exactly the depth of an overlap."""
+    """The greatest gap over the normals of all faces: the distance's lower bound,
+    and exactly the depth of an overlap."""
     best = -math.inf
     for first, second in ((a, b), (b, a)):
         edges = np.roll(first, -1, axis=0) - first
@@ -31,7 +32,8 @@ def best_face_gap(a, b):
 
 
 def corner_to_edge(a, b):
-    """The least distance of a corner of one outline from an edge of the other: the distance of outlines that are apart."""
+    """The least distance of a corner of one outline from an edge of the other:
+    the distance of outlines that are apart."""
     best = math.inf
     for first, second in ((a, b), (b, a)):
         edges = np.roll(first, -1, axis=0) - first

@@ -1,6 +1,7 @@
 """Exact outlines of shapes at a pose, as shapely geometry: an independent truth for overlap, depth and distance."""
 
 import math
+from itertools import pairwise
 
 from shapely.geometry import MultiPoint, Point, Polygon, box
 from shapely.ops import unary_union
@@ -65,12 +66,13 @@ def disc_gap(geometry, x, y, radius):
 
 
 def convex_depth(a, b):
-    """How deep two overlapping convex polygons are in each other: the least push along a face normal that parts them."""
+    """How deep two overlapping convex polygons are in each other:
+    the least push along a face normal that parts them."""
     least = math.inf
     for first, second in ((a, b), (b, a)):
         corners = list(first.exterior.coords)
         turn = 1.0 if first.exterior.is_ccw else -1.0
-        for (x0, y0), (x1, y1) in zip(corners, corners[1:]):
+        for (x0, y0), (x1, y1) in pairwise(corners):
             length = math.hypot(x1 - x0, y1 - y0)
             nx, ny = turn * (y1 - y0) / length, -turn * (x1 - x0) / length
             least = min(least, -min(nx * (x - x0) + ny * (y - y0) for x, y in second.exterior.coords))

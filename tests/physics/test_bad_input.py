@@ -4,6 +4,7 @@ The error names the argument and the value; the world is as it was, down to its 
 """
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -86,9 +87,9 @@ def state(world):
 
 
 def refused(name, value, call):
-    """The call raises ValueError or TypeError with the argument's name and the value."""
+    """The call with the value raises ValueError or TypeError with the argument's name and the value."""
     with pytest.raises((ValueError, TypeError)) as caught:
-        call()
+        call(value)
     assert not isinstance(caught.value, UnicodeError)
     text = str(caught.value)
     assert name in text, f"{text!r} does not name {name}"
@@ -175,7 +176,7 @@ CONSTRUCTORS = [
 )
 def test_wrong_arguments_of_values_and_functions_are_named(name, call, values):
     for value in values:
-        refused(name, value, lambda: call(value))
+        refused(name, value, call)
 
 
 CHANGES = [
@@ -263,7 +264,7 @@ def test_wrong_arguments_leave_the_world_as_it_was(name, call, values):
     world = world_of_three()
     before = state(world)
     for value in values:
-        refused(name, value, lambda: call(world, value))
+        refused(name, value, partial(call, world))
         assert state(world) == before, f"{name}={value!r} changed the world"
 
 
@@ -272,14 +273,14 @@ def test_moves_of_a_character_are_checked():
     hero = Character(world, BOX, (50, 50))
     before = state(world)
     for value in NUMBER:
-        refused("dx", value, lambda: hero.move(value, 0))
-        refused("dy", value, lambda: hero.move(0, value))
-        refused("dx", value, lambda: hero.blocked(value, 0))
-        refused("dy", value, lambda: hero.blocked(0, value))
+        refused("dx", value, lambda dx: hero.move(dx, 0))
+        refused("dy", value, lambda dy: hero.move(0, dy))
+        refused("dx", value, lambda dx: hero.blocked(dx, 0))
+        refused("dy", value, lambda dy: hero.blocked(0, dy))
     for value in FLAG:
-        refused("drop", value, lambda: hero.move(0, 0, drop=value))
+        refused("drop", value, lambda drop: hero.move(0, 0, drop=drop))
     for value in VECTOR:
-        refused("position", value, lambda: hero.move_to(value))
+        refused("position", value, hero.move_to)
     assert state(world) == before
 
 

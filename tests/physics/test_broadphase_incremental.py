@@ -85,7 +85,7 @@ def test_work_grows_with_the_moved_and_not_with_all(name, counter):
             world.step()
             work[n, k] = counters(world)[counter]
     few, many = sorted({n for n, _ in work})
-    # A move by one column passes a column's worth of neighbours in the sweep: sqrt(n), so twice as many at four times n.
+    # A move by one column passes a column's worth of neighbours in the sweep: sqrt(n), twice as many at four times n.
     growth = {"nodes_visited": 1.8, "swaps": 2.6}.get(counter, 1.3)
     for k in (8, 32):
         assert 0 < work[many, k] <= growth * max(work[few, k], 1), work
@@ -193,7 +193,7 @@ def test_spawning_and_despawning_for_ever_keeps_the_structure_small(make):
     world = World(Effects(), make())
     rng = np.random.default_rng(1)
     live, sizes = [], []
-    for step in range(400 if JIT else 150):
+    for _ in range(400 if JIT else 150):
         live += world.add_bodies(Circle(3.0), rng.uniform(0, 300, (10, 2)), rng.uniform(-50, 50, (10, 2))).tolist()
         if len(live) > 60:
             world.remove_bodies(live[:10])

@@ -122,9 +122,9 @@ def test_depth_over_rough_ground_is_the_distance_from_the_line(name):
             if hull.distance(line) > 1e-6 and gap < 1.0 - 1e-9:
                 near += 1
                 assert len(found)
-                # Where the line bends inwards the normals are the links' own, and what is measured along them is no less.
+                # Where the line bends inwards the normals are the links' own: along them it is no less.
                 assert found.separations.min() >= gap - 1e-9
-        for (px, py), separation in zip(found.points, found.separations):
+        for (px, py), separation in zip(found.points, found.separations, strict=True):
             assert abs(shapely.Point(px, py).distance(line)) <= abs(separation) + 1e-6 + 2 * abs(min(separation, 0.0))
     assert near > 0.03 * COUNT or not JIT
 

@@ -114,10 +114,10 @@ def change(rng, twin, worlds, most):
             world.body(identity).set_kind(body[5])
     elif choice < 0.96 and worlds:
         taken = [world.snapshot() for world in worlds]
-        for world, snapshot in zip(worlds, taken):
+        for world, snapshot in zip(worlds, taken, strict=True):
             world.restore(snapshot)
     elif choice < 0.98:
-        for world, make in zip(worlds, MAKERS):
+        for world, make in zip(worlds, MAKERS, strict=True):
             world.broadphase = make()
     elif choice < 0.982:
         twin.bodies.clear()
@@ -139,10 +139,10 @@ def churn(seed, steps, most):
             world.step()
         for world in worlds:
             name = f"{world.broadphase.name} at step {step} of seed {seed}"
-            bodies_of = dict(zip(world.shapes["id"].tolist(), world.shapes["body"].tolist()))
+            bodies_of = dict(zip(world.shapes["id"].tolist(), world.shapes["body"].tolist(), strict=True))
             assert [(bodies_of[a], bodies_of[b]) for a, b in world.candidates.tolist()] == pairs, name
             for event, wanted in ((world.events.begin, begun), (world.events.end, ended)):
-                assert list(zip(event["body_a"].tolist(), event["body_b"].tolist())) == wanted, name
+                assert list(zip(event["body_a"].tolist(), event["body_b"].tolist(), strict=True)) == wanted, name
         assert len({world.digest() for world in worlds}) == 1, f"step {step} of seed {seed}"
     assert seen.min() > steps // 6, "a history in which little happens proves little"
     return done

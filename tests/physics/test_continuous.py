@@ -1,4 +1,5 @@
-"""Fast bodies: time of impact in closed form, tunnelling shown both ways, no speed lost (hard_cases E4, G, section 4)."""
+"""Fast bodies: time of impact in closed form, tunnelling shown both ways, no speed lost (hard_cases E4, G,
+section 4)."""
 
 import math
 

@@ -47,7 +47,7 @@ def test_fitted_circle_and_box_hold_every_pixel_and_no_smaller_circle_does(seed)
     gaps = np.diff(np.sort(np.unique(touching)), append=np.sort(touching)[0] + math.tau)
     assert gaps.max() <= math.pi + 1e-6
     points = np.array(box.points)
-    for a, b in zip(points, np.roll(points, -1, axis=0)):
+    for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
         normal = np.array([b[1] - a[1], a[0] - b[0]]) / math.dist(a, b)
         assert ((corners - a) @ normal).max() <= 1e-9
     area = math.dist(points[0], points[1]) * math.dist(points[1], points[2])
@@ -72,7 +72,7 @@ def test_mask_hits_are_the_shared_pixels():
     lit = {(left + x, top + y) for left, top, shared in debug.mask_hits(world) for y, x in np.argwhere(shared).tolist()}
     wanted = {(x + 5, y + 3) for y, x in np.argwhere(a).tolist()} & {(x + 9, y - 2) for y, x in np.argwhere(b).tolist()}
     assert lit == wanted and len(wanted) > 0
-    for (_, left, top, solid), (x, y, shape) in zip(debug.masks(world), ((5, 3, a), (9, -2, b))):
+    for (_, left, top, solid), (x, y, shape) in zip(debug.masks(world), ((5, 3, a), (9, -2, b)), strict=True):
         assert (left, top) == (x, y) and np.array_equal(solid, shape)
 
 

@@ -1,6 +1,7 @@
 """Distance and depth: certificates instead of golden values, hard_cases C, and agreement with collide (U10)."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -111,7 +112,7 @@ def test_signed_distance_is_monotone_through_touching():
     gaps = sorted([0.0] + [s * 10.0**-k for k in range(1, 16) for s in (-1, 1)])
     for a, b, reach in ((box, box, 2.0), (box, Circle(1.0), 2.0), (hexagon, box, 2.0), (hexagon, hexagon, 2.0)):
         found = [distance(a, ORIGIN, b, (reach + gap, 0.0, 0.0)).distance for gap in gaps]
-        assert all(p <= q for p, q in zip(found, found[1:]))
+        assert all(p <= q for p, q in pairwise(found))
         assert sum(each == 0.0 for each in found) <= 3, "one band of touching"
 
 
@@ -295,7 +296,7 @@ def outline_of(shape, pose):
         return LineString(outlines.placed(shape.points, pose)), getattr(shape, "radius", 0.0)
     if isinstance(shape, Chain):
         points = outlines.placed(shape.points, pose)
-        return MultiLineString(list(zip(points, points[1:]))), 0.0
+        return MultiLineString(list(pairwise(points))), 0.0
     if isinstance(shape, TileGrid):
         return outlines.tiles(shape.solid.tolist(), shape.slopes.tolist(), shape.tile_size, *pose[:2]), 0.0
     turned = shape.turned(pose[2])
@@ -366,7 +367,7 @@ def test_gjk_steps_end_at_the_distance():
     assert deep[-1]["distance"] == pytest.approx(distance(hexagon, ORIGIN, box, (3, 2, 0.4)).distance)
     assert len(deep[-1]["polytope"]) >= 3
     falling = [each["distance"] for each in apart]
-    assert all(p >= q for p, q in zip(falling, falling[1:]))
+    assert all(p >= q for p, q in pairwise(falling))
     for each in apart + deep:
         assert each["simplex"].shape[1] == 2 and math.hypot(*each["direction"]) == pytest.approx(1.0)
         assert len(each["witness"]) == 2

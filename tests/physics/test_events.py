@@ -20,7 +20,7 @@ WATCH = Effects(response=True, sensors=True, persist=True, continuous=True, rest
 
 
 def keys(events):
-    return list(zip(events["shape_a"].tolist(), events["shape_b"].tolist()))
+    return list(zip(events["shape_a"].tolist(), events["shape_b"].tolist(), strict=True))
 
 
 @pytest.mark.parametrize("seed", range(3))

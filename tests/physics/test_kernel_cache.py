@@ -1,4 +1,5 @@
-"""Compiled kernels are kept by what they depend on: another copy of the same sources finds them, other sources do not."""
+"""Compiled kernels are kept by what they depend on: another copy of the same sources finds them,
+other sources do not."""
 
 import os
 import shutil

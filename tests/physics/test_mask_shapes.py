@@ -25,7 +25,7 @@ def blob(rng):
 def solid_squares(mask, pose):
     """Left top corners of the solid pixels as drawn."""
     rows, columns = np.nonzero(mask.solid)
-    return list(zip(columns + pose[0] - mask.origin[0], rows + pose[1] - mask.origin[1]))
+    return list(zip(columns + pose[0] - mask.origin[0], rows + pose[1] - mask.origin[1], strict=True))
 
 
 def same_both_ways(mask, mask_pose, shape, pose):
@@ -89,7 +89,7 @@ def test_mask_and_polygon_area_counts_the_pixels_that_share_area(seed):
         left, top = pose[0] - mask.origin[0], pose[1] - mask.origin[1]
         shared = [
             outlines.box(left + i, top + j, left + i + 1, top + j + 1).intersection(pentagon).area
-            for j, i in zip(*np.nonzero(mask.solid))
+            for j, i in zip(*np.nonzero(mask.solid), strict=True)
         ]
         if all(a == 0.0 or a > 1e-9 for a in shared):
             assert collide(mask, pose, Polygon(corners), at).area == sum(a > 0.0 for a in shared)

@@ -108,7 +108,7 @@ def test_any_array_of_truth_makes_the_same_mask(make):
 def test_mass_of_a_mask_is_that_of_its_squares():
     for solid in (np.ones((3, 8), bool), np.array([[1, 0], [1, 1]], bool)):
         mask = PixelMask(solid, origin=(1.0, -2.0))
-        pixels = [(i - 1.0, j + 2.0) for j, i in zip(*np.nonzero(solid))]
+        pixels = [(i - 1.0, j + 2.0) for j, i in zip(*np.nonzero(solid), strict=True)]
         n = len(pixels)
         cx, cy = sum(x for x, _ in pixels) / n + 0.5, sum(y for _, y in pixels) / n + 0.5
         inertia = sum((x + 0.5 - cx) ** 2 + (y + 0.5 - cy) ** 2 + 1 / 6 for x, y in pixels)

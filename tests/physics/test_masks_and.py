@@ -121,7 +121,8 @@ def test_touching_masks_share_no_pixel_and_do_not_hit():
 
 
 def test_whole_pixel_tier_misses_its_known_share_of_true_overlaps():
-    """Squares of 32 px: of the overlaps in real numbers 1 - (63/64)^2 = 3.10 % share no whole pixel; none is invented."""
+    """Squares of 32 px: of the overlaps in real numbers 1 - (63/64)^2 = 3.10 % share no whole pixel;
+    none is invented."""
     rng = np.random.default_rng(0)
     square = PixelMask(np.ones((32, 32), bool))
     n = 40_000 if JIT else 3_000

@@ -71,7 +71,7 @@ def test_turned_mask_stays_over_the_turned_outline():
         turned = mask.turned(math.radians(degrees))
         angle = round(math.radians(degrees) * 128 / math.tau) * math.tau / 128
         c, s = math.cos(angle), math.sin(angle)
-        for y, x in zip(*np.nonzero(turned.solid)):
+        for y, x in zip(*np.nonzero(turned.solid), strict=True):
             u, v = x + 0.5 - turned.origin[0], y + 0.5 - turned.origin[1]
             bx, by = c * u + s * v + mask.origin[0], -s * u + c * v + mask.origin[1]
             gap = max(0 - bx, bx - 30, 0 - by, by - 9, 0.0)
@@ -99,7 +99,7 @@ def test_thin_line_lets_no_pixel_ball_through_at_any_angle():
     """A 1 x 32 line cut from side to side: its turned pixels stay connected by edge or corner."""
     line = PixelMask(np.ones((1, 32), bool))
     for degrees in range(0, 91, 3):
-        todo = set(zip(*map(np.ndarray.tolist, np.nonzero(line.turned(math.radians(degrees)).solid))))
+        todo = set(zip(*map(np.ndarray.tolist, np.nonzero(line.turned(math.radians(degrees)).solid)), strict=True))
         reached = [next(iter(todo))]
         todo.discard(reached[0])
         while reached:

@@ -65,7 +65,7 @@ def test_polygons_equal_the_fan_of_their_triangles(seed):
     assert found.center == pytest.approx((truth.centroid.x, truth.centroid.y), rel=1e-12)
     cx, cy = found.center
     total = 0.0
-    for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]):
+    for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1], strict=True):
         ax, ay, bx, by = ax - cx, ay - cy, bx - cx, by - cy
         total += (ax * by - bx * ay) / 12 * (ax * ax + ax * bx + bx * bx + ay * ay + ay * by + by * by)
     assert found.inertia == pytest.approx(0.5 * abs(total), rel=1e-11)

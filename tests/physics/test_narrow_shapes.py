@@ -88,7 +88,7 @@ def test_manifold_points_lie_midway_between_the_surfaces(seed):
         found = collide(Polygon.box(w, h), pose_a, Polygon.box(u, v), pose_b)
         p, q = outlines.rectangle(w, h, pose_a), outlines.rectangle(u, v, pose_b)
         nx, ny = found.normal
-        for (x, y), separation in zip(found.points, found.separations):
+        for (x, y), separation in zip(found.points, found.separations, strict=True):
             # One surface is half the separation away along the normal, the other half against it.
             ends = [outlines.Point(x + s * separation / 2 * nx, y + s * separation / 2 * ny) for s in (-1, 1)]
             to_a, to_b = p.exterior.distance(ends[0]), q.exterior.distance(ends[1])
@@ -159,7 +159,7 @@ def test_quarter_turn_of_both_turns_the_manifold(pair, turns):
             assert two.separations == pytest.approx(one.separations, abs=1e-12)
             assert two.normal == pytest.approx(turned_quarter((*one.normal, 0), turns)[:2], abs=1e-12)
             wanted = [[round(v, 9) for v in turned_quarter((*p, 0), turns)[:2]] for p in one.points.tolist()]
-            for got, want in zip(sorted(two.points.round(9).tolist()), sorted(wanted)):
+            for got, want in zip(sorted(two.points.round(9).tolist()), sorted(wanted), strict=True):
                 assert got == pytest.approx(want, abs=1e-8)
 
 

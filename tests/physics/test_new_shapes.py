@@ -118,7 +118,8 @@ def test_the_mass_of_a_capsule_in_closed_form_and_by_slices():
 
 
 def test_the_mass_of_a_rounded_polygon_is_that_of_its_parts():
-    """A rounded box in closed form; a short capsule and a rounded polygon that is nearly one; many corners, nearly a disc."""
+    """A rounded box in closed form; a short capsule and a rounded polygon that is nearly one;
+    many corners, nearly a disc."""
     w, h, r = 8.0, 4.0, 1.5
     found = mass_of(Polygon(Polygon.box(w, h).points, r), 3.0)
     area = w * h + 2 * r * (w + h) + math.pi * r * r
@@ -178,7 +179,7 @@ def test_boxes_around_are_tight(angle):
     )
     for shape in shapes:
         world.add_body(shape, kind="static", position=(10, 20), angle=angle)
-    for shape, box in zip(shapes, debug.bounds(world)):
+    for shape, box in zip(shapes, debug.bounds(world), strict=True):
         core, radius = hull_of(shape, (10, 20, angle))
         assert box.tolist() == pytest.approx([*(core.min(axis=0) - radius), *(core.max(axis=0) + radius)], abs=1e-12)
 

@@ -1,4 +1,5 @@
-"""Two shapes, asked in every way: overlap, depth, distance, contact and time of impact agree (hard_cases U7, U8, U10, 4)."""
+"""Two shapes, asked in every way: overlap, depth, distance, contact and time of impact agree (hard_cases U7, U8, U10,
+4)."""
 
 import math
 
@@ -69,7 +70,8 @@ def test_all_answers_agree_whether_two_shapes_overlap(a, b):
         hits += gap.distance <= 0
         assert (len(met) > 0) == (gap.distance <= 0)
         assert math.hypot(*gap.normal) == pytest.approx(1.0, abs=1e-12)
-        assert gap.point_b == pytest.approx([p + gap.distance * n for p, n in zip(gap.point_a, gap.normal)], abs=1e-9)
+        across = [p + gap.distance * n for p, n in zip(gap.point_a, gap.normal, strict=True)]
+        assert gap.point_b == pytest.approx(across, abs=1e-9)
         if len(met) and "segment" not in (a, b):
             assert min(met.separations) == pytest.approx(gap.distance, abs=1e-9)
         one.move_to(pose_a[:2], pose_a[2])
@@ -97,6 +99,14 @@ def test_swapped_pair_is_mirrored(a, b):
             assert np.allclose(sorted(map(tuple, one.points)), sorted(map(tuple, two.points)), rtol=0.0, atol=1e-10)
 
 
+def turned_by_quarters(pose, quarters):
+    """A pose turned about the origin by quarters, and moved by (8, -16)."""
+    x, y = pose[:2]
+    for _ in range(quarters):
+        x, y = -y, x
+    return (x + 8.0, y - 16.0, pose[2] + quarters * math.pi / 2)
+
+
 @pytest.mark.parametrize("a, b", PAIRS)
 def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
     """Turned by 90, 180, 270 degrees about the origin: the same gap, the normal turned along."""
@@ -105,14 +115,8 @@ def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
     for pose_a, pose_b in pair_poses(3, 12):
         first = distance(CONVEX[a], pose_a, CONVEX[b], pose_b)
         for quarters in (1, 2, 3):
-
-            def turned(pose):
-                x, y = pose[:2]
-                for _ in range(quarters):
-                    x, y = -y, x
-                return (x + 8.0, y - 16.0, pose[2] + quarters * math.pi / 2)
-
-            again = distance(CONVEX[a], turned(pose_a), CONVEX[b], turned(pose_b))
+            moved_a, moved_b = turned_by_quarters(pose_a, quarters), turned_by_quarters(pose_b, quarters)
+            again = distance(CONVEX[a], moved_a, CONVEX[b], moved_b)
             assert again.distance == pytest.approx(first.distance, abs=1e-12 * 50)
             if first.distance > 1e-6:
                 x, y = first.normal
@@ -133,8 +137,8 @@ def test_time_of_impact_is_the_first_touch(a, b):
             continue
         found = time_of_impact(CONVEX[a], pose_a, end_a, CONVEX[b], pose_b, end_b)
 
-        def gap(fraction):
-            at = [tuple(p + fraction * (q - p) for p, q in zip(*ends)) for ends in ((pose_a, end_a), (pose_b, end_b))]
+        def gap(fraction, ways=((pose_a, end_a), (pose_b, end_b))):
+            at = [tuple(p + fraction * (q - p) for p, q in zip(*ends, strict=True)) for ends in ways]
             return distance(CONVEX[a], at[0], CONVEX[b], at[1]).distance
 
         before = [gap(f) for f in np.linspace(0, found.fraction, 60)[:-1]]

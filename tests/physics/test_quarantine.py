@@ -153,7 +153,7 @@ def test_far_bodies_touch_only_what_is_there(shape, x):
         world.add_body(shape, position=(at, 0.0))
     for _ in range(2):
         world.step()
-        assert list(zip(world.contacts["shape_a"], world.contacts["shape_b"]))[:1] == [(0, 2)]
+        assert list(zip(world.contacts["shape_a"], world.contacts["shape_b"], strict=True))[:1] == [(0, 2)]
         assert set(world.contacts["shape_a"]) == {0}
 
 

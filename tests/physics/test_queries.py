@@ -22,7 +22,7 @@ from physics import (
     time_of_impact,
 )
 
-O = (0.0, 0.0, 0.0)
+ORIGIN = (0.0, 0.0, 0.0)
 SHAPES = (
     Circle(4.0),
     Polygon.box(9, 5),
@@ -164,7 +164,7 @@ def test_a_probe_does_not_stay_in_the_library():
             angle = 0.0 if isinstance(shape, TileGrid) else 0.1 * k
             world.overlap(shape, (k, 1, angle))
             world.shape_cast(shape, (30 + k, 1, angle), (-60, 0))
-        world.overlap(Polygon.box(3.0 + k, 2), O)
+        world.overlap(Polygon.box(3.0 + k, 2), ORIGIN)
     assert sizes == [
         len(world.library.shapes),
         world.library.corners.count,
@@ -235,15 +235,15 @@ def test_ties_go_to_the_smaller_shape_id_and_filters_and_sensors_count():
     for _ in range(3):
         world.add_body(Circle(3.0), position=(20, 0))
     world.step()
-    assert world.shape_cast(Circle(1.0), O, (40, 0)).shape == 1 and world.closest((20.0, 9.0))[0].id == 1
-    assert world.shape_cast(Circle(1.0), O, (40, 0), filter=Filter(1, 1)).shape == 2
+    assert world.shape_cast(Circle(1.0), ORIGIN, (40, 0)).shape == 1 and world.closest((20.0, 9.0))[0].id == 1
+    assert world.shape_cast(Circle(1.0), ORIGIN, (40, 0), filter=Filter(1, 1)).shape == 2
     assert world.closest((20.0, 9.0), filter=Filter(1, 1))[0].id == 2
     assert (
-        world.shape_cast(Circle(1.0), O, (40, 0), filter=Filter(4, 0)) is None
+        world.shape_cast(Circle(1.0), ORIGIN, (40, 0), filter=Filter(4, 0)) is None
         and world.closest((0, 0), filter=Filter(4, 0)) is None
     )
     world.remove_bodies([1, 2])
-    assert world.shape_cast(Circle(1.0), O, (40, 0)).shape == 3, "H7: what was removed is not found"
+    assert world.shape_cast(Circle(1.0), ORIGIN, (40, 0)).shape == 3, "H7: what was removed is not found"
 
 
 CLOSEST = [
@@ -323,7 +323,7 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
     before = world.digest()
     assert world.query_point((0, 0)) == [] and world.ray_cast((-20, 0), (40, 0)) is None
     assert world.shape_cast(Circle(1), (-20, 0, 0), (40, 0)) is None and world.closest((0, 0))[0].id == 1
-    assert world.overlap(Circle(3.0), O) == [] and world.digest() == before
+    assert world.overlap(Circle(3.0), ORIGIN) == [] and world.digest() == before
     world.body(0).restore()
     assert [each.id for each in world.query_point((0, 0))] == [0]
 
@@ -331,11 +331,11 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
 @pytest.mark.parametrize(
     "call, error, words",
     [
-        (lambda w: w.shape_cast("ball", O, (1, 0)), TypeError, "shape"),
+        (lambda w: w.shape_cast("ball", ORIGIN, (1, 0)), TypeError, "shape"),
         (lambda w: w.shape_cast(Circle(1), (0, 0), (1, 0)), TypeError, "pose"),
-        (lambda w: w.shape_cast(Circle(1), O, (math.nan, 0)), ValueError, "translation"),
+        (lambda w: w.shape_cast(Circle(1), ORIGIN, (math.nan, 0)), ValueError, "translation"),
         (lambda w: w.closest((0, math.inf)), ValueError, "point"),
-        (lambda w: w.shape_cast(Circle(1), O, (1, 0), filter=3), TypeError, "filter"),
+        (lambda w: w.shape_cast(Circle(1), ORIGIN, (1, 0), filter=3), TypeError, "filter"),
         (lambda w: w.closest((0, 0), filter=None), TypeError, "filter"),
         (lambda w: w.ray_cast((math.nan, 0), (1, 0)), ValueError, "origin"),
         (lambda w: w.shape_cast(TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 1), (1, 0)), ValueError, "pose"),

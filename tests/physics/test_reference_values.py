@@ -15,7 +15,7 @@ from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, o
 G = 10.0
 
 
-# --- flight ------------------------------------------------------------------------------------------------------------
+# --- flight -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -78,7 +78,7 @@ def test_drag_is_implicit(rate):
         assert speed >= 8.0 * math.exp(-rate * 0.5) - 1e-12
 
 
-# --- impacts -----------------------------------------------------------------------------------------------------------
+# --- impacts ----------------------------------------------------------------------------------------------------------
 
 
 def apexes(world, ball, start, count, steps=1200):
@@ -98,7 +98,8 @@ def apexes(world, ball, start, count, steps=1200):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.5, 0.8, 0.95])
 def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
-    """Apex k is h e^2k: the first within 0.05 h (as others, with substeps), all within g dt t, what a step of time costs."""
+    """Apex k is h e^2k: the first within 0.05 h (as others, with substeps), all within g dt t,
+    what a step of time costs."""
     world = metres(solver)
     floor(world)
     ball = world.add_body(Circle(0.1), position=(0.0, -2.1), material=Material(restitution=restitution))
@@ -121,7 +122,8 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_bounces_end_in_the_time_of_the_series(solver):
-    """sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s; what is missing shrinks with dt. Tolerances of 1/50, so that small ones count."""
+    """sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s; what is missing shrinks with dt.
+    Tolerances of 1/50, so that small ones count."""
     short = []
     for dt in (1 / 240, 1 / 960):
         world = metres(solver, pixels_per_meter=0.02, dt=dt)
@@ -145,7 +147,7 @@ def test_head_on_in_closed_form(solver, restitution, density):
         world.add_body(
             Circle(0.5), position=(x, 0.0), velocity=(v, 0.0), material=Material(density=d, restitution=restitution)
         )
-        for x, v, d in zip((-0.6, 0.6), (v1, v2), density)
+        for x, v, d in zip((-0.6, 0.6), (v1, v2), density, strict=True)
     )
     Watch(world, passive=True, isolated=True).step(20)
     m1, m2 = density
@@ -224,7 +226,7 @@ def test_cradle_hands_on_the_velocity(solver, gap):
         assert speeds == sorted(speeds)
 
 
-# --- friction ----------------------------------------------------------------------------------------------------------
+# --- friction ---------------------------------------------------------------------------------------------------------
 
 
 def slide_down(solver, angle, shape, height, friction, inertia=None, seconds=1.0):
@@ -351,11 +353,11 @@ def test_board_drawn_from_under_discs(solver):
     draw(30)
     before = [body.velocity[0] for body in (board, *discs)]
     draw(60)
-    gained = [body.velocity[0] - at for body, at in zip((board, *discs), before)]
+    gained = [body.velocity[0] - at for body, at in zip((board, *discs), before, strict=True)]
     assert gained[0] == pytest.approx(3 * right, rel=0.01) and gained[1:] == pytest.approx([right] * 5, rel=0.01)
 
 
-# --- loads and tipping -------------------------------------------------------------------------------------------------
+# --- loads and tipping ------------------------------------------------------------------------------------------------
 
 
 @needs_speed
@@ -396,7 +398,8 @@ def test_leaning_cards_need_half_the_tangent():
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_domino_tips_beyond_its_diagonal(solver):
-    """Let go on its edge at atan(t / h) less and more 1 degree; struck with 0.9 and 1.1 of m g (sqrt(h2 + t2) - h) / 2."""
+    """Let go on its edge at atan(t / h) less and more 1 degree;
+    struck with 0.9 and 1.1 of m g (sqrt(h2 + t2) - h) / 2."""
     wide, high = 0.25, 1.0
     limit, reach = math.atan(wide / high), math.hypot(wide, high) / 2
     for sign in (-1, 1):

@@ -26,7 +26,7 @@ def test_head_on_in_closed_form(restitution, density, velocities):
         world.add_body(
             Circle(5.0), position=(x, 0.0), velocity=(v, 0.0), material=Material(density=d, restitution=restitution)
         )
-        for x, v, d in zip((-4.99, 4.99), velocities, density)
+        for x, v, d in zip((-4.99, 4.99), velocities, density, strict=True)
     )
     world.step(1e-9)
     (m1, m2), (v1, v2), e = density, velocities, restitution
@@ -54,7 +54,8 @@ def test_oblique_equal_discs_leave_at_right_angles(offset, one, two):
 
 
 def test_off_centre_hit_spins_in_closed_form():
-    """Box 2 x 0.2 turned 30 degrees, falling at 3 on its lower corner, e 0.5: J 1.511125, v' 1.488875, spin 3.662723."""
+    """Box 2 x 0.2 turned 30 degrees, falling at 3 on its lower corner, e 0.5:
+    J 1.511125, v' 1.488875, spin 3.662723."""
     world = World(ALL.with_(gravity=False, friction=False, continuous=False), gravity=(0, 0), pixels_per_meter=1.0)
     angle = math.radians(30)
     lowest = 1.0 * math.sin(angle) + 0.1 * math.cos(angle)
@@ -225,13 +226,14 @@ def test_momentum_is_kept_and_energy_never_grows(effects, restitution):
         )
     b = world.bodies
     mass, inertia = b["mass"].copy(), b["inertia"].copy()
-    momentum = lambda: np.array([(mass * world.bodies["vx"]).sum(), (mass * world.bodies["vy"]).sum()])
-    energy = lambda: (
-        (
-            mass * (world.bodies["vx"] ** 2 + world.bodies["vy"] ** 2) + inertia * world.bodies["angular_velocity"] ** 2
-        ).sum()
-        / 2
-    )
+
+    def momentum():
+        return np.array([(mass * world.bodies["vx"]).sum(), (mass * world.bodies["vy"]).sum()])
+
+    def energy():
+        moving = mass * (world.bodies["vx"] ** 2 + world.bodies["vy"] ** 2)
+        return (moving + inertia * world.bodies["angular_velocity"] ** 2).sum() / 2
+
     start, before, scale = momentum(), energy(), (mass * 200).sum()
     for _ in range(60):
         world.step()

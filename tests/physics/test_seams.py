@@ -1,4 +1,5 @@
-"""Bodies that slide over tiles and chains in a world: no seam is felt (issue: 1e-9 of the speed; hard_cases E1, E3, E4)."""
+"""Bodies that slide over tiles and chains in a world: no seam is felt (issue: 1e-9 of the speed;
+hard_cases E1, E3, E4)."""
 
 import math
 

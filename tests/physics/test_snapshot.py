@@ -65,7 +65,7 @@ def busy(seed=0, broadphase=None):
 
 def go(world, hero, steps):
     found = []
-    for n in range(steps):
+    for _ in range(steps):
         hero.move(0.7, 2.0)
         world.bodies["vx"][3] += world.random.normal()
         world.step()
@@ -134,7 +134,7 @@ def test_digest_is_the_same_under_every_broad_phase(make):
 
 def test_digest_ignores_user_rows_times_and_minus_zero():
     worlds = [World(ALL, gravity=(0, 0)) for _ in range(2)]
-    for world, zero in zip(worlds, (0.0, -0.0)):
+    for world, zero in zip(worlds, (0.0, -0.0), strict=True):
         world.add_body(Circle(5), position=(zero, zero), velocity=(zero, zero))
     worlds[0].body(0).user = object()
     worlds[0].step(), worlds[1].step()

@@ -1,4 +1,5 @@
-"""What moves what lies on it: kinematic platforms, conveyors, rolling resistance; and events of what comes and goes (H5)."""
+"""What moves what lies on it: kinematic platforms, conveyors, rolling resistance;
+and events of what comes and goes (H5)."""
 
 import math
 
@@ -23,7 +24,7 @@ def test_platform_carries_what_stands_on_it(solver, velocity):
     Watch(world).step(40)
     lag = [body.position[0] - platform.position[0] for body in (box, top)]
     Watch(world).step(60)
-    for body, before in zip((box, top), lag):
+    for body, before in zip((box, top), lag, strict=True):
         assert body.velocity == pytest.approx(velocity, abs=1e-2)
         assert body.position[0] - platform.position[0] == pytest.approx(before, abs=1e-2)
     assert box.position[1] - platform.position[1] == pytest.approx(-0.75, abs=0.01)
@@ -117,7 +118,7 @@ def test_ball_with_resistance_holds_on_a_gentle_slope():
     assert moved[0.02] < 0.02 and moved[0.08] > 0.5
 
 
-# --- events --------------------------------------------------------------------------------------------------------------
+# --- events -----------------------------------------------------------------------------------------------------------
 
 
 @needs_speed

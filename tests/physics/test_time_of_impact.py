@@ -1,4 +1,5 @@
-"""Time of impact: closed forms, turning bodies against dense sampling, starts in contact (hard_cases C2, C16, C17, G20)."""
+"""Time of impact: closed forms, turning bodies against dense sampling, starts in contact (hard_cases C2, C16, C17,
+G20)."""
 
 import math
 
@@ -17,7 +18,7 @@ from physics.tables.counters import CAP_HITS, COUNTERS, GJK_ITERATIONS
 from physics.tables.shape import SHAPE
 from tests.oracles import hulls
 
-O = (0.0, 0.0, 0.0)
+ORIGIN = (0.0, 0.0, 0.0)
 BOX = Polygon.box(2, 2)
 
 
@@ -27,14 +28,14 @@ def missed(found):
 
 def test_two_discs_in_closed_form():
     """hard_cases §4: 1e-12; the swapped call is the same with the normal turned round."""
-    found = time_of_impact(Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0), Circle(0.3), O, O)
+    found = time_of_impact(Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0), Circle(0.3), ORIGIN, ORIGIN)
     assert found.hit and found.fraction == pytest.approx(0.012401923788647, abs=1e-14)
     assert found.normal == pytest.approx((math.sqrt(0.75), -0.5)) and found.point == pytest.approx(
         (-0.3 * math.sqrt(0.75), 0.15)
     )
-    turned = time_of_impact(Circle(0.3), O, O, Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0))
+    turned = time_of_impact(Circle(0.3), ORIGIN, ORIGIN, Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0))
     assert turned.fraction == found.fraction and turned.normal == (-found.normal[0], -found.normal[1])
-    assert time_of_impact(Circle(0.5), O, O, Circle(0.5), (10, 0, 0), (0, 0, 0)).fraction == pytest.approx(
+    assert time_of_impact(Circle(0.5), ORIGIN, ORIGIN, Circle(0.5), (10, 0, 0), (0, 0, 0)).fraction == pytest.approx(
         0.9, abs=1e-15
     )
 
@@ -49,14 +50,15 @@ def test_disc_to_the_corner_of_a_box(angle):
 
 def test_box_and_segment():
     """G20, by value and not by a tolerance of the slop."""
-    found = time_of_impact(BOX, O, O, Segment((0, -1), (0, 1)), (2, 0, 0), O)
+    found = time_of_impact(BOX, ORIGIN, ORIGIN, Segment((0, -1), (0, 1)), (2, 0, 0), ORIGIN)
     assert found.fraction == pytest.approx(0.5, abs=1e-12) and found.normal == (1.0, 0.0) and found.point[0] == 1.0
 
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
     """C17."""
-    disc, wall = (Circle(0.5), O, (1, 0, 0)), (Segment((-1, 0), (1, 0)), (1, 0, -math.pi / 2), (1, 0, -math.pi / 2))
+    upright = (1, 0, -math.pi / 2)
+    disc, wall = (Circle(0.5), ORIGIN, (1, 0, 0)), (Segment((-1, 0), (1, 0)), upright, upright)
     found = time_of_impact(*(wall + disc if swap else disc + wall))
     assert found.hit and found.fraction == pytest.approx(0.5, abs=1e-9)
     assert found.normal[0] == pytest.approx(-1.0 if swap else 1.0)
@@ -65,7 +67,8 @@ def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
 @pytest.mark.parametrize("half", [2e-4, 1e-5])
 def test_point_like_disc_past_a_short_edge(half):
     """C2: a miss or a unit normal."""
-    found = time_of_impact(Circle(1e-9), (0.506, 0.0035, 0), (0.496, -0.4965, 0), Polygon.box(1.0, 2 * half), O, O)
+    edge = Polygon.box(1.0, 2 * half)
+    found = time_of_impact(Circle(1e-9), (0.506, 0.0035, 0), (0.496, -0.4965, 0), edge, ORIGIN, ORIGIN)
     assert not found.hit or math.hypot(*found.normal) == pytest.approx(1.0, abs=1e-12)
 
 
@@ -80,13 +83,13 @@ def test_touching_at_the_start_counts_when_it_approaches(shapes, move, hit, gap)
     """C16: approaching 0; separating, sliding and resting look on."""
     if move == (0, 5) and gap < 0.0 and shapes[1] == Circle(1) and shapes[0] == Circle(1):
         return  # overlapping discs that pass each other part at once
-    found = time_of_impact(shapes[0], O, (*move, 0), shapes[1], (2 + gap, 0, 0), (2 + gap, 0, 0))
+    found = time_of_impact(shapes[0], ORIGIN, (*move, 0), shapes[1], (2 + gap, 0, 0), (2 + gap, 0, 0))
     assert found.fraction == 0.0 and found.hit and found.normal == pytest.approx((1, 0)) if hit else missed(found)
 
 
 def test_what_leaves_and_comes_back_by_turning_is_met_then():
     rod = Polygon.box(20, 1)
-    found = time_of_impact(rod, O, (0, 0, 2 * math.pi), Circle(1.0), (8.0, -1.5, 0), (8.0, -1.5, 0))
+    found = time_of_impact(rod, ORIGIN, (0, 0, 2 * math.pi), Circle(1.0), (8.0, -1.5, 0), (8.0, -1.5, 0))
     assert found.hit and 0.4 < found.fraction < 0.5, "the other end of the rod comes round after half a turn"
     late = found.fraction * 2 * math.pi
     assert distance(rod, (0, 0, late), Circle(1.0), (8.0, -1.5, 0)).distance == pytest.approx(0.0, abs=1e-9)
@@ -94,15 +97,15 @@ def test_what_leaves_and_comes_back_by_turning_is_met_then():
 
 def test_grazing_tangent_and_a_hair_beside():
     """C16: touching is meeting."""
-    assert time_of_impact(Circle(1), (-5, 2, 0), (5, 2, 0), Circle(1), O, O).fraction == pytest.approx(0.5)
-    assert missed(time_of_impact(Circle(1), (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), Circle(1), O, O))
-    assert missed(time_of_impact(BOX, (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), BOX, O, O))
-    assert time_of_impact(BOX, (-5, 2, 0), (5, 2, 0), BOX, O, O).fraction == pytest.approx(0.3)
+    assert time_of_impact(Circle(1), (-5, 2, 0), (5, 2, 0), Circle(1), ORIGIN, ORIGIN).fraction == pytest.approx(0.5)
+    assert missed(time_of_impact(Circle(1), (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), Circle(1), ORIGIN, ORIGIN))
+    assert missed(time_of_impact(BOX, (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), BOX, ORIGIN, ORIGIN))
+    assert time_of_impact(BOX, (-5, 2, 0), (5, 2, 0), BOX, ORIGIN, ORIGIN).fraction == pytest.approx(0.3)
 
 
 def test_ends_exactly_at_the_touch_or_one_step_short():
-    assert time_of_impact(BOX, O, (3, 0, 0), BOX, (5, 0, 0), (5, 0, 0)).fraction == 1.0
-    assert missed(time_of_impact(BOX, O, (3 - 1e-9, 0, 0), BOX, (5, 0, 0), (5, 0, 0)))
+    assert time_of_impact(BOX, ORIGIN, (3, 0, 0), BOX, (5, 0, 0), (5, 0, 0)).fraction == 1.0
+    assert missed(time_of_impact(BOX, ORIGIN, (3 - 1e-9, 0, 0), BOX, (5, 0, 0), (5, 0, 0)))
 
 
 def random_motion(rng):
@@ -120,7 +123,7 @@ def test_turning_hulls_meet_where_dense_sampling_sees_it(seed):
         ]
         radii = [float(rng.choice([0.0, 0.3])) for _ in "ab"]
         room.motion_a[:], room.motion_b[:] = random_motion(rng), random_motion(rng)
-        for local, outline in zip((room.local_a, room.local_b), outlines):
+        for local, outline in zip((room.local_a, room.local_b), outlines, strict=True):
             local[: len(outline)] = outline
         counts = (len(outlines[0]), radii[0], len(outlines[1]), radii[1])
         samples = np.array([separate_at(*counts, t, room) for t in np.linspace(0, 1, 1001 if JIT else 101)])
@@ -158,7 +161,7 @@ KINDS = {
 def test_every_pair_of_kinds_meets_at_distance_nothing_and_mirrors(kind_a, kind_b):
     rng = np.random.default_rng([sorted(KINDS).index(kind_a), sorted(KINDS).index(kind_b)])
     a, b, hits = KINDS[kind_a], KINDS[kind_b], 0
-    for k in range(6 if JIT else 2):
+    for _ in range(6 if JIT else 2):
         # Whole angles for what is measured on the pixel grid, none for tiles.
         turns = [0.0 if {kind} & {"tiles", "mask"} else float(rng.uniform(-2, 2)) for kind in (kind_a, kind_b)]
         start_a, start_b = (-30.0, float(rng.uniform(-8, 8)), 0.0), (30.0, float(rng.uniform(-8, 8)), 0.0)
@@ -174,12 +177,12 @@ def test_every_pair_of_kinds_meets_at_distance_nothing_and_mirrors(kind_a, kind_
         ) == pytest.approx(1.0)
         if "mask" not in (kind_a, kind_b):
             poses = [
-                tuple(p + found.fraction * (q - p) for p, q in zip(*each))
+                tuple(p + found.fraction * (q - p) for p, q in zip(*each, strict=True))
                 for each in ((start_a, end_a), (start_b, end_b))
             ]
             assert abs(distance(a, poses[0], b, poses[1]).distance) <= 1e-8
             before = [
-                tuple(p + max(0.0, found.fraction - 1e-3) * (q - p) for p, q in zip(*each))
+                tuple(p + max(0.0, found.fraction - 1e-3) * (q - p) for p, q in zip(*each, strict=True))
                 for each in ((start_a, end_a), (start_b, end_b))
             ]
             assert distance(a, before[0], b, before[1]).distance > 0.0 or "chain" in (kind_a, kind_b)
@@ -188,21 +191,21 @@ def test_every_pair_of_kinds_meets_at_distance_nothing_and_mirrors(kind_a, kind_
 
 def test_tiles_have_no_seams_and_chains_no_back():
     tiles, box = TileGrid(np.ones((2, 20), bool), 16.0), Polygon.box(10, 10)
-    assert missed(time_of_impact(box, (20, -5, 0), (250, -5, 0), tiles, O, O)), "slides over the seams"
-    assert time_of_impact(box, (20, -40, 0), (250, 60, 0), tiles, O, O).fraction == pytest.approx(0.35)
+    assert missed(time_of_impact(box, (20, -5, 0), (250, -5, 0), tiles, ORIGIN, ORIGIN)), "slides over the seams"
+    assert time_of_impact(box, (20, -40, 0), (250, 60, 0), tiles, ORIGIN, ORIGIN).fraction == pytest.approx(0.35)
     floor = Chain([(0, 0), (50, 0), (100, 0)])
-    assert missed(time_of_impact(box, (10, -5, 0), (90, -5, 0), floor, O, O))
-    assert missed(time_of_impact(box, (50, 40, 0), (50, -60, 0), floor, O, O))
-    assert time_of_impact(box, (50, -40, 0), (50, 60, 0), floor, O, O).fraction == pytest.approx(0.35)
+    assert missed(time_of_impact(box, (10, -5, 0), (90, -5, 0), floor, ORIGIN, ORIGIN))
+    assert missed(time_of_impact(box, (50, 40, 0), (50, -60, 0), floor, ORIGIN, ORIGIN))
+    assert time_of_impact(box, (50, -40, 0), (50, 60, 0), floor, ORIGIN, ORIGIN).fraction == pytest.approx(0.35)
     shelf = TileGrid(np.zeros((1, 3), bool), 16.0, one_way=np.ones((1, 3), bool))
-    assert time_of_impact(box, (24, -20, 0), (24, 40, 0), shelf, O, O).fraction == pytest.approx(0.25)
-    assert missed(time_of_impact(box, (24, 40, 0), (24, -40, 0), shelf, O, O))
+    assert time_of_impact(box, (24, -20, 0), (24, 40, 0), shelf, ORIGIN, ORIGIN).fraction == pytest.approx(0.25)
+    assert missed(time_of_impact(box, (24, 40, 0), (24, -40, 0), shelf, ORIGIN, ORIGIN))
 
 
 def test_bounds_that_grow_as_they_turn():
     """The AABB of a unit square at angle t reaches cos t + sin t."""
     wanted = math.asin(1.2**2 - 1.0) / 2.0
-    found = time_of_impact(Bounds(BOX), O, (0, 0, math.pi / 4), Circle(0.2), (1.4, 0, 0), (1.4, 0, 0))
+    found = time_of_impact(Bounds(BOX), ORIGIN, (0, 0, math.pi / 4), Circle(0.2), (1.4, 0, 0), (1.4, 0, 0))
     assert found.fraction == pytest.approx(wanted / (math.pi / 4), abs=1e-8)
 
 
@@ -283,8 +286,8 @@ def test_fast_thin_rods_never_pass_a_thin_wall():
 
 def test_wrong_arguments_are_named():
     with pytest.raises(ValueError, match="end_b"):
-        time_of_impact(BOX, O, O, TileGrid(np.ones((1, 1), bool), 4.0), O, (0, 0, 1.0))
+        time_of_impact(BOX, ORIGIN, ORIGIN, TileGrid(np.ones((1, 1), bool), 4.0), ORIGIN, (0, 0, 1.0))
     with pytest.raises(TypeError, match="shape_a"):
-        time_of_impact("ball", O, O, BOX, O, O)
+        time_of_impact("ball", ORIGIN, ORIGIN, BOX, ORIGIN, ORIGIN)
     with pytest.raises(ValueError, match="start_a"):
-        time_of_impact(BOX, (0, math.inf, 0), O, BOX, O, O)
+        time_of_impact(BOX, (0, math.inf, 0), ORIGIN, BOX, ORIGIN, ORIGIN)

@@ -27,7 +27,7 @@ def test_bulk_changes_find_what_brute_force_finds_and_stay_balanced(seed):
         kind = str(rng.choice(["static", "dynamic", "kinematic"]))
         for world in worlds:
             if what == 0:
-                for identity, place in zip(chosen.tolist(), fresh.tolist()):
+                for identity, place in zip(chosen.tolist(), fresh.tolist(), strict=True):
                     world.body(identity).move_to(place)
             elif what == 1:
                 for identity in chosen.tolist():

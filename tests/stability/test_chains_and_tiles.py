@@ -1,6 +1,7 @@
 """Ground made of pieces: seams that nothing feels, and thin things that nothing gets through (hard_cases E)."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -79,7 +80,8 @@ def test_a_box_per_tile_is_felt():
 
 
 def test_driven_box_goes_along_a_chain_without_a_hitch():
-    """Unit links, half 0.2, no turning, driven at 2 m/s: never back, never up or down by 0.05, the full way within 5 %."""
+    """Unit links, half 0.2, no turning, driven at 2 m/s: never back, never up or down by 0.05,
+    the full way within 5 %."""
     world = metres()
     world.add_body(Chain([(x, 0.0) for x in range(-2, 39)]), kind="static", material=SMOOTH)
     box = world.add_body(Polygon.box(0.4, 0.4), position=(-1.0, -0.2), fixed_rotation=True, material=SMOOTH)
@@ -113,7 +115,7 @@ def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
     if kind == "chain":
         world.add_body(Chain(points), kind="static", material=SMOOTH)
     else:
-        for (ax, ay), (bx, by) in zip(points, points[1:]):
+        for (ax, ay), (bx, by) in pairwise(points):
             tilt, long = math.atan2(by - ay, bx - ax), math.dist((ax, ay), (bx, by))
             world.add_body(
                 Polygon.box(long, 0.2, center=(long / 2, 0.1)),

@@ -17,10 +17,10 @@ from physics import *
 from physics import JIT
 kind, steps = sys.argv[1], int(sys.argv[2])
 rng = np.random.default_rng(5)
-effects = Effects(response=True, gravity=True, drag=True, rotation=True, friction=True, restitution=True, continuous=True,
-                  sensors=True, one_way=True) if kind != "detection" else Effects(rotation=True)
-world = World(effects, {"hash": SpatialHashGrid, "tree": DynamicTree, "sweep": SweepAndPrune}.get(sys.argv[3], BruteForce)(),
-              "blocking" if kind == "blocking" else None, drag=0.2)
+effects = Effects(response=True, gravity=True, drag=True, rotation=True, friction=True, restitution=True,
+                  continuous=True, sensors=True, one_way=True) if kind != "detection" else Effects(rotation=True)
+strategy = {"hash": SpatialHashGrid, "tree": DynamicTree, "sweep": SweepAndPrune}.get(sys.argv[3], BruteForce)
+world = World(effects, strategy(), "blocking" if kind == "blocking" else None, drag=0.2)
 slopes = np.zeros((2, 16, 2)); slopes[0, 4] = (0, 1); slopes[0, 5] = (1, .5); slopes[0, 6] = (.5, 0)
 solid = np.zeros((2, 16), bool); solid[1] = True
 one_way = np.zeros((2, 16), bool); one_way[0, 10:12] = True

@@ -140,7 +140,7 @@ def test_box_that_passes_a_corner_closely_is_not_touched(phase):
     box = world.add_body(
         Polygon.box(0.5, 0.5), position=(start + past + 0.25, start - past - 0.25), velocity=(7.5, 7.5)
     )
-    for n in range(1, 21):
+    for _ in range(1, 21):
         world.step()
         assert box.velocity == pytest.approx((7.5, 7.5), abs=1e-9) and abs(box.angular_velocity) < 1e-9
     assert box.position == pytest.approx((start + past + 0.25 + 2.5, start - past - 0.25 + 2.5), abs=1e-9)
@@ -189,7 +189,7 @@ def test_bodies_head_on_meet_when_one_is_a_bullet(shape, bullets, through):
     world = flying()
     one, two = (
         world.add_body(shape, position=(-side * 11.5, 0.0), velocity=(side * 200.0, 0.0), bullet=bullet)
-        for side, bullet in zip((1, -1), bullets)
+        for side, bullet in zip((1, -1), bullets, strict=True)
     )
     Watch(world).step(12)
     assert (one.position[0] > two.position[0]) == through
@@ -308,7 +308,8 @@ def test_thin_rods_pass_thin_walls_when_off_and_never_when_on(mode):
 
 @pytest.mark.parametrize("bullet", [True, False])
 def test_500_bullets_against_500(bullet):
-    """Lane by lane, of all shapes, sizes and speeds: none is behind the other before they met; not swept, most never meet."""
+    """Lane by lane, of all shapes, sizes and speeds: none is behind the other before they met;
+    not swept, most never meet."""
     count = 500 if JIT else 20
     rng = np.random.default_rng(5)
     world = World(STILL, solver="soft_step", gravity=(0, 0))
@@ -332,8 +333,8 @@ def test_500_bullets_against_500(bullet):
     watch, met, passed = Watch(world, capped=True), np.zeros(count, bool), np.zeros(count, bool)
     for _ in range(12):
         watch.step()
-        begun = set(zip(world.events.begin["body_a"].tolist(), world.events.begin["body_b"].tolist()))
-        now = np.array([pair in begun for pair in zip(*sides)])
+        begun = set(zip(world.events.begin["body_a"].tolist(), world.events.begin["body_b"].tolist(), strict=True))
+        now = np.array([pair in begun for pair in zip(*sides, strict=True)])
         behind = world.bodies["center_x"][left] > world.bodies["center_x"][right]
         # What has met may roll off and round: only the moment counts at which they meet.
         passed |= behind & ~met

@@ -1,4 +1,5 @@
-"""Friction that holds and lets go where it should, bounces that neither gain nor die (hard_cases F13 to F15, F20 to F28)."""
+"""Friction that holds and lets go where it should, bounces that neither gain nor die (hard_cases F13 to F15,
+F20 to F28)."""
 
 import math
 
@@ -134,7 +135,7 @@ def test_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass():
     assert 7.0 / (dense[12] - dense[5]) == pytest.approx(speed, rel=1e-6)
 
 
-# --- bounces -----------------------------------------------------------------------------------------------------------
+# --- bounces ----------------------------------------------------------------------------------------------------------
 
 
 def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.6, substeps=4):
@@ -168,10 +169,11 @@ def test_apex_is_the_square_of_restitution_whatever_the_margin(solver, restituti
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
-    """e = 1: what is lost is at most the way of two steps at the speed of the impact, so it shrinks with dt; nothing is won."""
+    """e = 1: what is lost is at most the way of two steps at the speed of the impact, so it shrinks with dt;
+    nothing is won."""
     lost = [2.0 - first_apex(solver, 1.0, dt=dt) for dt in (1 / 60, 1 / 240, 1 / 960)]
     assert min(lost) >= -0.01 * 2.0
-    for missing, dt in zip(lost, (1 / 60, 1 / 240, 1 / 960)):
+    for missing, dt in zip(lost, (1 / 60, 1 / 240, 1 / 960), strict=True):
         assert abs(missing) <= 2 * math.sqrt(40.0) * dt
 
 

@@ -1,4 +1,5 @@
-"""The same run twice, from a snapshot, in another process, far away, mirrored, weighed anew (hard_cases L, J, I6, U8, U9)."""
+"""The same run twice, from a snapshot, in another process, far away, mirrored, weighed anew (hard_cases L, J, I6, U8,
+U9)."""
 
 import os
 import subprocess
@@ -127,7 +128,8 @@ print(cairn(sys.argv[1], 200))
 
 
 def cairn(solver, steps):
-    """Digest of eight balls and eighty boxes that fall on a floor and sleep, and the step at which the last one does."""
+    """Digest of eight balls and eighty boxes that fall on a floor and sleep,
+    and the step at which the last one does."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world)
     world.add_bodies(Circle(0.4), [(1.0 * k - 3.5, -4.0 - 0.3 * k) for k in range(8)])
@@ -190,7 +192,7 @@ def test_stack_stands_while_the_step_changes(solver, change):
     boxes = column(world, 10)
     watch = Watch(world).step(120)
     rng = np.random.default_rng(2)
-    for n in range(240):
+    for _ in range(240):
         dt = {
             "a little every frame": (1 + 0.01 * rng.uniform(-1, 1)) / 60,
             "half as long at once": 1 / 120,
@@ -239,7 +241,7 @@ def test_zero_dt_moves_nothing_and_keeps_the_contacts():
     assert rms_speed(world) < 0.05
 
 
-# --- far away, mirrored, in another order, of another mass ---------------------------------------------------------------
+# --- far away, mirrored, in another order, of another mass ------------------------------------------------------------
 
 
 def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", steps=60, round_only=False):
@@ -355,7 +357,7 @@ def test_angle_after_a_million_turns_is_still_an_angle():
     assert np.sin(body.angle - other.angle) == pytest.approx(0.0, abs=1e-8)
 
 
-# --- an hour -------------------------------------------------------------------------------------------------------------
+# --- an hour ----------------------------------------------------------------------------------------------------------
 
 
 def hour(steps, solver="soft_step"):

@@ -69,7 +69,7 @@ def test_undeclared_sleeping_never_sleeps():
     assert box.awake and len(world.contacts) > 0
 
 
-# --- what wakes ----------------------------------------------------------------------------------------------------------
+# --- what wakes -------------------------------------------------------------------------------------------------------
 
 
 def knock(world, ground, boxes):
@@ -228,7 +228,7 @@ def test_woken_body_stays_where_it_lay(solver):
         watch = Watch(world, passive=True)
         for _ in range(60):
             watch.step()
-            assert all(math.dist(box.position, at) <= SLOP for box, at in zip(boxes, before))
+            assert all(math.dist(box.position, at) <= SLOP for box, at in zip(boxes, before, strict=True))
         assert awake(boxes) == [False] * 3
 
 
@@ -242,9 +242,8 @@ def test_sleeper_over_a_sensor_is_heard_once_and_once_when_it_leaves(kind):
 
     def listen():
         for heard, rows in ((begun, world.events.sensor_begin), (ended, world.events.sensor_end)):
-            heard.extend(
-                b for a, b in zip(rows["body_a"].tolist(), rows["body_b"].tolist()) if a == pad.id and b == box.id
-            )
+            sides = zip(rows["body_a"].tolist(), rows["body_b"].tolist(), strict=True)
+            heard.extend(b for a, b in sides if (a, b) == (pad.id, box.id))
 
     Watch(world).step(180, each=listen)
     assert not box.awake and begun == [box.id] and ended == []
@@ -284,7 +283,7 @@ def test_row_of_sleepers_wakes_box_by_box_as_the_bullet_comes():
     for _ in range(60):
         watch.step()
         moved = [abs(box.position[0] - 1.5 * k) > SLOP for k, box in enumerate(boxes)]
-        assert all(box.awake for box, gone in zip(boxes, moved) if gone)
+        assert all(box.awake for box, gone in zip(boxes, moved, strict=True) if gone)
     assert moved[0]
     watch.step(400)
     assert not any(awake(boxes))

@@ -1,4 +1,5 @@
-"""Stacks, mass ratios, arches (hard_cases F1 to F7, F16, F25): they stand, sink by less than the slop, and come to rest."""
+"""Stacks, mass ratios, arches (hard_cases F1 to F7, F16, F25):
+they stand, sink by less than the slop, and come to rest."""
 
 import math
 
@@ -64,7 +65,7 @@ def test_without_friction_in_the_joints_the_shifted_column_slides_apart():
 @needs_speed
 @pytest.mark.xfail(
     strict=True,
-    reason="one pass per substep does not carry a load through 80 boxes: it sags by 2.9 m and folds, at 8 substeps as at 32",
+    reason="one pass per substep does not carry a load through 80 boxes: it sags by 2.9 m and folds, with 8 as with 32",
 )
 def test_column_of_eighty_stands():
     world = metres(substeps=8)
@@ -156,7 +157,7 @@ def test_big_box_falls_on_two_small_props(props):
     Watch(world, passive=True).step(600)
     sunk = 200.0 * G / ((1.0 if props == "boxes" else 0.5) * STIFFNESS)
     assert -big.position[1] > 11.0 - 2 * sunk and deepest(world) <= 2 * sunk
-    for prop, x in zip(small, (-9.0, 9.0)):
+    for prop, x in zip(small, (-9.0, 9.0), strict=True):
         assert abs(prop.position[0] - x) < 1.0, "neither shot out from under it"
 
 

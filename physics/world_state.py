@@ -1,0 +1,179 @@
+"""WorldState: what a world keeps from step to step, by name and type, and the looks at it that its parts share."""
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from physics.broadphase.pair_list import PairList
+from physics.broadphase.proxies import Strategy
+from physics.broadphase.rectangles import write_rectangles
+from physics.collision.manifold import contacts_of
+from physics.dynamics.awake import Awake
+from physics.dynamics.sleepers import Sleepers
+from physics.effects import Effects
+from physics.events import Events, Pairs
+from physics.profile import Profile
+from physics.queries.index import QueryIndex
+from physics.settings import Tolerances
+from physics.shapes.kinds import Shape
+from physics.shapes.library import Library
+from physics.tables.body import STATIC
+from physics.tables.rows import rows_of
+from physics.tables.step_state import Stage
+from physics.tables.table import Table
+
+
+class WorldState:
+    """The fields of a World, which fills them; Environment adds the settings, and nothing else inherits from this."""
+
+    tolerances: Tolerances
+    library: Library
+    characters: Table
+    random: np.random.Generator
+    pairs: PairList
+    awake: Awake
+    sleepers: Sleepers
+    manifolds: np.ndarray
+    anchors: np.ndarray
+    sensed: np.ndarray | None
+    ghosts: np.ndarray | None
+    touching: Pairs
+    sensing: Pairs
+    queries: QueryIndex
+    events: Events
+    steps: int  # made so far
+    profile: Profile
+    workspace: Any  # a Workspace of step.py, whose stages are given what stands here
+    # Properties of Environment.
+    solver: str
+    substeps: int
+    broadphase: Strategy
+    gravity: tuple[float, float]
+    drag: float
+    wind: tuple[float, float]
+    dt: float
+    stacks: bool
+    sleeps: bool
+
+    _effects: Effects
+    _stages: tuple[Stage, ...]
+    _stepping: bool
+    _bodies: Table
+    _shapes: Table
+    _next_body: int
+    _next_shape: int
+    _users: dict[int, Any]  # these four by body id
+    _shapes_of: dict[int, tuple[Shape, ...]]
+    _tiers: dict[int, str]
+    _sources: dict[int, tuple[Shape, ...]]
+    _broadphase: Strategy
+    _told: tuple[np.ndarray, np.ndarray | None]
+    _contacts: np.ndarray | None
+
+    # --- tables --------------------------------------------------------------------------------------------------
+
+    @property
+    def bodies(self) -> np.ndarray:
+        """BODY rows in the order of ids: a view, valid until a body is added or removed."""
+        return self._bodies.rows
+
+    @property
+    def shapes(self) -> np.ndarray:
+        """SHAPE rows in the order of ids: a view, valid until a body is added or removed."""
+        return self._shapes.rows
+
+    @property
+    def contacts(self) -> np.ndarray:
+        """CONTACT rows of what touched, was pushed, or met on the way in the last step, in order of shape ids."""
+        if self._contacts is None:
+            self._contacts = contacts_of(self.told_manifolds())
+        return self._contacts
+
+    def told_manifolds(self) -> np.ndarray:
+        """MANIFOLD rows that `contacts` lists the points of."""
+        manifolds, keep = self._told
+        return manifolds if keep is None or keep.all() else manifolds[keep]
+
+    @property
+    def sleeping_contacts(self) -> np.ndarray:
+        """CONTACT rows, as `contacts`, of the pairs that sleep, as they were when they fell asleep."""
+        return contacts_of(self.sleepers.manifolds())
+
+    def tell_contacts(self, manifolds: np.ndarray, keep: np.ndarray | None = None) -> None:
+        """Take in the manifolds of a step, of which the flagged ones count; points are listed when somebody looks."""
+        self._told, self._contacts = (manifolds, keep), None
+
+    @property
+    def candidates(self) -> np.ndarray:
+        """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
+        return self.pairs.ids(self.shapes).astype(np.int32)
+
+    def rows(self, ids: int | Sequence[int] | np.ndarray) -> np.ndarray:
+        """Row numbers of body ids in `world.bodies`. Raises KeyError for an id that is not there."""
+        ids = np.asarray(ids, np.int64)
+        rows = rows_of(self.bodies, ids.ravel())
+        if (rows < 0).any():
+            raise KeyError(f"no body {ids.ravel()[rows < 0][0]} in this world")
+        return rows.reshape(ids.shape)
+
+    def refresh_character_rows(self) -> None:
+        """Bring the body rows of the characters up to date."""
+        characters = self.characters.rows
+        if len(characters):
+            characters["body_row"] = rows_of(self.bodies, characters["body"])
+
+    def rebuild_proxies(self) -> None:
+        """Give every shape a new place in the broad phase: the tables were replaced."""
+        self.pairs = PairList(self.sleeps)
+        self.awake.start_over()
+        self._broadphase = self._broadphase.fresh()
+        active = ~self.bodies["quarantined"][self.shapes["body_row"]]
+        rows = np.flatnonzero(active)
+        self.shapes["proxy"] = -1
+        self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
+        # What is not awake gets no rectangle in the next step: here, once.
+        changed = write_rectangles(self, rows)
+        self.pairs.again.append(self.pairs.changed[:changed].copy())
+
+    @property
+    def effects(self) -> Effects:
+        """What the scene calls for. Declared once; `set_narrowphase` alone switches."""
+        return self._effects
+
+    @property
+    def stages(self) -> list[str]:
+        """Names of the stages that the effects call for, in the order in which they run."""
+        return [stage.stage for stage in self._stages]
+
+    # --- what World, Body and editing ask for ------------------------------------------------------------------------
+
+    def _unlocked(self) -> None:
+        if self._stepping:
+            raise RuntimeError("the world cannot be changed during its step: read the events after it")
+
+    def _row_number(self, identity: int) -> int:
+        count = self._bodies.count
+        row = bisect_left(self._bodies.data["id"], identity, 0, count)
+        if row == count or self._bodies.data["id"][row] != identity:
+            raise KeyError(f"body {identity} is not in this world (removed, or never added)")
+        return row
+
+    def _body_row(self, identity: int) -> np.void:
+        return self._bodies.data[self._row_number(identity)]
+
+    def _drop_shapes(self, keep: np.ndarray) -> None:
+        self.pairs.ids(self.shapes)  # named while the rows still stand
+        self.pairs.free_proxies(self.shapes["proxy"][~keep])
+        self._shapes.keep(keep)
+        self.pairs.rename(self.shapes)
+        self.awake.forget_shapes()
+
+    def _needs(self, effect: str, what: str, asked: bool) -> None:
+        if asked and not getattr(self._effects, effect):
+            raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
+
+    def _needs_velocities(self, what: str) -> None:
+        if "integrate_velocities" not in self.stages and not self.stacks:
+            raise ValueError(f"{what} needs one of the effects response, gravity, drag, wind")
