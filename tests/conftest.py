@@ -53,7 +53,7 @@ QUICK = {
     "tests/regress": ("test_physics_found", "test_rigid_bodies_found", "test_turned_parts"),
     "tests/assets": ("test_art_images", "test_art_levels", "test_music_notation"),
 }
-LONGEST = ("test_scenes.py",)  # a minute for each game
+LONGEST = ("test_scenes.py", "test_flashes.py", "test_ten_minutes.py")  # a minute and more for each game
 ROOT = Path(__file__).resolve().parent.parent
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
