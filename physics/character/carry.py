@@ -77,7 +77,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 
 @subkernel
-def way_out(me, row, along_x, box, walk_inout):
+def way_clear(me, row, along_x, box, walk_inout):
     """Whole pixels along an axis, the way a solid moved, that take a character out of what it swept; 0: it is out."""
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
@@ -103,7 +103,7 @@ def carry_one(me, row, along_x, box, walk_inout):
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
     c.carried = 0
-    way = box[4] if c.riding == s.body else way_out(me, row, along_x, box, walk_inout)
+    way = box[4] if c.riding == s.body else way_clear(me, row, along_x, box, walk_inout)
     if way == 0:
         return
     if along_x == 1:

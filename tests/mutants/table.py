@@ -27,7 +27,7 @@ class Mutant:
 MUTANTS = (
     # finding pairs
     Mutant("overlaps", "edge", ("test_awkward_boxes_pair_as_the_double_loop_says",)),
-    Mutant("may_meet", "both", ("test_two_statics_and_one_bodys_own_shapes_never_pair",)),
+    Mutant("may_meet", "both", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
     Mutant("sweep_intervals", "turn", ("test_random_boxes_pair_as_the_double_loop_says",)),
     Mutant("rotate", "turn", ("test_tree_stays_low_through_sorted_insertions_and_removals",)),
     Mutant("level_of", "turn", ("test_giant_ground_under_small_boxes_pairs_with_each",)),
@@ -55,7 +55,7 @@ MUTANTS = (
     Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
     Mutant("warm_start", "sign", ("test_pyramid_that_starts_a_quarter_inside_itself",)),
     Mutant("gather_motions", "factor", ("test_sliding_disc_rolls_after_two_thirds",)),
-    Mutant("mix_materials", "factor", ("test_stopping_distance",)),
+    Mutant("mixed", "factor", ("test_stopping_distance",)),
     Mutant("solve_soft", "sign", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
     Mutant("push_pair", "sign", ("test_cradle_hands_on_the_velocity",), seed=2),
     Mutant("bounce_once", "side", ("test_bounces_rise_by_the_square_of_restitution",)),
