@@ -6,6 +6,7 @@ import numpy as np
 
 from physics import checks, editing
 from physics.checks import Pair
+from physics.collision.manifold import contacts_of
 from physics.dynamics import sleep
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
@@ -125,6 +126,16 @@ class Body:
         """The shapes as they were given; with a tier, what they are replaced by."""
         self._must_exist()
         return self.world._shapes_of[self.id]
+
+    @property
+    def contacts(self) -> np.ndarray:
+        """CONTACT rows that name it, of the last step or asleep, in the order of shape ids: a copy."""
+        world, row = self.world, self._row
+        told = world.contacts
+        told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
+        asleep = contacts_of(world.sleepers.naming(self.id, int(row["island"])))
+        both = np.concatenate([told, asleep])
+        return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     @property
     def filter(self) -> Filter:

@@ -80,6 +80,14 @@ class Sleepers:
         for key, part in zip(names.tolist(), np.split(rows[order], starts[1:]), strict=True):
             self.islands[key] = self.islands[key]._replace(touching=part)
 
+    def naming(self, identity: int, own: int) -> np.ndarray:
+        """MANIFOLD rows that sleep and name a body; own: its island, if it sleeps in one."""
+        parts = [np.zeros(0, MANIFOLD)]
+        for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
+            m = self.islands[key].manifolds
+            parts.append(m[(m["body_a"] == identity) | (m["body_b"] == identity)])
+        return in_order(np.concatenate(parts))
+
     def manifolds(self) -> np.ndarray:
         """MANIFOLD rows of all islands in the order of shape ids."""
         return in_order(np.concatenate([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
