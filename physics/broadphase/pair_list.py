@@ -165,7 +165,8 @@ class PairList:
 
     def _collect(self, strategy, shapes):
         arena, proxies = self.arena, self.proxies
-        found = arena.collect(strategy.query(arena))
+        # Where nothing changed, pairs may only have come to rest: there is nothing to ask a strategy.
+        found = arena.collect(strategy.query(arena)) if len(arena.changed) else 0
         if len(self.spare) < self.count:
             self.spare = np.zeros_like(self.slots)
         kept = keep_pairs(proxies, self.slots, self.count, self.spare)

@@ -363,7 +363,11 @@ def _park(state, slept):
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
     parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
-    sides = [bodies["island"][parked[side]] for side in ("body_row_a", "body_row_b")]
+    # What is not dynamic is in no island, whatever it was in before it changed its kind.
+    sides = [
+        np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)
+        for side in ("body_row_a", "body_row_b")
+    ]
     keys = np.where(new, *sides)
     # By island: its bodies, and its manifolds in their order.
     islands = bodies["island"][slept]

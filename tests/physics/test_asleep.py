@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from physics import Circle, Effects, Polygon, World
+from physics import BROADPHASES, Circle, Effects, Polygon, World
 
 BOX = Polygon.box(16, 16)
 
@@ -216,3 +216,32 @@ def test_many_islands_fall_asleep_in_one_step():
     world.body(int(ids[7])).apply_impulse((1e5, 0.0))
     world.step()
     assert len(world.sleepers.islands) == 299 and len(world.awake.dynamic) == 1
+
+
+def test_what_was_in_an_island_and_now_stands_is_ground():
+    """Its island's number stood on in its row: what slept on it was taken for its own, and waking looked for more."""
+    world, _, boxes = pile()
+    boxes[0].set_kind("static")
+    fall_asleep(world, boxes[1:])
+    assert boxes[0].id in world.sleepers.links
+    boxes[0].move_to((0.0, -6.0))
+    assert boxes[1].awake and boxes[2].awake
+    fall_asleep(world, boxes[1:])
+    boxes[2].wake()
+    world.step()
+
+
+@pytest.mark.parametrize("strategy", BROADPHASES)
+def test_falling_asleep_leaves_each_pair_once(strategy):
+    """Nothing changed but what is awake: sweep and prune was asked all the same, by what had changed before."""
+    world = World(broadphase=BROADPHASES[strategy]())
+    floor(world)
+    boxes = [world.add_body(BOX, position=(40.0 * k - 60, -8 - 16 * j)) for k in range(3) for j in range(2)]
+    rolling = world.add_body(Circle(5), position=(-190, -5), velocity=(30, 0), angular_velocity=6.0)
+    for step in range(200):
+        world.step()
+        if step % 7 == 0:
+            boxes[step % 6].wake()
+        pairs = world.candidates
+        assert len(np.unique(pairs, axis=0)) == len(pairs)
+    assert rolling.position[0] > -150

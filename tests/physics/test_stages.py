@@ -54,6 +54,8 @@ def photographed(state) -> dict:
         value = getattr(state, name)
         if name == "workspace":
             continue
+        if name == "queries":  # which tables it has seen is a name for them, not a copy
+            value = {each: part for each, part in vars(value).items() if each != "seen"}
         if name in ("bodies", "shapes"):
             for column in value.dtype.names:
                 found[f"{name}.{column}"] = value[column].tobytes()
