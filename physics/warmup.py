@@ -10,6 +10,7 @@ from physics.broadphase.dynamic_tree import REBUILD_FROM, DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character
+from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.proximity.trace import steps_of
 from physics.settings import SLEEP_TIME
@@ -18,6 +19,7 @@ from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.tiles import TileGrid
+from physics.tables.rows import rows_of
 from physics.world import World
 
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
@@ -67,6 +69,8 @@ def warmup(
             runs += [
                 (piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]
             ]
+            if piece == "tiles":
+                runs.append((piece, lambda: _ground(effects, solver, TILES)))
         elif piece in QUESTIONS:
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
         elif piece == "characters" and effects.response:
@@ -89,8 +93,21 @@ def _small_world(effects, solver, strategy, pair):
     world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
     world.query_aabb((0, 0), (1, 1))  # what the strategy answers to a query
+    world.rows(world.bodies["id"])
+    rows_of(world.shapes, world.shapes["id"])
+    world.told_manifolds()
+    contacts_of(world.manifolds)
     world.remove_body(first)
     world.step()
+
+
+def _ground(effects, solver, tiles):
+    """What stands on tiles, and stood there in the step before."""
+    world = World(effects, solver=solver)
+    world.add_body(tiles, kind="static")
+    world.add_body(BOX, position=(8.0, -4.0))
+    for _ in range(3):
+        world.step()
 
 
 def _rest(effects, solver):

@@ -221,14 +221,16 @@ def test_many_islands_fall_asleep_in_one_step():
 def test_what_was_in_an_island_and_now_stands_is_ground():
     """Its island's number stood on in its row: what slept on it was taken for its own, and waking looked for more."""
     world, _, boxes = pile()
-    boxes[0].set_kind("static")
-    fall_asleep(world, boxes[1:])
-    assert boxes[0].id in world.sleepers.links
-    boxes[0].move_to((0.0, -6.0))
-    assert boxes[1].awake and boxes[2].awake
-    fall_asleep(world, boxes[1:])
     boxes[2].wake()
     world.step()
+    boxes[2].set_kind("static")
+    fall_asleep(world, boxes[:2])
+    assert boxes[2].id in world.sleepers.links
+    boxes[0].wake()
+    world.step()
+    fall_asleep(world, boxes[:2])
+    boxes[2].move_to((0.0, -60.0))
+    assert boxes[0].awake and boxes[1].awake
 
 
 @pytest.mark.parametrize("strategy", BROADPHASES)
