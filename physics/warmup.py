@@ -102,10 +102,10 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _ground(effects, solver, tiles):
-    """What stands on tiles, and stood there in the step before."""
+    """What slides on tiles, and was there in the step before."""
     world = World(effects, solver=solver)
     world.add_body(tiles, kind="static")
-    world.add_body(BOX, position=(8.0, -4.0))
+    world.add_body(BOX, position=(8.0, -4.0), velocity=(120.0, 0.0))
     for _ in range(3):
         world.step()
 
