@@ -23,6 +23,8 @@ WANTED = {
 }
 GOAL_DUE = 9000  # [steps]
 
+TILT = 0.1  # rise per px from which ground is a slope that was walked
+
 
 class Feats:
     """`done`: how often, or in how many steps, by name."""
@@ -41,7 +43,7 @@ class Feats:
         self.inside_solid += scene.level.blocks(left, top, WIDTH, HEIGHT)
         for word, name in WORDS.items():
             done[name] += word in hero.news
-        done["slope"] += hero.grounded and hero.slope != 0.0
+        done["slope"] += hero.grounded and abs(hero.slope) >= TILT  # a crate tilts by less
         done["slid"] += hero.sliding != 0
         done["ladder"] += hero.ladder is not None
         done["belt"] += hero.grounded and hero.character.surface_speed != 0.0

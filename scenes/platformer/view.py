@@ -340,4 +340,6 @@ def lowered(level, hero):
     if hero.slope == 0.0:
         return 0.0
     left, _, right, bottom = hero.box
-    return level.drop_to_ground((left + right) / 2, bottom, 0.5 * (right - left))
+    half = 0.5 * (right - left)
+    # No further than the slope falls from his corner to his middle: a crate that tilts a little is ground as well.
+    return min(level.drop_to_ground((left + right) / 2, bottom, half), abs(hero.slope) * half)
