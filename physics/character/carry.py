@@ -14,12 +14,12 @@ from physics.character.push import press, tell_weight
 from physics.character.ride import give_way, note_feet, ride_bodies, take_back
 from physics.character.shift import carried_by, carry_riders, shift
 from physics.character.solids import aabb_of, in_shape, is_box, is_loose, round_half_up
-from physics.character.workspace import character_of, find_own_rows, row_of, walk_for
+from physics.character.workspace import character_of, find_own_rows, walk_for
 from physics.dynamics.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, refresh_aabbs
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
-from physics.tables.rows import rows_of
+from physics.tables.rows import row_of, rows_of
 from physics.tables.step_state import StepState, stage
 
 

@@ -7,9 +7,9 @@ impulses of its own, and the solver leaves out what lies under its feet: to that
 from physics.character.ground import BLOCKED, STEEP
 from physics.character.meet import meet, place_outline
 from physics.character.solids import in_shape
-from physics.character.workspace import row_of
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.rows import row_of
 
 
 @subkernel

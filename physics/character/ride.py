@@ -10,10 +10,11 @@ from physics.character.push import foot_of
 from physics.character.shift import GIVE, carried_by, carry_riders, shift
 from physics.character.solids import gather, is_loose
 from physics.character.walk import whole_pixels
-from physics.character.workspace import place_body, row_of, settle
+from physics.character.workspace import place_body, settle
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.tables.body import DYNAMIC
+from physics.tables.rows import row_of
 from physics.tables.shape import CHAIN
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from physics.collision.manifold import POINTS
 from physics.jit import kernel, subkernel
 from physics.tables.geometry import Geometry
+from physics.tables.rows import row_of
 
 COLUMNS = 33  # pixel columns of a mask whose surface is looked at around a foot
 
@@ -68,20 +69,6 @@ def walk_for(tables, characters, near, spans, dt) -> Walk:
         tables.workspace.walk,
         Settings(int(effects.stacking), int(effects.rotation), int(effects.conveyor), dt, tables.tolerances.slop),
     )
-
-
-@subkernel
-def row_of(table, identity):
-    """The row of an id in a table in the order of ids, or -1. O(log rows)."""
-    low = 0
-    high = len(table)
-    while low < high:
-        middle = (low + high) // 2
-        if table[middle].id < identity:
-            low = middle + 1
-        else:
-            high = middle
-    return low if low < len(table) and table[low].id == identity else -1
 
 
 @subkernel

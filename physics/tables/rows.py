@@ -3,7 +3,21 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
+
+
+@subkernel
+def row_of(table, identity):
+    """The row of an id in a table in the order of ids, or -1. O(log rows)."""
+    low = 0
+    high = len(table)
+    while low < high:
+        middle = (low + high) // 2
+        if table[middle].id < identity:
+            low = middle + 1
+        else:
+            high = middle
+    return low if low < len(table) and table[low].id == identity else -1
 
 
 @kernel
@@ -18,17 +32,8 @@ def find_rows(
 
     ids, rows_out (n) int64. O(n log rows).
     """
-    count = len(table)
     for k in range(len(ids)):
-        low = 0
-        high = count
-        while low < high:
-            middle = (low + high) // 2
-            if table[middle].id < ids[k]:
-                low = middle + 1
-            else:
-                high = middle
-        rows_out[k] = low if low < count and table[low].id == ids[k] else -1
+        rows_out[k] = row_of(table, ids[k])
 
 
 def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
