@@ -2,6 +2,7 @@
 
 import ast
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -43,7 +44,8 @@ def is_module(name: str) -> bool:
     return path.with_suffix(".py").is_file() or (path / "__init__.py").is_file()
 
 
-def imports_of(path: Path) -> set[str]:
+@cache
+def imports_of(path: Path) -> frozenset[str]:
     """Full names of the modules that a file imports, wherever the statement stands.
 
     `from p import m` names p.m if that is a module, else p.
@@ -58,7 +60,7 @@ def imports_of(path: Path) -> set[str]:
             for alias in node.names:
                 inner = f"{module}.{alias.name}"
                 found.add(inner if is_module(inner) else module)
-    return found
+    return frozenset(found)
 
 
 def graph(folder: str) -> dict[str, set[str]]:

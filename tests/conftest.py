@@ -62,10 +62,9 @@ sys.path.insert(0, str(ROOT))
 
 
 def pytest_sessionstart(session):
-    """Before workers start on the whole suite, compile what they would otherwise each compile."""
+    """Before workers start, compile what they would otherwise each compile."""
     workers = session.config.getoption("numprocesses", None)
-    whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
-    if workers and whole and "NUMBA_DISABLE_JIT" not in os.environ and not hasattr(session.config, "workerinput"):
+    if workers and "NUMBA_DISABLE_JIT" not in os.environ and not hasattr(session.config, "workerinput"):
         from tests.warm_kernels import warm_up_side_by_side
 
         warm_up_side_by_side(workers)

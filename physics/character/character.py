@@ -1,7 +1,7 @@
 """Character: the player's body in a platformer, in whole pixels, with everything a jump needs to know."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -9,9 +9,11 @@ from physics import checks
 from physics.character.ground import STEEPEST_CLIMB
 from physics.character.walk import is_stopped, walk
 from physics.character.workspace import find_own_rows, walk_for
+from physics.checks import Pair
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.filter import Filter
+from physics.shapes.kinds import Shape
 from physics.shapes.mask import PixelMask
 
 LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
@@ -52,16 +54,16 @@ class Character:
 
     def __init__(
         self,
-        world,
-        shape,
-        position,
-        filter=Filter.ALL,
-        pushable=False,
-        user=None,
-        mass=None,
-        push=None,
-        max_slope=MAX_SLOPE,
-    ):
+        world: Any,  # a World, which is built on this folder
+        shape: Shape,
+        position: Pair,
+        filter: Filter = Filter.ALL,
+        pushable: bool = False,
+        user: Any = None,
+        mass: float | None = None,
+        push: float | None = None,
+        max_slope: float = MAX_SLOPE,
+    ) -> None:
         world._needs("response", "a Character", True)
         world._needs("stacking", "mass", mass is not None)
         world._needs("stacking", "push", push is not None)
@@ -95,7 +97,7 @@ class Character:
         row["riding"] = row["riding_shape"] = row["pressed"] = -1
 
     @property
-    def _row(self):
+    def _row(self) -> int:
         rows = self.world.characters.rows
         at = int(np.searchsorted(rows["body"], self.body.id))
         if at == len(rows) or rows["body"][at] != self.body.id:
@@ -103,30 +105,30 @@ class Character:
         return at
 
     @property
-    def position(self):
+    def position(self) -> tuple[float, float]:
         """Of the shape's origin [px]."""
         return self.body.position
 
     @property
-    def previous(self):
+    def previous(self) -> tuple[float, float]:
         """Of the shape's origin before the last move [px], for interpolated drawing."""
         row = self.world.characters.rows[self._row]
         return (float(row["previous_left"] + row["offset_x"]), float(row["previous_top"] + row["offset_y"]))
 
     @property
-    def max_slope(self):
+    def max_slope(self) -> float:
         """The steepest ground that it walks [rad]."""
         return math.atan(self.world.characters.rows["climb"][self._row])
 
     @property
-    def surface_speed(self):
+    def surface_speed(self) -> float:
         """Speed [px/s] at which the ground under its feet runs to the right, felt in the last move; 0 in the air.
 
         It carries the character in a step of a world with the effect conveyor.
         """
         return float(self.world.characters.rows["belt"][self._row])
 
-    def move(self, dx, dy, drop=False) -> Moved:
+    def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
 
         Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope.
@@ -154,7 +156,7 @@ class Character:
             squeezed,
         )
 
-    def blocked(self, dx, dy) -> bool:
+    def blocked(self, dx: float, dy: float) -> bool:
         """Whether a move by (dx, dy) [px] would be stopped at once: not one pixel of it is free, along x or along y.
 
         What can be pushed by walking, and slopes that it walks or slides down, stop nothing. Changes nothing. Raises
@@ -187,7 +189,7 @@ class Character:
         spans[:, 1] = len(near)
         return walk_for(world, rows, near, spans, world.dt)
 
-    def move_to(self, position):
+    def move_to(self, position: Pair) -> None:
         """Put the shape's origin at the place on the pixel grid nearest to a position [px], without walking there."""
         self.world._unlocked()
         x, y = checks.position("position", position)
@@ -200,7 +202,7 @@ class Character:
         row["grounded"], row["squeezed"] = False, False
         self.body.move_to((float(row["left"][0] + row["offset_x"][0]), float(row["top"][0] + row["offset_y"][0])))
 
-    def remove(self):
+    def remove(self) -> None:
         """Remove the character and its body."""
         self.world.remove_body(self.body)
 

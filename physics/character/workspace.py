@@ -8,6 +8,7 @@ from physics.collision.manifold import POINTS
 from physics.jit import kernel, subkernel
 from physics.tables.geometry import Geometry
 from physics.tables.rows import row_of
+from physics.tables.world_tables import WorldTables
 
 COLUMNS = 33  # pixel columns of a mask whose surface is looked at around a foot
 
@@ -52,7 +53,7 @@ def new_scratch() -> Scratch:
     return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS), np.zeros(16), np.zeros(COLUMNS, np.int64))
 
 
-def walk_for(tables, characters, near, spans, dt) -> Walk:
+def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
     """The context of a world, or of its StepState, for dt [s]. characters: CHARACTER rows; near, spans: as in Walk."""
     effects = tables.effects
     room = len(near) + 1

@@ -22,6 +22,7 @@ class WorldTables(Protocol):
     sensing: Any
     library: Any  # shapes.library.Library
     tolerances: Tolerances
+    workspace: Any  # step.Workspace
 
     @property
     def bodies(self) -> np.ndarray:

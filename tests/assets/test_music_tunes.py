@@ -156,7 +156,7 @@ def test_a_second_voice_is_to_the_right_and_its_echo_to_the_left():
     assert decibels(left[first]) > decibels(right[first]) + 6
 
 
-@pytest.mark.parametrize("name", [*JINGLES, *(pytest.param(name, marks=pytest.mark.deep) for name in TUNES)])
+@pytest.mark.parametrize("name", [*JINGLES, *(pytest.param(name, marks=pytest.mark.nightly) for name in TUNES)])
 def test_both_sides_added_are_the_mono_mix(name, monkeypatch):
     """A listener with one loudspeaker loses nothing: within 1 dB as a whole, and nowhere much of it."""
     added = render(tune_of(name)).mean(axis=1)

@@ -118,7 +118,13 @@ def test_games_stay_within_three_flashes_a_second(name, flashing):
 @pytest.mark.deep
 @pytest.mark.parametrize(
     "name, steps, flashing",
-    [("shooter", 15000, True), ("platformer", 4800, True), ("shooter", 4000, False), ("platformer", 2400, False)],
+    [
+        pytest.param("shooter", 15000, True, marks=pytest.mark.nightly),
+        ("shooter", 4000, True),
+        ("platformer", 2400, True),
+        ("shooter", 4000, False),
+        ("platformer", 2400, False),
+    ],
 )
 def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):
     meter = lights_of(name, steps, Accessibility(flashing=flashing))

@@ -1,4 +1,4 @@
-"""Thirty-two slips of the hand in the kernels, and the tests that catch each.
+"""Thirty-six slips of the hand in the kernels, and the tests that catch each.
 
 The seed is 1 unless another is said: the change that 1 picks may come to the same (EQUIVALENT).
 """
@@ -58,11 +58,30 @@ MUTANTS = (
     Mutant("mixed", "factor", ("test_stopping_distance",)),
     Mutant("solve_soft", "sign", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
     Mutant("push_pair", "sign", ("test_cradle_hands_on_the_velocity",), seed=2),
+    Mutant(
+        "push_pair",
+        "sign",
+        ("test_ball_that_hits_a_free_box_off_its_middle_turns_it_as_the_impact_formula_says",),
+        seed=3,
+    ),
+    Mutant(
+        "push_pair",
+        "sign",
+        ("test_ball_that_hits_a_free_box_off_its_middle_turns_it_as_the_impact_formula_says",),
+        seed=9,
+    ),
     Mutant("bounce_once", "side", ("test_bounces_rise_by_the_square_of_restitution",)),
     # what is told, characters
     Mutant("compare_pairs", "turn", ("test_every_begin_has_exactly_one_end",)),
     Mutant("in_tiles", "edge", ("test_one_way_opens_from_below_and_drops_on_demand",)),
     Mutant("whole_pixels", "sign", ("test_remainder_is_carried_exactly",)),
+    Mutant(
+        "slope_under_box",
+        "sign",
+        ("test_slope_of_tiles_is_told_by_the_middle_of_the_feet_and_by_a_foot_at_their_ends",),
+        seed=7,
+    ),
+    Mutant("cast_on_tiles", "sign", ("test_rays_on_tiles_are_rays_on_the_boxes_of_the_tiles",), seed=5),
 )
 
 # (kernel, kind, seed) of changes that come to the same, and why.

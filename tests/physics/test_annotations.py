@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 PHYSICS = Path(__file__).resolve().parents[2] / "physics"
-FILES = sorted(path for path in PHYSICS.rglob("*.py") if path.parent.name != "character")
+FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):

@@ -225,3 +225,33 @@ def test_queries_of_an_empty_world_find_nothing():
     world = World(Effects())
     assert world.ray_cast((0, 0), (1, 1)) is None and world.ray_cast_all((0, 0), (0, 0)) == []
     assert world.overlap(Circle(1), (0, 0, 0)) == world.query_point((0, 0)) == world.query_aabb((0, 0), (1, 1)) == []
+
+
+def enters(left, top, right, bottom, x, y, dx, dy):
+    """The fraction at which a ray enters a closed box, or infinity. Source: Kay and Kajiya's slabs, 1986."""
+    first, last = 0.0, 1.0
+    for low, high, at, way in ((left, right, x, dx), (top, bottom, y, dy)):
+        if way == 0.0:
+            if not low <= at <= high:
+                return math.inf
+            continue
+        ends = sorted(((low - at) / way, (high - at) / way))
+        first, last = max(first, ends[0]), min(last, ends[1])
+    return first if first <= last else math.inf
+
+
+@pytest.mark.parametrize("rows, columns", [(9, 2), (2, 9), (6, 7)])
+def test_rays_on_tiles_are_rays_on_the_boxes_of_the_tiles(rows, columns):
+    rng = np.random.default_rng(rows)
+    for _ in range(12 if JIT else 4):
+        solid, x, y = rng.random((rows, columns)) < 0.2, *rng.uniform(-90.0, 90.0, 2)
+        world = World(Effects())
+        world.add_body(TileGrid(solid, 8.0), position=(x, y), kind="static")
+        boxes = [(x + 8.0 * j, y + 8.0 * i, x + 8.0 * j + 8.0, y + 8.0 * i + 8.0) for i, j in np.argwhere(solid)]
+        for _ in range(40):
+            start = (x + rng.uniform(-30.0, 8.0 * columns + 30.0), y + rng.uniform(-30.0, 8.0 * rows + 30.0))
+            way = rng.uniform(-120.0, 120.0, 2)
+            way[rng.integers(0, 2)] *= rng.integers(0, 4) > 0  # some along an axis
+            wanted = min((enters(*box, *start, *way) for box in boxes), default=math.inf)
+            hit = world.ray_cast(start, tuple(way))
+            assert (hit.fraction if hit else math.inf) == pytest.approx(wanted, abs=1e-9)

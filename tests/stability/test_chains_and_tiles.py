@@ -186,7 +186,7 @@ def test_spinner_keeps_its_bodies_in():
     assert spinner(150, 60, 10.0, 300) == 0
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @needs_speed
 @pytest.mark.xfail(
     reason="an arm whose tip runs at 200 m/s presses a quarter of the balls through the one-way chain", strict=True

@@ -293,3 +293,32 @@ def test_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(restitutio
         assert max(map(abs, ball.position)) < 10.0, f"out at {ball.position}, speed {ball.velocity}"
         if len(world.events.quarantined):
             break
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("restitution", [0.4, 1.0])
+@pytest.mark.parametrize("ball_first", [True, False])
+def test_ball_that_hits_a_free_box_off_its_middle_turns_it_as_the_impact_formula_says(solver, restitution, ball_first):
+    """Frictionless: j = (1 + e) v / (1/m + 1/M + r2/I); any text of mechanics."""
+    world = metres(solver, gravity=(0.0, 0.0))
+    material = Material(friction=0.0, restitution=restitution)
+
+    def add_ball():
+        return world.add_body(Circle(0.25), position=(-2.0, 0.8), velocity=(6.0, 0.0), material=material)
+
+    def add_box():
+        return world.add_body(Polygon.box(1, 3), position=(0.0, 0.0), material=material)
+
+    if ball_first:
+        ball, box = add_ball(), add_box()
+    else:
+        box, ball = add_box(), add_ball()
+    for _ in range(30):
+        world.step()
+    mass, box_mass = math.pi * 0.25**2, 3.0
+    inertia = box_mass * (1.0 + 9.0) / 12.0
+    impulse = (1.0 + restitution) * 6.0 / (1.0 / mass + 1.0 / box_mass + 0.8**2 / inertia)
+    assert ball.velocity == pytest.approx((6.0 - impulse / mass, 0.0), abs=1e-6)
+    assert box.velocity == pytest.approx((impulse / box_mass, 0.0), abs=1e-6)
+    assert box.angular_velocity == pytest.approx(-0.8 * impulse / inertia, abs=1e-6)
+    assert ball.angular_velocity == pytest.approx(0.0, abs=1e-6)
