@@ -10,7 +10,7 @@ import numpy as np
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION
-from physics.shapes.placement import refresh_aabbs
+from physics.shapes.placement import refresh_aabbs, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import MASK
@@ -24,6 +24,7 @@ def update_rectangles(
     rows,
     bodies,
     shapes,
+    rasters,
     motion,
     # write
     proxies_inout,
@@ -31,8 +32,9 @@ def update_rectangles(
 ):
     """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
 
-    motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates, spare [px]: how far a rectangle
-    outgrows its need, at most (next) that share of the box; 0: it is what it needs. Returns the number of slots.
+    rasters: those of the geometry. motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates,
+    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it needs.
+    Returns the number of slots.
     O(rows).
     """
     gravity_x = motion[0]
@@ -68,7 +70,12 @@ def update_rectangles(
             # A point turns by no more than its arc, or across the whole circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.kind == MASK:
-                arc += 1.0  # snapped to the pixel grid at both ends
+                # Drawn on the pixel grid at both ends; at another angle its edges are rounded anew.
+                r = rasters[s.raster]
+                dx = float(snapped(b.x + dx, r.origin_x) - s.left)
+                dy = float(snapped(b.y + dy, r.origin_y) - s.top)
+                if b.angular_velocity != 0.0:
+                    arc += 1.0
             lower_x += min(dx, 0.0) - arc - margin
             lower_y += min(dy, 0.0) - arc - margin
             upper_x += max(dx, 0.0) + arc + margin
@@ -128,4 +135,5 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     )
     changed = pairs.room_for(len(rows))
     refresh_aabbs(rows, tables.library.tables, bodies, shapes)
-    return update_rectangles(rows, bodies, shapes, np.array(motion), pairs.proxies, changed)
+    rasters = tables.library.tables.rasters
+    return update_rectangles(rows, bodies, shapes, rasters, np.array(motion), pairs.proxies, changed)

@@ -77,6 +77,37 @@ def find_fast(
 
 
 @kernel
+def find_outgrown(
+    # read
+    rows,
+    bodies,
+    shapes,
+    proxies,
+    fast,
+    # write
+    rows_out,
+):
+    """List those of the shape rows that left their motion rectangle, of bodies that are swept. Returns their number.
+
+    O(rows).
+    """
+    found = 0
+    for k in range(len(rows)):
+        row = rows[k]
+        s = shapes[row]
+        if s.proxy < 0:
+            continue
+        b = bodies[s.body_row]
+        if not (fast[s.body_row] or (b.kind == DYNAMIC and (b.continuous == RAY or b.continuous == SWEPT))):
+            continue
+        p = proxies[s.proxy]
+        if s.min_x < p.lower_x or s.max_x > p.upper_x or s.min_y < p.lower_y or s.max_y > p.upper_y:
+            rows_out[found] = row
+            found += 1
+    return found
+
+
+@kernel
 def foresee_paths(
     # read
     rows,

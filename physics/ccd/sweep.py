@@ -7,7 +7,15 @@ met something, and keeps its velocity: the contact of the next step takes the im
 
 import numpy as np
 
-from physics.ccd.impacts import find_fast, find_rotational_impacts, foresee_paths, list_paths, move_back, write_impacts
+from physics.ccd.impacts import (
+    find_fast,
+    find_outgrown,
+    find_rotational_impacts,
+    foresee_paths,
+    list_paths,
+    move_back,
+    write_impacts,
+)
 from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.approach import measure_approach
@@ -17,7 +25,6 @@ from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS
-from physics.tables.body import DYNAMIC, RAY, SWEPT
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
@@ -185,21 +192,12 @@ def sweep_piles(state: StepState) -> None:
 
 def _cover(state):
     """Where a body went further than its rectangle foresaw, look for what it may have met there."""
-    shapes, pairs, bodies = state.shapes, state.pairs, state.bodies
-    own = state.awake.shapes
-    owners = shapes["body_row"][own]
-    asks = np.isin(bodies["continuous"][owners], (RAY, SWEPT)) & (bodies["kind"][owners] == DYNAMIC)
-    own = own[(state.workspace.sweep.fast[owners] | asks) & (shapes["proxy"][own] >= 0)]
-    s, proxies = shapes[own], pairs.proxies[shapes["proxy"][own]]
-    out = (
-        (s["min_x"] < proxies["lower_x"])
-        | (s["max_x"] > proxies["upper_x"])
-        | (s["min_y"] < proxies["lower_y"])
-        | (s["max_y"] > proxies["upper_y"])
-    )
-    if out.any():
-        pairs.widen(s[out], state.tolerances.slop)
-        pairs.update(state.broadphase, shapes, int(out.sum()), state.work)
+    own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
+    rows = state.workspace.rows_for(len(own))
+    found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)
+    if found:
+        pairs.widen(shapes[rows[:found]], state.tolerances.slop)
+        pairs.update(state.broadphase, shapes, found, state.work)
 
 
 def _sweep_straight(state) -> np.ndarray:

@@ -43,6 +43,20 @@ def list_active(bodies, rows, rows_out):
     return found
 
 
+@kernel
+def gather_shapes(rows, order, starts, rows_out):
+    """List the shape rows of different body rows; order, starts: shape rows by body row. Returns their number.
+
+    O(shapes of these bodies).
+    """
+    found = 0
+    for k in range(len(rows)):
+        for n in range(starts[rows[k]], starts[rows[k] + 1]):
+            rows_out[found] = order[n]
+            found += 1
+    return found
+
+
 class Awake:
     """The awake rows of one world: `bodies` and `shapes`, int64, ascending."""
 
@@ -54,6 +68,7 @@ class Awake:
         self.stirred = []  # ids of what was added or touched since the last step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
+        self.gathered = NONE  # room for as many shape rows as there are
         self.known = (0, 0)  # bodies and shapes that the lists have taken in
         self.stale = True  # rows have moved: everything is looked for again
 
@@ -115,6 +130,7 @@ class Awake:
         owners = np.ascontiguousarray(shapes["body_row"])
         self.order = np.argsort(owners, kind="stable")
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
+        self.gathered = np.empty(len(owners), np.int64)
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
         """Whether the lists are those of these tables."""
@@ -127,10 +143,8 @@ class Awake:
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
-        first, counts = self.starts[rows], self.starts[rows + 1] - self.starts[rows]
-        total = int(counts.sum())
-        places = np.repeat(first - (np.cumsum(counts) - counts), counts) + np.arange(total)
-        return np.sort(self.order[places])
+        found = gather_shapes(rows, self.order, self.starts, self.gathered)
+        return np.sort(self.gathered[:found])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Take body rows into the lists, also in the middle of a step; their pairs are found again."""

@@ -22,24 +22,29 @@ ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates arou
 
 
 @kernel
-def same_poses(
+def find_moved(
     # read
     rows,
     bodies,
     # write
     poses_inout,
+    moved_out,
 ):
-    """Whether no body of these rows has moved since; writes what it sees. poses_inout (bodies, 3). O(rows)."""
-    same = True
+    """List those of the body rows whose pose is not the one last seen, and write what is seen. poses_inout (bodies, 3).
+
+    Returns how many have moved. O(rows).
+    """
+    found = 0
     for n in range(len(rows)):
         k = rows[n]
         b = bodies[k]
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
-            same = False
             poses_inout[k, 0] = b.x
             poses_inout[k, 1] = b.y
             poses_inout[k, 2] = b.angle
-    return same
+            moved_out[found] = k
+            found += 1
+    return found
 
 
 @kernel
@@ -142,7 +147,9 @@ class QueryIndex:
         self.seen = ()  # what everything was looked at for: other tables make it stale
         self.step = -1  # the step after which it was last brought up to date
         self.awake = np.zeros(0, np.int64)  # body rows that were awake then
+        self.lists, self.watched = (), np.zeros(0, np.int64)
         self.poses = np.zeros((0, 3))
+        self.moved = np.zeros(0, np.int64)
         self.row_of_slot = np.zeros(0, np.int64)
         self.loose = self.rows = np.zeros(0, np.int64)
         self.slots = np.zeros(0, np.int64)
@@ -171,11 +178,14 @@ class QueryIndex:
             a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen, strict=True)
         )
         some = known and awake.sleeping and awake.is_known(bodies, shapes) and world.steps - self.step <= 1
-        rows = awake.may_move(bodies, self.awake) if some else np.arange(len(bodies))
+        rows = self._watched(awake, bodies) if some else np.arange(len(bodies))
         if not known:
             self._grow(bodies, shapes, pairs)
-        if same_poses(rows, bodies, self.poses) and known and world.steps == self.step:
-            return
+        moved = find_moved(rows, bodies, self.poses, self.moved)
+        if known and world.steps == self.step:
+            if not moved:
+                return
+            rows = self.moved[:moved]  # the boxes that the structure knows are the same
         self.seen, self.step, self.awake = seen, world.steps, awake.bodies
         of = awake.shapes_of(rows) if some else np.arange(len(shapes))
         if some:
@@ -188,8 +198,18 @@ class QueryIndex:
             of, bodies, shapes, pairs.proxies, int(not pairs.everything), self.row_of_slot, self.loose
         )
 
+    def _watched(self, awake, bodies):
+        """Body rows that may have moved; the same until the lists of what is awake are others."""
+        lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
+        same = len(self.lists) == len(lists) and all(a is b for a, b in zip(lists, self.lists, strict=True))
+        if not same or awake.stirred:
+            self.lists, self.watched = lists, awake.may_move(bodies, self.awake)
+        return self.watched
+
     def _grow(self, bodies, shapes, pairs):
         self.poses = np.full((len(bodies), 3), np.nan)
+        self.moved = np.zeros(len(bodies), np.int64)
+        self.lists = ()
         self.row_of_slot, self.slots = np.zeros(len(pairs.proxies), np.int64), np.zeros(len(pairs.proxies), np.int64)
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)

@@ -12,5 +12,6 @@ def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, 
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)
     found = missing_rasters(rows, bodies, shapes, library.raster_of, dt, missing)
-    for mask, bucket in np.unique(missing[:found], axis=0).tolist():
-        library.add_raster(mask, bucket)
+    if found:
+        for mask, bucket in np.unique(missing[:found], axis=0).tolist():
+            library.add_raster(mask, bucket)
