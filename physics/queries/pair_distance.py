@@ -24,6 +24,7 @@ from physics.shapes.rows import place
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.shape import SHAPE
+from physics.vec2 import Vec2
 
 ROUNDING_BAND = 1e-11  # of the size: within it the contact test says on which side of touching two shapes are
 NEXT_TO_NOTHING = math.ulp(0.0)  # [px] apart, and no number is smaller: shapes that touch without a contact
@@ -38,14 +39,14 @@ class Distance:
     """
 
     distance: float
-    point_a: tuple[float, float]
-    point_b: tuple[float, float]
-    normal: tuple[float, float]
+    point_a: Vec2
+    point_b: Vec2
+    normal: Vec2
     iterations: int
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Distance of two shapes at poses (x, y, angle). <= 0 exactly where `collide` finds a contact.
+    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact.
 
     Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
     `collide` gives. Where shapes touch or cross without a contact (two masks side by side; a Chain from behind; tiles
@@ -59,7 +60,7 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
             found.distance,
             found.point_b,
             found.point_a,
-            (0.0 - found.normal[0], 0.0 - found.normal[1]),
+            Vec2(0.0 - found.normal[0], 0.0 - found.normal[1]),
             found.iterations,
         )
     return _measure(shape_a, pose_a, shape_b, pose_b)
@@ -72,7 +73,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     workspace, totals = new_gap_workspace(), np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
     if math.isinf(found):
-        return Distance(math.inf, pose_a[:2], pose_b[:2], (1.0, 0.0), 0)
+        return Distance(math.inf, Vec2(*pose_a[:2]), Vec2(*pose_b[:2]), Vec2(1.0, 0.0), 0)
     nx, ny, ax, ay = (float(workspace.gap[k]) for k in (NX, NY, AX, AY))
     size = float(
         max(
@@ -94,9 +95,10 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
             deepest = int(np.argmin(contact.separations))
             found, (nx, ny) = min(float(contact.separations[deepest]), 0.0), contact.normal
             ax, ay = contact.points[deepest] - 0.5 * found * np.array((nx, ny)) - (x, y)
-    point_a = (x + float(ax), y + float(ay))
+    point_a = Vec2(x + float(ax), y + float(ay))
     nx, ny = nx + 0.0, ny + 0.0
-    return Distance(float(found), point_a, (point_a[0] + found * nx, point_a[1] + found * ny), (nx, ny), int(totals[0]))
+    point_b = Vec2(point_a[0] + found * nx, point_a[1] + found * ny)
+    return Distance(float(found), point_a, point_b, Vec2(nx, ny), int(totals[0]))
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
@@ -106,7 +108,7 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
     """
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if isinstance(shape, (TileGrid, PixelMask, Chain)):
-            raise TypeError(f"{name} must be a convex shape (got {shape!r})")
+            raise TypeError(f"{name} must be a convex shape (got {checks.shown(shape)})")
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     return steps_of(parts_a.corners[0, : parts_a.counts[0]], parts_b.corners[0, : parts_b.counts[0]])
@@ -124,7 +126,7 @@ def _parts(shape_a, pose_a, shape_b, pose_b, x, y):
 def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
     """The pose as numbers. Raises TypeError or ValueError that names the argument."""
     if not isinstance(shape, SHAPES):
-        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {shape!r})")
+        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
     pose = checks.pose(pose_name, pose)
     if isinstance(shape, TileGrid) and pose[2] != 0.0:
         raise ValueError(f"{pose_name} must have angle 0 for a TileGrid (got {pose[2]})")

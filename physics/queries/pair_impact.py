@@ -21,6 +21,7 @@ from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.parts import Parts, chain_outlines, mask_outlines, parts_of, rectangle, tile_outlines
 from physics.shapes.tiles import TileGrid
+from physics.vec2 import Vec2
 
 BOX_STOPS = 4000  # of a turning box, whose speed is only bounded: each is before the impact
 LOOKS = 1024  # of shapes that touch and do not approach
@@ -33,8 +34,8 @@ class TimeOfImpact:
 
     hit: bool
     fraction: float
-    point: tuple[float, float] | None
-    normal: tuple[float, float] | None
+    point: Vec2 | None
+    normal: Vec2 | None
 
 
 NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
@@ -43,7 +44,7 @@ NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 def time_of_impact(
     shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
 ) -> TimeOfImpact:
-    """First fraction at which two shapes touch while their poses (x, y, angle) go straight from start to end,
+    """First fraction at which two shapes touch while their poses (x, y) or (x, y, angle) go straight from start to end,
     angles unwrapped.
 
     Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
@@ -68,7 +69,7 @@ def time_of_impact(
         return NO_IMPACT
     side = -1.0 if swap else 1.0
     return TimeOfImpact(
-        True, float(fraction), _point(a, move_a, b, move_b, fraction), (side * nx + 0.0, side * ny + 0.0)
+        True, float(fraction), _point(a, move_a, b, move_b, fraction), Vec2(side * nx + 0.0, side * ny + 0.0)
     )
 
 
@@ -173,7 +174,7 @@ def _point(a, move_a, b, move_b, fraction):
             for each, move in ((a, move_a), (b, move_b))
         )
     )
-    return float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY]))
+    return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
 
 
 def _gap_at(parts_a, parts_b):

@@ -16,6 +16,7 @@ from physics.shapes.rows import place
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.shape import SHAPE
+from physics.vec2 import Vec2
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Manifold:
     len() is the number of points; without any the normal is (0, 0).
     """
 
-    normal: tuple[float, float]
+    normal: Vec2
     points: np.ndarray
     separations: np.ndarray
     features: np.ndarray
@@ -44,7 +45,7 @@ def _order(shape, pose):
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
-    """Contact of two shapes at poses (x, y, angle); apart by more than margin [px]: no points.
+    """Contact of two shapes at poses (x, y) or (x, y, angle); apart by more than margin [px]: no points.
 
     Asked in the other order the points and separations are the same, and the normal is turned round. Against a TileGrid
     or a Chain the points of all tiles or links stand together, with the normal of the deepest one; two of these never
@@ -52,7 +53,7 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
     """
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if not isinstance(shape, SHAPES):
-            raise TypeError(f"{name} must be a shape such as Circle(8) (got {shape!r})")
+            raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
     margin = checks.number("margin", margin, low=0.0)
     poses = []
     for name, shape, pose in (("pose_a", shape_a, pose_a), ("pose_b", shape_b, pose_b)):
@@ -74,14 +75,14 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
     swapped = _order(*given[1]) < _order(*given[0])
     contacts = points_of(1, 0) if swapped else points_of(0, 1)
     if not len(contacts):
-        return Manifold((0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
+        return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
     deepest = contacts[np.argmin(contacts["separation"])]
     sign = -1.0 if swapped else 1.0
     features = contacts["feature"].copy()
     if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
         features = points_of(0, 1)["feature"].copy()  # a pixel of the mask that was named first
     return Manifold(
-        (sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
+        Vec2(sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
         np.stack([contacts["point_x"], contacts["point_y"]], axis=1),
         contacts["separation"].copy(),
         features,
