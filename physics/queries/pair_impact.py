@@ -12,7 +12,8 @@ from physics.ccd.rotational import new_rotational_workspace
 from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
 from physics.proximity.witness import separate_parts
-from physics.queries.pair_distance import checked, order_of
+from physics.queries.pair_distance import checked
+from physics.queries.pair_rows import order_of
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Circle
 from physics.shapes.kinds import Shape
@@ -61,7 +62,7 @@ def time_of_impact(
     ground = [isinstance(each, (TileGrid, Chain)) for each in (shape_a, shape_b)]
     if all(ground):
         return NO_IMPACT
-    swap = ground[0] or (not ground[1] and order_of(shape_b, *moves[1]) < order_of(shape_a, *moves[0]))
+    swap = ground[0] or (not ground[1] and (*order_of(shape_b), *moves[1]) < (*order_of(shape_a), *moves[0]))
     given = [(shape_a, moves[0]), (shape_b, moves[1])]
     (a, move_a), (b, move_b) = reversed(given) if swap else given
     fraction, nx, ny = _first(a, move_a, b, move_b)
