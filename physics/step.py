@@ -143,6 +143,8 @@ def finish(world: WorldState, state: StepState) -> None:
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.tell_contacts(*state.told)
+    world.bodies["stirred"][world.awake.fresh] = False
+    world.awake.fresh = world.awake.fresh[:0]
     arrive(world, state.dt)
     if state.kept_forces is not None:
         # In no time they did nothing: they are for the next step, and what the stages added is not.

@@ -119,7 +119,6 @@ class World(Environment, Questions):
                 self.profile.stages[stage.stage] += perf_counter() - started
             finish(self, state)
         finally:
-            self.bodies["stirred"][self.awake.fresh] = False
             self._stepping = False
 
     # --- adding and removing ---------------------------------------------------------------------------------------

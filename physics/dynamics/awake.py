@@ -75,7 +75,6 @@ class Awake:
         self.fresh = NONE  # rows of these, in the step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
-        self.gathered = NONE  # room for as many shape rows as there are
         self.known = (0, 0)  # bodies and shapes that the lists have taken in
         self.stale = True  # rows have moved: everything is looked for again
 
@@ -137,7 +136,6 @@ class Awake:
         owners = np.ascontiguousarray(shapes["body_row"])
         self.order = np.argsort(owners, kind="stable")
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
-        self.gathered = np.empty(len(owners), np.int64)
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
         """Whether the lists are those of these tables."""
@@ -150,8 +148,8 @@ class Awake:
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
-        found = gather_shapes(rows, self.order, self.starts, self.gathered)
-        return np.sort(self.gathered[:found])
+        gathered = np.empty(len(self.order), np.int64)
+        return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
@@ -190,7 +188,9 @@ def list_awake(state: StepState) -> None:
     moving = np.empty(len(awake.kinematic), np.int64)
     moving = moving[: list_active(bodies, awake.kinematic, moving)]
     wanted = [awake.dynamic, moving]
-    awake.fresh = NONE
+    if len(awake.fresh):
+        bodies["stirred"] = False  # left by a step that failed
+        awake.fresh = NONE
     if awake.stirred:
         stirred = rows_of(bodies, np.array(awake.stirred, np.int64))
         awake.fresh = stirred[stirred >= 0]
