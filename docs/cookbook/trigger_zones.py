@@ -4,8 +4,6 @@ world = World(gravity=(0, 0))
 door = world.add_body(Polygon.box(40, 40), position=(100, 0), kind="static", sensor=True, user="door")
 sight = Circle(40).with_(sensor=True)  # a body that also sees
 guard = world.add_body(Circle(8), sight, position=(300, 0), user="guard")
-    Circle(8), Circle(40).with_(sensor=True), position=(300, 0), user="guard"
-)  # a body that also sees
 hero = world.add_body(Circle(8), velocity=(120, 0), user="hero")
 
 log = []
