@@ -122,6 +122,21 @@ def test_it_is_state(way, tmp_path):
     assert lift.position == (5, 5)
 
 
+def test_the_digest_holds_what_waits_for_the_next_step():
+    plain, aimed, pushed = (World() for _ in range(3))
+    lifts = [world.add_body(PLANK, kind="kinematic") for world in (plain, aimed, pushed)]
+    for world in (plain, aimed, pushed):
+        world.add_body(Circle(4), position=(300, 0))
+    lifts[1].set_target((5, 5), 0.25)
+    lifts[0].velocity, lifts[0].angular_velocity = lifts[1].velocity, lifts[1].angular_velocity
+    assert plain.digest() != aimed.digest(), "one will stop there, the other goes on"
+    before = pushed.digest()
+    pushed.body(1).apply_force((10, 0))
+    assert pushed.digest() != before
+    pushed.body(1).apply_force((-10, 0))
+    assert pushed.digest() == before
+
+
 def test_a_body_that_goes_takes_its_target_with_it():
     world = World()
     first, second = (world.add_body(PLANK, kind="kinematic", position=(k * 200, 0)) for k in range(2))
