@@ -29,6 +29,7 @@ from physics.shapes.tiles import TileGrid
 from physics.snapshot import Snapshot
 from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
+from physics.vec2 import Vec2
 from physics.warmup import warmup
 from physics.world import World
 
@@ -66,6 +67,7 @@ __all__ = [
     "TIERS",
     "TileGrid",
     "TimeOfImpact",
+    "Vec2",
     "World",
     "collide",
     "distance",

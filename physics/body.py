@@ -1,76 +1,102 @@
-"""Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises."""
+"""Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises.
 
-from typing import Any
+Where it is and how it moves is here; what it is made of, and how it meets others, in body_settings.py.
+"""
+
+import math
 
 import numpy as np
 
-from physics import checks, editing
+from physics import checks, editing, targets
+from physics.body_settings import BodySettings
 from physics.checks import Pair
 from physics.collision.manifold import contacts_of
 from physics.dynamics import sleep
-from physics.shapes.filter import Filter
-from physics.shapes.kinds import Shape
+from physics.math2d import turned
+from physics.queries.boxes import bounds_of
 from physics.tables.body import DYNAMIC, KINDS, STATIC
-from physics.world_state import WorldState
+from physics.vec2 import Vec2
 
 
-def _column(name, doc):
-    return property(lambda self: self._row[name].item(), doc=doc)
+class Body(BodySettings):
+    """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
+    What is set raises TypeError or ValueError naming the argument, KeyError for a removed body, RuntimeError during a
+    step; the world is unchanged then.
+    """
 
-class Body:
-    """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second."""
+    __slots__ = ()
 
-    __slots__ = ("world", "id")
-
-    def __init__(self, world: WorldState, identity: int) -> None:
-        self.world = world
-        self.id = identity
-
-    def __eq__(self, other):
-        return isinstance(other, Body) and other.world is self.world and other.id == self.id
-
-    def __hash__(self):
-        return hash((id(self.world), self.id))
-
-    def __repr__(self):
-        return f"Body({self.id})"
+    # --- where it is -------------------------------------------------------------------------------------------------
 
     @property
-    def _row(self) -> np.void:
-        return self.world._body_row(self.id)
-
-    def _must_exist(self) -> None:
-        """Raises KeyError for a body that was removed."""
-        self.world._row_number(self.id)
-
-    angle = _column("angle", "Turn of the body [rad].")
-    mass = _column("mass", "Mass; 0 for a body without any.")
-    inertia = _column("inertia", "Inertia about the centre of mass.")
-    awake = _column("awake", "Whether it takes part in the simulation.")
-
-    @property
-    def position(self) -> tuple[float, float]:
-        """The body's origin [px]."""
+    def position(self) -> Vec2:
+        """The body's origin [px]. Set, it is put there as by move_to."""
         row = self._row
-        return (row["x"].item(), row["y"].item())
+        return Vec2(row["x"].item(), row["y"].item())
+
+    @position.setter
+    def position(self, value: Pair) -> None:
+        editing.move_to(self.world, self.id, checks.position("position", value), None)
 
     @property
-    def center(self) -> tuple[float, float]:
+    def angle(self) -> float:
+        """Turn of the body [rad]. Set, it is turned about its origin as by move_to."""
+        return self._row["angle"].item()
+
+    @angle.setter
+    def angle(self, value: float) -> None:
+        editing.move_to(self.world, self.id, self.position, checks.number("angle", value))
+
+    @property
+    def center(self) -> Vec2:
         """The centre of mass [px]."""
         row = self._row
-        return (row["center_x"].item(), row["center_y"].item())
+        return Vec2(row["center_x"].item(), row["center_y"].item())
 
     @property
-    def kind(self) -> str:
-        """static, kinematic or dynamic."""
-        return KINDS[self._row["kind"]]
+    def bounds(self) -> tuple[float, float, float, float] | None:
+        """(min_x, min_y, max_x, max_y) [px] of its shapes as they stand now; None when they hold nothing."""
+        self._must_exist()
+        return bounds_of(self.world, self.id)
+
+    def to_world(self, point: Pair) -> Vec2:
+        """The place in the world [px] of a point in body space."""
+        row = self._row
+        x, y = checks.vector("point", point)
+        angle = row["angle"].item()
+        u, v = turned(x, y, math.cos(angle), math.sin(angle))
+        return Vec2(row["x"].item() + u, row["y"].item() + v)
+
+    def to_local(self, point: Pair) -> Vec2:
+        """The place in body space [px] of a point in the world."""
+        row = self._row
+        x, y = checks.vector("point", point)
+        angle = row["angle"].item()
+        return Vec2(*turned(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
+
+    def move_to(self, position: Pair, angle: float | None = None) -> None:
+        """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
+        editing.move_to(
+            self.world,
+            self.id,
+            checks.position("position", position),
+            None if angle is None else checks.number("angle", angle),
+        )
+
+    def set_target(self, position: Pair, angle: float | None = None) -> None:
+        """Have a kinematic body arrive at a position [px] and an angle [rad] (None: as it is) at the end of the next
+        step, whatever its length: riders come along, what is in the way is pushed. It stands there until it is told
+        anew. Another velocity, or a teleport, before that step takes the target back."""
+        targets.set_target(self.world, self.id, position, angle)
+
+    # --- how it moves ------------------------------------------------------------------------------------------------
 
     @property
-    def velocity(self) -> tuple[float, float]:
+    def velocity(self) -> Vec2:
         """Velocity of the centre of mass [px/s]. Raises ValueError when set on a static body to other than 0."""
         row = self._row
-        return (row["vx"].item(), row["vy"].item())
+        return Vec2(row["vx"].item(), row["vy"].item())
 
     @velocity.setter
     def velocity(self, value: Pair) -> None:
@@ -80,11 +106,13 @@ class Body:
         if row["kind"] == STATIC and value != (0.0, 0.0):
             raise ValueError(f"velocity must be (0, 0) for static body {self.id} (got {value})")
         row["vx"], row["vy"] = value
+        self.world._targets.pop(self.id, None)
         self._stir(row)
 
     @property
     def angular_velocity(self) -> float:
-        """[rad/s]. Raises ValueError when set to other than 0 without the rotation effect, or on a static body."""
+        """[rad/s]. Raises ValueError when set to other than 0 without the rotation effect, on a static body, or on one
+        with a TileGrid."""
         return self._row["angular_velocity"].item()
 
     @angular_velocity.setter
@@ -95,66 +123,42 @@ class Body:
         row = self._row
         if row["kind"] == STATIC and value != 0.0:
             raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
+        editing.check_grid_stands(self.shapes, value)
         row["angular_velocity"] = value
+        self.world._targets.pop(self.id, None)
         self._stir(row)
 
     @property
-    def gravity_scale(self) -> float:
-        """Factor on the world's gravity."""
-        return self._row["gravity_scale"].item()
+    def awake(self) -> bool:
+        """Whether it takes part in the simulation."""
+        return self._row["awake"].item()
 
-    @gravity_scale.setter
-    def gravity_scale(self, value: float) -> None:
-        self.world._unlocked()
+    @property
+    def mass(self) -> float:
+        """Mass; 0 for a body without any."""
+        return self._row["mass"].item()
+
+    @property
+    def inertia(self) -> float:
+        """Inertia about the centre of mass."""
+        return self._row["inertia"].item()
+
+    @property
+    def kinetic_energy(self) -> float:
+        """m v² / 2 + I ω² / 2 [mass px²/s²]."""
         row = self._row
-        row["gravity_scale"] = checks.number("gravity_scale", value)
-        self._stir(row)
+        vx, vy, spin = row["vx"].item(), row["vy"].item(), row["angular_velocity"].item()
+        return 0.5 * row["mass"].item() * (vx * vx + vy * vy) + 0.5 * row["inertia"].item() * spin * spin
 
-    @property
-    def user(self) -> Any:
-        """Anything the game wants to find again; not part of snapshots and digests."""
-        self._must_exist()
-        return self.world._users.get(self.id)
-
-    @user.setter
-    def user(self, value: Any) -> None:
-        self._must_exist()
-        self.world._users[self.id] = value
-
-    @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """The shapes as they were given; with a tier, what they are replaced by."""
-        self._must_exist()
-        return self.world._shapes_of[self.id]
-
-    @property
-    def contacts(self) -> np.ndarray:
-        """CONTACT rows that name it, of the last step or asleep, in the order of shape ids: a copy."""
-        world, row = self.world, self._row
-        told = world.contacts
-        told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
-        asleep = contacts_of(world.sleepers.naming(self.id, int(row["island"])))
-        both = np.concatenate([told, asleep])
-        return both[np.lexsort((both["shape_b"], both["shape_a"]))]
-
-    @property
-    def filter(self) -> Filter:
-        """The filter of the shapes."""
-        return editing.filter_of(self.world, self.id)
-
-    @filter.setter
-    def filter(self, value: Filter) -> None:
-        editing.set_filter(self.world, self.id, value)
-
-    @property
-    def tier(self) -> str | None:
-        """How exactly its sprite collides: one of TIERS, or None for the shapes as given."""
-        self._must_exist()
-        return self.world._tiers.get(self.id)
-
-    @tier.setter
-    def tier(self, value: str | None) -> None:
-        editing.set_tier(self.world, self.id, value)
+    def velocity_at(self, point: Pair) -> Vec2:
+        """Velocity [px/s] of the point of the body that is at a place in the world [px]."""
+        row = self._row
+        x, y = checks.vector("point", point)
+        spin = row["angular_velocity"].item()
+        return Vec2(
+            row["vx"].item() - spin * (y - row["center_y"].item()),
+            row["vy"].item() + spin * (x - row["center_x"].item()),
+        )
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
         """Add a force for the coming step, at the centre of mass or at a world point [px]."""
@@ -197,28 +201,23 @@ class Body:
         self._stir(row)
         row["torque"] += torque
 
-    def _stir(self, row):
-        if not row["awake"]:
-            sleep.disturb(self.world, [self.id])
-
     def _dynamic(self, what):
         row = self._row
         if row["kind"] != DYNAMIC:
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
         return row
 
-    def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        editing.move_to(
-            self.world,
-            self.id,
-            checks.position("position", position),
-            None if angle is None else checks.number("angle", angle),
-        )
+    # --- what it meets, and whether it takes part ----------------------------------------------------------------
 
-    def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes; material and filter stay those of the first one. The new shapes get new ids."""
-        editing.set_shapes(self.world, self.id, shapes)
+    @property
+    def contacts(self) -> np.ndarray:
+        """CONTACT rows that name it, of the last step or asleep, in the order of shape ids: a copy."""
+        world, row = self.world, self._row
+        told = world.contacts
+        told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
+        asleep = contacts_of(world.sleepers.naming(self.id, int(row["island"])))
+        both = np.concatenate([told, asleep])
+        return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     def wake(self) -> None:
         """Wake it, and all it is piled up with."""
@@ -233,3 +232,7 @@ class Body:
     def restore(self) -> None:
         """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
         editing.restore(self.world, self.id)
+
+    def remove(self) -> None:
+        """Remove it from its world."""
+        self.world._remove([self.id])

@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 
 from physics.settings import POSITION_LIMIT
+from physics.vec2 import NO_PAIRS, Vec2
 
-# What a user may hand in where these functions give tuples of floats back.
+# What a user may hand in where these functions give floats back.
 Pair = Sequence[float] | np.ndarray  # (x, y)
-Pose = Sequence[float] | np.ndarray  # (x, y, angle)
+Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
+
+LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 
 
 def number(
@@ -20,7 +23,7 @@ def number(
 ) -> float:
     """A finite float; `low`/`high` inclusive bounds, `above` exclusive. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number (got {value!r})")
+        raise TypeError(f"{name} must be a number (got {shown(value)})")
     try:
         value = float(value)
     except OverflowError:
@@ -38,32 +41,49 @@ def number(
         or (low is not None and value < low)
         or (high is not None and value > high)
     ):
-        raise ValueError(f"{name} must be {allowed} (got {value!r})")
+        raise ValueError(f"{name} must be {allowed} (got {shown(value)})")
     return value
 
 
-def vector(name: str, value: Any) -> tuple[float, float]:
+class NoSuchId(KeyError, ValueError):
+    """An id that nothing has: a key that is not there, and a wrong value."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # a KeyError would show the quotes of its message
+
+
+def shown(value: Any) -> str:
+    """What a message shows of a value: all of a short one, the beginning of a long one."""
+    text = repr(value)
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
+
+
+def vector(name: str, value: Any) -> Vec2:
     """Two finite floats from any pair. Raises TypeError or ValueError."""
-    try:
-        x, y = value
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {value!r})") from None
-    return number(f"{name}[0]", x), number(f"{name}[1]", y)
+    x = y = None
+    if not isinstance(value, NO_PAIRS):
+        try:
+            x, y = value
+        except (TypeError, ValueError):
+            x = None
+    if x is None:
+        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {shown(value)})")
+    return Vec2(number(f"{name}[0]", x), number(f"{name}[1]", y))
 
 
-def position(name: str, value: Any) -> tuple[float, float]:
+def position(name: str, value: Any) -> Vec2:
     """Two floats that lie where a double still resolves a pixel. Raises TypeError or ValueError."""
     x, y = vector(name, value)
     if max(abs(x), abs(y)) >= POSITION_LIMIT:
-        raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {value!r})")
-    return x, y
+        raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {shown(value)})")
+    return Vec2(x, y)
 
 
 def ids(name: str, value: Any) -> np.ndarray:
     """A flat int64 array of ids, each once. Raises TypeError or ValueError."""
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
-        raise TypeError(f"{name} must be whole numbers (got {value!r})")
+        raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
     array = array.astype(np.int64).ravel()
     if len(np.unique(array)) != len(array):
         raise ValueError(f"{name} must name each body once (got {array.tolist()})")
@@ -73,7 +93,7 @@ def ids(name: str, value: Any) -> np.ndarray:
 def whole(name: str, value: Any, low: int, high: int) -> int:
     """An int within bounds. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} must be a whole number (got {value!r})")
+        raise TypeError(f"{name} must be a whole number (got {shown(value)})")
     value = int(value)
     if not low <= value <= high:
         raise ValueError(f"{name} must be {low}..{high} (got {value})")
@@ -83,16 +103,16 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 def flag(name: str, value: Any) -> bool:
     """A bool. Raises TypeError."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name} must be True or False (got {value!r})")
+        raise TypeError(f"{name} must be True or False (got {shown(value)})")
     return bool(value)
 
 
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
     """One of the allowed strings. Raises ValueError (TypeError when it is no string)."""
     if not isinstance(value, str):
-        raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {value!r})")
+        raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
     if value not in allowed:
-        raise ValueError(f"{name} must be one of {', '.join(allowed)} (got {value!r})")
+        raise ValueError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
     return value
 
 
@@ -120,9 +140,10 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> 
 
 
 def pose(name: str, value: Any) -> tuple[float, float, float]:
-    """(x, y, angle) as floats. Raises TypeError or ValueError."""
+    """(x, y, angle) as floats, the angle 0 where it is left out. Raises TypeError or ValueError."""
     try:
-        x, y, angle = value
+        x, y, angle = value if len(value) == 3 else (*value, 0.0)
     except (TypeError, ValueError):
-        raise TypeError(f"{name} must be (x, y, angle) (got {value!r})") from None
-    return (*position(name, (x, y)), number(f"{name}[2]", angle))
+        raise TypeError(f"{name} must be (x, y) or (x, y, angle) (got {shown(value)})") from None
+    x, y = position(name, (x, y))
+    return x, y, number(f"{name}[2]", angle)

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, fields, replace
 
+from physics import checks
+
 NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor")
 
 
@@ -32,7 +34,7 @@ class Effects:
         for field in fields(self):
             value = getattr(self, field.name)
             if not isinstance(value, bool):
-                raise TypeError(f"effect {field.name} must be True or False (got {value!r})")
+                raise TypeError(f"effect {field.name} must be True or False (got {checks.shown(value)})")
         for name in NEEDS_RESPONSE:
             if getattr(self, name) and not self.response:
                 raise ValueError(f"effect {name} needs response: declare both, or neither")

@@ -11,6 +11,7 @@ from physics.profile import Profile
 from physics.step import SOLVERS, STACKING, Workspace, plan
 from physics.tables.body import DYNAMIC
 from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.vec2 import Vec2
 from physics.world_state import WorldState
 
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
@@ -21,9 +22,9 @@ class Environment(WorldState):
 
     _solver: str
     _substeps: int
-    _gravity: tuple[float, float]
+    _gravity: Vec2
     _drag: float
-    _wind: tuple[float, float]
+    _wind: Vec2
     _dt: float
 
     @property
@@ -57,6 +58,7 @@ class Environment(WorldState):
         """Switch between the narrow phase and plain AABBs, between steps."""
         self._unlocked()
         self._effects = self._effects.with_(narrowphase=checks.flag("narrowphase", on))
+        sleep.wake_all(self)
         self._plan()
 
     def _plan(self):
@@ -98,23 +100,26 @@ class Environment(WorldState):
         if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
             raise TypeError(
                 "broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
-                f"(got {strategy!r})"
+                f"(got {checks.shown(strategy)})"
             )
         self._broadphase = strategy.fresh()
         self.pairs.start_over()
 
     @property
-    def gravity(self) -> tuple[float, float]:
+    def gravity(self) -> Vec2:
         """[px/s2]; can be set between steps."""
         return self._gravity
 
     @gravity.setter
     def gravity(self, value: Pair) -> None:
         self._unlocked()
-        value = checks.vector("gravity", value)
-        if value != self._gravity:
+        self._gravity = self._felt(self._gravity, checks.vector("gravity", value), self._effects.gravity)
+
+    def _felt(self, before, now, felt):
+        """A new value of a force; where it is felt, it wakes what rests under the old one."""
+        if felt and now != before:
             sleep.wake_all(self)
-        self._gravity = value
+        return now
 
     @property
     def dt(self) -> float:
@@ -128,20 +133,21 @@ class Environment(WorldState):
 
     @property
     def drag(self) -> float:
-        """[1/s]; can be set between steps."""
+        """[1/s]; can be set between steps. What sleeps wakes, as from another gravity or wind."""
         return self._drag
 
     @drag.setter
     def drag(self, value: float) -> None:
         self._unlocked()
-        self._drag = checks.number("drag", value, low=0.0)
+        felt = self._effects.drag or self._effects.wind
+        self._drag = self._felt(self._drag, checks.number("drag", value, low=0.0), felt)
 
     @property
-    def wind(self) -> tuple[float, float]:
+    def wind(self) -> Vec2:
         """Velocity of the air [px/s]; it acts through the drag. Can be set between steps."""
         return self._wind
 
     @wind.setter
     def wind(self, value: Pair) -> None:
         self._unlocked()
-        self._wind = checks.vector("wind", value)
+        self._wind = self._felt(self._wind, checks.vector("wind", value), self._effects.wind)

@@ -1,6 +1,5 @@
-"""Snapshots of a world, in memory and as `.npz` files without pickle, and the digest of its state."""
+"""Snapshots of a world, in memory and as `.npz` files without pickle."""
 
-import hashlib
 import json
 import tokenize
 import zipfile
@@ -14,21 +13,25 @@ import numpy as np
 from physics import checks
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Island, Sleepers
+from physics.reshaping import MATERIAL
 from physics.shapes.convex import Capsule, Polygon
+from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
 from physics.shapes.material import Material
 from physics.shapes.tiles import TileGrid
-from physics.tables.body import BODY
+from physics.step import PUSHING, SOLVERS
+from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
 from physics.tables.contact import EVENT
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
 from physics.world_state import WorldState
 
-VERSION = 3
+VERSION = 4
+SETTINGS = ("solver", "dt", "substeps", "gravity", "drag", "wind")  # come back with a snapshot
 HULLS = {
     "Polygon": lambda points, radius: Polygon(points, radius),
     "Capsule": lambda points, radius: Capsule(*points, radius=radius),
@@ -50,6 +53,7 @@ DAMAGE = (
 )
 TABLES = {
     "bodies": BODY,
+    "given": GIVEN,
     "shapes": SHAPE,
     "characters": CHARACTER,
     "touching": EVENT,
@@ -63,46 +67,15 @@ TABLES = {
     "island_anchors": ANCHOR,
     "island_touching": EVENT,
 }
-STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
-KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
-WALK = (
-    "body",
-    "left",
-    "top",
-    "remainder_x",
-    "remainder_y",
-    "riding",
-    "riding_shape",
-    "slope",
-    "grounded",
-    "squeezed",
-    "pressed",
-    "carry_x",
-    "carry_y",
-    "belt",
-    "belt_x",
-    "push_vx",
-    "push_vy",
-    "deep",
-    "wedged",
-)
-
-
-def digest(world: WorldState) -> str:
-    """blake2b-128 over ids, poses, velocities, flags, characters, contacts and impulses in id order; −0.0 as 0.0."""
-    found = hashlib.blake2b(digest_size=16)
-    for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
-        found.update(len(rows).to_bytes(8, "little"))
-        for name in names:
-            column = np.ascontiguousarray(rows[name])
-            found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
-    return found.hexdigest()
 
 
 class Snapshot:
     """The state of a world at one moment. `save` and `load` keep it in a file."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> None:
+        for name, value in (("arrays", arrays), ("facts", facts)):
+            if not isinstance(value, dict):
+                raise TypeError(f"{name} must be a dict, as World.snapshot() makes it (got {checks.shown(value)})")
         self.arrays = arrays
         self.facts = facts
 
@@ -135,6 +108,7 @@ def take(world: WorldState) -> Snapshot:
     library = world.library
     arrays = {
         "bodies": world.bodies.copy(),
+        "given": world._given.rows.copy(),
         "shapes": world.shapes.copy(),
         "characters": world.characters.rows.copy(),
         "touching": world.touching.rows.copy(),
@@ -144,7 +118,9 @@ def take(world: WorldState) -> Snapshot:
         "anchors": world.anchors.copy(),
         "resting_touching": world.sleepers.touching.copy(),
         "resting_sensing": world.sleepers.sensing.copy(),
-        "stirred": np.array(world.awake.stirred, np.int64),
+        "stirred": np.unique(np.array(world.awake.stirred, np.int64)),
+        "aimed": np.array([*world._targets], np.int64),
+        "targets": np.array([*world._targets.values()], np.float64).reshape(-1, 3),
         **_islands_apart(world.sleepers.islands),
     }
     for number, shape in enumerate(library.outlines):
@@ -162,12 +138,11 @@ def take(world: WorldState) -> Snapshot:
         "effects": world.effects.names(),
         "next_body": world._next_body,
         "next_shape": world._next_shape,
-        "gravity": world.gravity,
-        "wind": world.wind,
-        "drag": world.drag,
+        "pixels_per_meter": world.tolerances.pixels_per_meter,
+        "time": world.time,
+        **{name: getattr(world, name) for name in SETTINGS},
         "tiers": tiers,
         "random": world.random.bit_generator.state,
-        "stacks": world.stacks,
         "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in library.outlines],
         "chains": [
             [shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
@@ -182,17 +157,32 @@ def take(world: WorldState) -> Snapshot:
 def restore(world: WorldState, taken: Snapshot) -> None:
     """Put a world back to a snapshot of a world with the same effects. Raises TypeError, ValueError."""
     if not isinstance(taken, Snapshot):
-        raise TypeError(f"snapshot must be a Snapshot (got {taken!r})")
+        raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
     facts, arrays = taken.facts, taken.arrays
-    if facts["effects"] != world.effects.names():
-        raise ValueError(f"snapshot is of a world with {facts['effects']} (this one has {world.effects.names()})")
     try:
         unpacked = _unpack(arrays, facts)
     except DAMAGE as error:
-        raise ValueError(f"snapshot is damaged: {error!r}") from None
+        raise ValueError(f"snapshot is damaged: {checks.shown(error)}") from None
+    if facts["effects"] != world.effects.names():
+        raise ValueError(f"snapshot is of a world with {facts['effects']} (this one has {world.effects.names()})")
+    scale = world.tolerances.pixels_per_meter
+    if facts["pixels_per_meter"] != scale:
+        raise ValueError(
+            f"snapshot is of a world with pixels_per_meter {facts['pixels_per_meter']!r} (this one has {scale!r}): "
+            "its tolerances are others"
+        )
     # Everything is known to fit: from here on nothing fails.
+    for name in SETTINGS:
+        if getattr(world, name) != facts[name]:
+            setattr(world, name, facts[name])
+    world.time = facts["time"]
     world.library, world._shapes_of, world._sources, world.random = unpacked
-    for table, name in ((world._bodies, "bodies"), (world._shapes, "shapes"), (world.characters, "characters")):
+    for table, name in (
+        (world._bodies, "bodies"),
+        (world._given, "given"),
+        (world._shapes, "shapes"),
+        (world.characters, "characters"),
+    ):
         table.count = 0
         table.append(len(arrays[name]))[:] = arrays[name]
     world.touching.restore(arrays["touching"])
@@ -200,16 +190,11 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world.tell_contacts(arrays["told"].copy())
     world.manifolds, world.anchors = arrays["manifolds"].copy(), arrays["anchors"].copy()
     world.sleepers = _sleepers(arrays)
-    if facts["stacks"] != world.stacks:
-        # Under the other kind of solver manifolds keep other facts, and nobody knows of those that sleep.
-        world.manifolds, world.anchors = world.manifolds[:0], world.anchors[:0]
-        world.sleepers = Sleepers()
-        world.bodies["awake"] = ~world.bodies["quarantined"]
     world.bodies["active"] = not world.sleeps
     world.awake = Awake(world.sleeps)
     world.awake.stir(arrays["stirred"].tolist())
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
-    world.gravity, world.wind, world.drag = facts["gravity"], facts["wind"], facts["drag"]
+    world._targets = _targets(arrays)
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
     world.rebuild_proxies()
@@ -252,7 +237,7 @@ def _unpack(arrays, facts):
     if len(rows) and not (0 <= rows.min() and rows.max() < len(arrays["bodies"])):
         raise ValueError("a shape belongs to no body")
     for row in arrays["shapes"]:
-        shapes_of[int(row["body"])] += (library.shape_of(row),)
+        shapes_of[int(row["body"])] += (_with_own_values(library.shape_of(row), row),)
     sources = {identity: (library.masks[mask],) for identity, _, mask in facts["tiers"]}
     random = np.random.default_rng()
     random.bit_generator.state = facts["random"]
@@ -260,10 +245,30 @@ def _unpack(arrays, facts):
     checks.ids("stirred", arrays["stirred"])
     for name in ("next_body", "next_shape"):
         checks.whole(name, facts[name], 0, 2**62)
+    if len(arrays["given"]) != len(arrays["bodies"]) or not set(_targets(arrays)) <= shapes_of.keys():
+        raise ValueError("what is said of bodies is said of others")
     for name in ("gravity", "wind"):
         checks.vector(name, facts[name])
-    checks.number("drag", facts["drag"], low=0.0)
+    for name in ("drag", "time"):
+        checks.number(name, facts[name], low=0.0)
+    for name in ("dt", "pixels_per_meter"):
+        checks.number(name, facts[name], above=0.0)
+    checks.whole("substeps", facts["substeps"], 1, 1000)
+    checks.choice("solver", facts["solver"], SOLVERS if "stacking" in facts["effects"] else [*PUSHING])
     return library, shapes_of, sources, random
+
+
+def _with_own_values(shape, row) -> Shape:
+    """A shape with the values that its SHAPE row says are its own."""
+    material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
+    filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
+    return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
+
+
+def _targets(arrays) -> dict:
+    """{body id: (x, y, angle)} from flat arrays."""
+    ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
+    return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
 
 
 def _library(arrays, facts):

@@ -28,10 +28,12 @@ from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
 from physics.tables.manifold import ANCHOR
 from physics.tables.step_state import Stage, StepState, stage
+from physics.targets import aim, arrive
 from physics.world_state import WorldState
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
+FORCES = ("force_x", "force_y", "torque")
 PUSHING = {"blocking": blocking, "projection": projection}
 
 
@@ -115,6 +117,7 @@ class Workspace:
 def begin(world: WorldState, dt: float) -> StepState:
     """What the first stage is given: the world's settings and tables, and what it remembers of the last step."""
     world.refresh_character_rows()
+    aim(world, dt)
     state = StepState()
     state.effects, state.tolerances, state.workspace = world.effects, world.tolerances, world.workspace
     state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
@@ -126,7 +129,9 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.touching, state.sensing = world.touching, world.sensing
     state.sensed, state.swept_sensors = world.sensed, world.manifolds[:0]
     state.impacts, state.changed_count = NO_IMPACTS, 0
-    state.ghosts = state.parked = None
+    state.ghosts = state.parked = state.kept_forces = None
+    if dt == 0.0:
+        state.kept_forces = world.bodies[[*FORCES]].copy()
     state.events, state.told, state.work = events.Events(), (world.manifolds[:0], None), world.profile.work
     if not world.awake.sleeping:
         world.awake.all_rows(state.bodies, state.shapes)
@@ -138,4 +143,13 @@ def finish(world: WorldState, state: StepState) -> None:
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.tell_contacts(*state.told)
+    world.bodies["stirred"][world.awake.fresh] = False
+    world.awake.fresh = world.awake.fresh[:0]
+    arrive(world, state.dt)
+    if state.kept_forces is not None:
+        # In no time they did nothing: they are for the next step, and what the stages added is not.
+        going_on = ~world.bodies["quarantined"]
+        for name in FORCES:
+            world.bodies[name][going_on] = state.kept_forces[name][going_on]
     world.steps += 1
+    world.time += state.dt

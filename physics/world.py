@@ -13,7 +13,7 @@ from physics.broadphase.pair_list import PairList
 from physics.broadphase.proxies import Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.checks import Pair
-from physics.dynamics import sleep
+from physics.digest import digest
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
@@ -28,11 +28,12 @@ from physics.shapes.library import Library
 from physics.shapes.material import Material
 from physics.snapshot import Snapshot
 from physics.step import Workspace, begin, finish, plan
-from physics.tables.body import BODY
+from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
+from physics.vec2 import Vec2
 
 PLAIN = Material()  # of bodies that are given none
 
@@ -61,12 +62,12 @@ class World(Environment, Questions):
     ) -> None:
         effects = Effects.rigid_bodies() if effects is None else effects
         if not isinstance(effects, Effects):
-            raise TypeError(f"effects must be an Effects (got {effects!r})")
+            raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
         self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
         self._dt = checks.number("dt", dt, above=0.0)
         self._drag = checks.number("drag", drag, low=0.0)
         self._gravity = (
-            (0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter)
+            Vec2(0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter)
             if gravity is None
             else checks.vector("gravity", gravity)
         )
@@ -77,11 +78,11 @@ class World(Environment, Questions):
         self._solver = self._checked_solver(
             ("soft_step" if effects.stacking else "projection") if solver is None else solver
         )
-        self._bodies, self._shapes, self.characters = Table(BODY), Table(SHAPE), Table(CHARACTER)
+        self._bodies, self._given, self._shapes, self.characters = map(Table, (BODY, GIVEN, SHAPE, CHARACTER))
         self.library = Library()
         self._stepping = False
         self._next_body = self._next_shape = 0
-        self._users, self._shapes_of, self._tiers, self._sources = {}, {}, {}, {}
+        self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # What is remembered from step to step.
         self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
         self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
@@ -89,7 +90,7 @@ class World(Environment, Questions):
         self.touching, self.sensing = Pairs(), Pairs()
         # What the last step told.
         self.tell_contacts(self.manifolds)
-        self.queries, self.events, self.steps = QueryIndex(), Events(), 0
+        self.queries, self.events, self.steps, self.time = QueryIndex(), Events(), 0, 0.0
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
 
@@ -103,7 +104,9 @@ class World(Environment, Questions):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance by dt [s] (None: world.dt). 0 moves nothing. Raises ValueError for a negative or non-finite dt."""
+        """Advance by dt [s] (None: world.dt). 0 moves nothing, and keeps forces and targets for the next step.
+
+        Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
         self.profile.begin()
@@ -128,6 +131,7 @@ class World(Environment, Questions):
         kind: str = "dynamic",
         velocity: Pair = (0, 0),
         angular_velocity: float = 0.0,
+        mass: float | None = None,
         material: Material = PLAIN,
         filter: Filter = Filter.ALL,
         sensor: bool = False,
@@ -138,24 +142,29 @@ class World(Environment, Questions):
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body. Raises TypeError or ValueError naming the argument; the world is unchanged then."""
+        """Add one body. mass: in place of what its shapes' densities make of it.
+
+        Raises TypeError or ValueError naming the argument; the world is unchanged then."""
         ids = editing.add_rows(
             self,
             shapes,
             [checks.position("position", position)],
             [checks.vector("velocity", velocity)],
             [checks.number("angle", angle)],
-            kind,
-            angular_velocity,
-            material,
-            filter,
-            sensor,
-            bullet,
-            continuous,
-            fixed_rotation,
-            gravity_scale,
-            tier,
-            user,
+            editing.Wanted(
+                kind,
+                angular_velocity,
+                mass,
+                material,
+                filter,
+                sensor,
+                bullet,
+                continuous,
+                fixed_rotation,
+                gravity_scale,
+                tier,
+                user,
+            ),
         )
         return Body(self, int(ids[0]))
 
@@ -167,6 +176,7 @@ class World(Environment, Questions):
         angles: ArrayLike | None = None,
         kind: str = "dynamic",
         angular_velocity: float = 0.0,
+        mass: float | None = None,
         material: Material = PLAIN,
         filter: Filter = Filter.ALL,
         sensor: bool = False,
@@ -192,49 +202,30 @@ class World(Environment, Questions):
             positions,
             velocities,
             angles,
-            kind,
-            angular_velocity,
-            material,
-            filter,
-            sensor,
-            bullet,
-            continuous,
-            fixed_rotation,
-            gravity_scale,
-            tier,
-            user,
+            editing.Wanted(
+                kind,
+                angular_velocity,
+                mass,
+                material,
+                filter,
+                sensor,
+                bullet,
+                continuous,
+                fixed_rotation,
+                gravity_scale,
+                tier,
+                user,
+            ),
         )
 
     def remove_body(self, body: Body | int) -> None:
-        """Remove a body (or its id). Raises KeyError when it is not there."""
-        if isinstance(body, Body):
-            if body.world is not self:
-                raise ValueError(f"body must be of this world (got {body!r} of another one)")
-            body = body.id
-        elif isinstance(body, bool) or not isinstance(body, (int, np.integer)):
-            raise TypeError(f"body must be a Body or an id (got {body!r})")
-        self.remove_bodies([body])
+        """Remove a body (or its id). Raises KeyError when it is not there, TypeError, ValueError."""
+        self._remove([self._identity("body", body)])
 
-    def remove_bodies(self, ids: ArrayLike) -> None:
-        """Remove many bodies at once: one pass over the tables. Raises KeyError for an unknown id, ValueError for one
-        that is named twice; nothing is removed then."""
-        self._unlocked()
-        ids = checks.ids("ids", ids)
-        if not len(ids):
-            return
-        keep = np.ones(self._bodies.count, bool)
-        keep[self.rows(ids)] = False
-        sleep.disturb(self, ids)
-        self._drop_shapes(keep[self.shapes["body_row"]])
-        self._bodies.keep(keep)
-        self.awake.keep_rows(keep)
-        self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
-        gone = set(ids.tolist())
-        for table in (self._users, self._shapes_of, self._tiers, self._sources):
-            for identity in gone & table.keys():
-                del table[identity]
-        self.characters.keep(~np.isin(self.characters.rows["body"], ids))
-        sleep.forget(self)
+    def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
+        """Remove many bodies (or ids) at once: one pass over the tables. Raises KeyError for one that is not there,
+        ValueError for one that is named twice, TypeError; nothing is removed then."""
+        self._remove(self._identities("ids", ids))
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their
@@ -244,21 +235,23 @@ class World(Environment, Questions):
         editing.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove every body. Ids go on from where they were."""
+        """Remove every body, and what is kept of their shapes. Ids go on from where they were."""
         self.remove_bodies(self.bodies["id"])
 
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
         """blake2b-128 of the state that the next step depends on, independent of rows, times and broad phase."""
-        return snapshot.digest(self)
+        return digest(self)
 
     def snapshot(self) -> Snapshot:
         """A copy of the state."""
         return snapshot.take(self)
 
     def restore(self, taken: Snapshot) -> None:
-        """Go back to a snapshot.
-        Raises ValueError when it does not fit this version's tables or this world's effects."""
+        """Go back to a snapshot: bodies, time, random numbers, and the settings solver, dt, substeps, gravity, drag,
+        wind. The broad phase, and the `user` of bodies that are there, stay.
+
+        Raises ValueError when it does not fit this version's tables, this world's effects or pixels_per_meter."""
         self._unlocked()
         snapshot.restore(self, taken)

@@ -1,15 +1,17 @@
 """WorldState: what a world keeps from step to step, by name and type, and the looks at it that its parts share."""
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
+from physics import checks
 from physics.broadphase.pair_list import PairList
 from physics.broadphase.proxies import Strategy
 from physics.broadphase.rectangles import write_rectangles
 from physics.collision.manifold import contacts_of
+from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
@@ -23,6 +25,28 @@ from physics.tables.body import STATIC
 from physics.tables.rows import rows_of
 from physics.tables.step_state import Stage
 from physics.tables.table import Table
+from physics.vec2 import Vec2
+
+
+class Handle:
+    """What names a body: its world and its id."""
+
+    __slots__ = ("world", "id")
+
+    def __init__(self, world: "WorldState", identity: int) -> None:
+        if not isinstance(world, WorldState):
+            raise TypeError(f"world must be a World (got {checks.shown(world)})")
+        self.world = world
+        self.id = world._identity("identity", identity)
+
+    def __eq__(self, other):
+        return isinstance(other, Handle) and other.world is self.world and other.id == self.id
+
+    def __hash__(self):
+        return hash((id(self.world), self.id))
+
+    def __repr__(self):
+        return f"Body({self.id})"
 
 
 class WorldState:
@@ -44,15 +68,16 @@ class WorldState:
     queries: QueryIndex
     events: Events
     steps: int  # made so far
+    time: float  # [s] that they took, all together
     profile: Profile
     workspace: Any  # a Workspace of step.py, whose stages are given what stands here
     # Properties of Environment.
     solver: str
     substeps: int
     broadphase: Strategy
-    gravity: tuple[float, float]
+    gravity: Vec2
     drag: float
-    wind: tuple[float, float]
+    wind: Vec2
     dt: float
     stacks: bool
     sleeps: bool
@@ -61,10 +86,12 @@ class WorldState:
     _stages: tuple[Stage, ...]
     _stepping: bool
     _bodies: Table
+    _given: Table  # GIVEN, beside the bodies
     _shapes: Table
     _next_body: int
     _next_shape: int
-    _users: dict[int, Any]  # these four by body id
+    _users: dict[int, Any]  # these five by body id
+    _targets: dict[int, tuple[float, float, float]]  # poses to be reached at the end of the next step
     _shapes_of: dict[int, tuple[Shape, ...]]
     _tiers: dict[int, str]
     _sources: dict[int, tuple[Shape, ...]]
@@ -110,12 +137,14 @@ class WorldState:
         """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 
-    def rows(self, ids: int | Sequence[int] | np.ndarray) -> np.ndarray:
-        """Row numbers of body ids in `world.bodies`. Raises KeyError for an id that is not there."""
+    def rows(self, ids: Any) -> np.ndarray:
+        """Row numbers in `world.bodies` of a body or many: Bodies or ids. Raises KeyError for one that is not there."""
+        if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
+            ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
         rows = rows_of(self.bodies, ids.ravel())
         if (rows < 0).any():
-            raise KeyError(f"no body {ids.ravel()[rows < 0][0]} in this world")
+            raise checks.NoSuchId(f"no body {ids.ravel()[rows < 0][0]} in this world")
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:
@@ -157,8 +186,36 @@ class WorldState:
         count = self._bodies.count
         row = bisect_left(self._bodies.data["id"], identity, 0, count)
         if row == count or self._bodies.data["id"][row] != identity:
-            raise KeyError(f"body {identity} is not in this world (removed, or never added)")
+            raise checks.NoSuchId(f"body {identity} is not in this world (removed, or never added)")
         return row
+
+    def _identity(self, name: str, value: Any) -> int:
+        """The id of a Body of this world, or the id itself, there or not. Raises TypeError, ValueError."""
+        if isinstance(value, Handle):
+            if value.world is not self:
+                raise ValueError(f"{name} must be of this world (got {checks.shown(value)} of another one)")
+            return value.id
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+            raise TypeError(f"{name} must be a Body or an id (got {checks.shown(value)})")
+        if not 0 <= value < 2**62:
+            raise checks.NoSuchId(f"{name} must be a Body or the id of one (got {value})")
+        return int(value)
+
+    def _identities(self, name: str, value: Any) -> np.ndarray:
+        """Ids of one body or of many, each once, as a flat array. Raises TypeError, ValueError."""
+        if isinstance(value, (Handle, int, np.integer)):
+            value = [value]
+        if isinstance(value, np.ndarray) and value.dtype != np.object_:
+            return checks.ids(name, value)
+        if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+            raise TypeError(f"{name} must be Bodies or ids (got {checks.shown(value)})")
+        each = [self._identity(f"{name}[{k}]", one) for k, one in enumerate(value)]
+        return checks.ids(name, np.array(each, np.int64))
+
+    def _tidy_library(self) -> None:
+        """Drop the geometry that no shape has any longer, once that may be most of it."""
+        if self.library.may_be_half_unused(self._shapes.count):
+            self.library = self.library.without_unused(self.shapes)
 
     def _body_row(self, identity: int) -> np.void:
         return self._bodies.data[self._row_number(identity)]
@@ -167,8 +224,31 @@ class WorldState:
         self.pairs.ids(self.shapes)  # named while the rows still stand
         self.pairs.free_proxies(self.shapes["proxy"][~keep])
         self._shapes.keep(keep)
+        self.library.gone += int(np.count_nonzero(~keep))
         self.pairs.rename(self.shapes)
         self.awake.forget_shapes()
+
+    def _remove(self, ids: Sequence[int] | np.ndarray) -> None:
+        """Remove bodies by id. Raises KeyError; nothing is removed then."""
+        self._unlocked()
+        ids = np.asarray(ids, np.int64)
+        if not len(ids):
+            return
+        keep = np.ones(self._bodies.count, bool)
+        keep[self.rows(ids)] = False
+        sleep.disturb(self, ids)
+        self._drop_shapes(keep[self.shapes["body_row"]])
+        self._bodies.keep(keep)
+        self._given.keep(keep)
+        self.awake.keep_rows(keep)
+        self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
+        gone = set(ids.tolist())
+        for table in (self._users, self._shapes_of, self._tiers, self._sources, self._targets):
+            for identity in gone & table.keys():
+                del table[identity]
+        self.characters.keep(~np.isin(self.characters.rows["body"], ids))
+        sleep.forget(self)
+        self._tidy_library()
 
     def _needs(self, effect: str, what: str, asked: bool) -> None:
         if asked and not getattr(self._effects, effect):

@@ -12,6 +12,7 @@ PHYSICS = (
     "jit",
     "math2d",
     "settings",
+    "vec2",
     "checks",
     "tables",
     "raster",

@@ -2,10 +2,14 @@
 
 import ast
 import importlib.util
+import math
 import re
 from pathlib import Path
 
+import pygame
 import pytest
+
+from physics import Effects, PixelMask, World
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -33,6 +37,24 @@ def test_the_lines_of_the_text_are_lines_of_the_example():
     ):
         assert re.sub(r"\s+", "", line) in squeezed
         assert re.sub(r"\s+", "", line) in re.sub(r"\s+", "", (ROOT / "docs/physics_alone.md").read_text())
+
+
+def test_a_turned_sprite_collides_as_pygame_draws_it():
+    """The page: origin at the centre, the image as it was, the angle minus pygame's degrees."""
+    assert "-math.radians(degrees)" in (ROOT / "docs/physics_alone.md").read_text()
+    image = pygame.Surface((60, 40), pygame.SRCALPHA)
+    pygame.draw.polygon(image, "white", [(0, 0), (59, 12), (10, 39)])
+    mask = PixelMask.from_surface(image)
+    for degrees in range(-170, 180, 35):
+        world, rotated = World(Effects.detection()), pygame.transform.rotate(image, degrees)
+        body = world.add_body(mask)
+        body.move_to((100, 100), -math.radians(degrees))
+        drawn, rect = pygame.mask.from_surface(rotated), rotated.get_rect(center=(100, 100))
+        inside = [(x, y) for x in range(40, 160, 3) for y in range(40, 160, 3)]
+        wanted = [rect.collidepoint(p) and bool(drawn.get_at((p[0] - rect.x, p[1] - rect.y))) for p in inside]
+        found = [bool(world.query_point((x + 0.5, y + 0.5))) for x, y in inside]
+        alike = sum(a == b for a, b in zip(wanted, found, strict=True)) / len(inside)
+        assert sum(wanted) > 50 and alike > 0.97, f"{degrees} degrees: {alike:.3f} of the points agree"
 
 
 def test_links_of_the_documents_lead_somewhere():

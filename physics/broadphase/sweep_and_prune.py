@@ -9,6 +9,7 @@ Detection, 7.5. O(n + swaps + interval overlaps of the changed). Suits slow move
 import numpy as np
 from numpy.typing import ArrayLike
 
+from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
 from physics.jit import kernel
 from physics.tables.counters import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
@@ -340,11 +341,9 @@ class SweepAndPrune:
     name = "sweep"
 
     def __init__(self, axes: str = "auto") -> None:
-        if axes not in ("auto", "both"):
-            raise ValueError(f"axes must be auto or both (got {axes!r})")
-        self.axes = axes
+        self.axes = checks.choice("axes", axes, ("auto", "both"))
         self.updates = 0
-        self.sorted = [Axis(0), Axis(1)] if axes == "both" else [Axis(0)]
+        self.sorted = [Axis(0), Axis(1)] if self.axes == "both" else [Axis(0)]
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""

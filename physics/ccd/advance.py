@@ -74,8 +74,9 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
     y = workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
     place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
-    i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1)
-    j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1)
+    # At the start nothing is known of the pair: what another one left must not show, not even in the last bit.
+    i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1) if fraction > 0.0 else 0
+    j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1) if fraction > 0.0 else 0
     separation = separate(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, i, j, workspace.gap)
     workspace.totals[0] += workspace.gap.state[ROUNDS]
     workspace.totals[1] += workspace.gap.state[CAPPED]

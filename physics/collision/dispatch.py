@@ -26,7 +26,7 @@ from physics.collision.manifold import (
 from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
 from physics.collision.persist import recycle_manifolds, remember_grids
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
-from physics.dynamics.awake import is_active
+from physics.dynamics.awake import is_active, wakes
 from physics.jit import kernel, subkernel
 from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
 from physics.tables.geometry import Geometry
@@ -51,6 +51,12 @@ def kind_of_pair(low, high):
     if low == MASK or high == MASK:
         return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+
+
+@subkernel
+def may_change(a, b):
+    """Whether a step can change the contact of two bodies."""
+    return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @kernel
@@ -89,7 +95,7 @@ def classify(
                 or b.min_y - margin > a.max_y
             ):
                 kind = NOTHING
-            elif which == SOLIDS and not (is_active(bodies[a.body_row]) or is_active(bodies[b.body_row])):
+            elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
                 kind = NOTHING
         kind_out[i] = kind
         counts_out[kind] += 1

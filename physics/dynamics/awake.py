@@ -31,6 +31,12 @@ def is_active(body):
     )
 
 
+@subkernel
+def wakes(body, other):
+    """Whether a body wakes another that sleeps, when they touch: it may move, or what it is has changed by hand."""
+    return other.kind == DYNAMIC and not other.awake and (body.stirred or is_active(body))
+
+
 @kernel
 def list_active(bodies, rows, rows_out):
     """List those of the rows whose body is active and not quarantined. Returns their number. O(rows)."""
@@ -66,6 +72,7 @@ class Awake:
         self.dynamic = NONE  # rows of the dynamic bodies that are awake
         self.kinematic = NONE  # rows of all kinematic bodies
         self.stirred = []  # ids of what was added or touched since the last step
+        self.fresh = NONE  # rows of these, in the step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
         self.known = (0, 0)  # bodies and shapes that the lists have taken in
@@ -141,8 +148,8 @@ class Awake:
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
-        found = np.empty(len(self.order), np.int64)
-        return np.sort(found[: gather_shapes(rows, self.order, self.starts, found)])
+        gathered = np.empty(len(self.order), np.int64)
+        return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
@@ -172,7 +179,7 @@ class Awake:
 @stage(
     "awake",
     reads=("bodies", "shapes", "characters", "awake", "sleepers", "pairs", "touching", "sensing"),
-    writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active"),
+    writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active", "bodies.stirred"),
 )
 def list_awake(state: StepState) -> None:
     """The rows that this step goes over; who begins to move, and who has come to a stand, among what is not dynamic."""
@@ -181,9 +188,14 @@ def list_awake(state: StepState) -> None:
     moving = np.empty(len(awake.kinematic), np.int64)
     moving = moving[: list_active(bodies, awake.kinematic, moving)]
     wanted = [awake.dynamic, moving]
+    if len(awake.fresh):
+        bodies["stirred"] = False  # left by a step that failed
+        awake.fresh = NONE
     if awake.stirred:
         stirred = rows_of(bodies, np.array(awake.stirred, np.int64))
-        wanted.append(stirred[stirred >= 0])
+        awake.fresh = stirred[stirred >= 0]
+        bodies["stirred"][awake.fresh] = True
+        wanted.append(awake.fresh)
         awake.stirred = []
     if len(state.characters):
         wanted.append(state.characters["body_row"])

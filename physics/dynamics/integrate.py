@@ -18,9 +18,12 @@ from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.contact import QUARANTINE
 from physics.tables.counters import BODIES_INTEGRATED
+from physics.tables.shape import TILES
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
+NOT_FINITE = "position, angle or velocity is not finite or beyond what a double resolves"
+TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
@@ -174,6 +177,39 @@ def find_broken(
     return found
 
 
+@kernel
+def find_turned_grids(
+    # read
+    rows,
+    shapes,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List the rows of bodies with TILES among these shape rows that turn or are turned, which only a table can make
+    them; set them upright and at rest, and mark them quarantined. Returns the number. O(rows)."""
+    found = 0
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if s.kind != TILES:
+            continue
+        b = bodies_inout[s.body_row]
+        if b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0):
+            continue
+        broken_out[found] = s.body_row
+        found += 1
+        b.angle = 0.0
+        b.previous_x = b.x
+        b.previous_y = b.y
+        b.previous_angle = 0.0
+        b.vx = 0.0
+        b.vy = 0.0
+        b.angular_velocity = 0.0
+        b.awake = False
+        b.quarantined = True
+    return found
+
+
 # One compiled pass per combination of effects that it depends on; made here, compiled when first run.
 VELOCITIES = {
     (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
@@ -199,6 +235,7 @@ REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_veloc
         "touching",
         "sensing",
         "tolerances",
+        "library",
         "dt",
     ),
     writes=(
@@ -222,13 +259,18 @@ def quarantine(state: StepState) -> None:
     """Take what is no longer finite out of the simulation, and tell it;
     its neighbours go on as if it had been removed."""
     rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
-    broken = np.empty(len(rows), np.int64)
-    broken = broken[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, broken)]
-    if not len(broken):
+    found = np.empty(len(rows), np.int64)
+    broken = found[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, found)]
+    told = [(each, NOT_FINITE) for each in bodies["id"][broken].tolist()]
+    if state.library.grids.count:
+        turned = np.empty(len(state.awake.shapes), np.int64)
+        turned = np.unique(turned[: find_turned_grids(state.awake.shapes, shapes, bodies, turned)])
+        told += [(each, TURNED) for each in bodies["id"][turned].tolist()]
+        broken = np.concatenate([broken, turned])
+    if not told:
         return
-    ids = bodies["id"][broken]
-    why = "position, angle or velocity is not finite or beyond what a double resolves"
-    state.events.quarantined = np.array([(each, why) for each in ids.tolist()], QUARANTINE)
+    ids = np.sort(bodies["id"][broken])
+    state.events.quarantined = np.array(sorted(told), QUARANTINE)
     own = np.isin(shapes["body"], ids)
     state.pairs.free_proxies(shapes["proxy"][own])
     shapes["proxy"][own] = -1

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from physics.dynamics.awake import is_active, list_active
+from physics.dynamics.awake import is_active, list_active, wakes
 from physics.dynamics.graph import join, root_of
 from physics.dynamics.sleepers import Island, order_of
 from physics.jit import kernel
@@ -130,8 +130,8 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that something on its way touches, or will within dt [s]. Returns their number.
-    O(manifolds).
+    """List the sleeping bodies that something on its way, or changed by hand, touches or will within dt [s]. Returns
+    their number. O(manifolds).
 
     rows_out (2 · manifolds) int64; one may be named twice.
     """
@@ -147,10 +147,10 @@ def find_disturbed(
             near = near or m.separation_2 <= max(0.0, m.speed_2 * dt)
         if not near:
             continue
-        if is_active(a) and b.kind == DYNAMIC and not b.awake:
+        if wakes(a, b):
             rows_out[found] = m.body_row_b
             found += 1
-        if is_active(b) and a.kind == DYNAMIC and not a.awake:
+        if wakes(b, a):
             rows_out[found] = m.body_row_a
             found += 1
     return found

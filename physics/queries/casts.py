@@ -1,4 +1,4 @@
-"""Questions to a world between steps: rays, casts, overlaps, boxes, points. They read the present poses, and go through
+"""Questions to a world between steps: rays, casts, overlaps, points. They read the present poses, and go through
 the broad phase's structure; what the last one cost is in `world.queries.counters`."""
 
 import math
@@ -25,6 +25,7 @@ from physics.shapes.rows import place
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.shape import MASK, SHAPE
+from physics.vec2 import Vec2
 
 RAY_PIECES = 16  # a long slanted ray asks for up to this many boxes along it, not for one around it …
 PIECE = 8.0  # [m] … each about that wide
@@ -36,8 +37,8 @@ class RayHit:
 
     body: Any  # a Body, which is defined to the right of this folder
     shape: int
-    point: tuple[float, float]
-    normal: tuple[float, float]
+    point: Vec2
+    normal: Vec2
     fraction: float
 
 
@@ -78,7 +79,7 @@ def ray_cast_all(
 
 
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
-    """The first shape that a shape at a pose (x, y, angle) touches when it is moved by a translation, ties by shape id.
+    """The first shape that a shape at a pose touches when it is moved by a translation, ties by shape id.
 
     Sensors are left out. The normal points from what is met to the shape, the point lies midway between them. Touching
     or overlapping at the start: fraction 0 when it approaches; when it parts or slides the cast looks on. Zero length:
@@ -152,7 +153,7 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
     return hits[:found]
 
 
-def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, tuple[float, float], float] | None:
+def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
     """(body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
 
     Inside a shape: the point itself, and 0. Sensors are left out; a Chain is near from both sides, a one-way tile from
@@ -173,7 +174,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, tuple[
     if not found:
         return None
     row, gap, at = found
-    return world.body(int(world.shapes["body"][row])), at, gap
+    return world.body(int(world.shapes["body"][row])), Vec2(*at), gap
 
 
 def _nearest(world, rows, x, y):
@@ -203,20 +204,6 @@ def _nearest(world, rows, x, y):
     return row, gap, at
 
 
-def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
-    """Bodies with a shape whose AABB meets the closed box [px]. Raises ValueError for lower > upper."""
-    lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
-    if lower[0] > upper[0] or lower[1] > upper[1]:
-        raise ValueError(f"lower must be <= upper (got {lower} and {upper})")
-    world.queries.begin(world)
-    rows = world.queries.rows_in(world, lower, upper)
-    s = world.shapes[rows]
-    rows = rows[
-        (s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1]) & (s["max_y"] >= lower[1])
-    ]
-    return [world.body(each) for each in np.unique(world.shapes["body"][rows]).tolist()]
-
-
 def query_point(world: AskedWorld, point: Pair) -> list:
     """Bodies with a shape that holds the point [px], sensors included."""
     checks.vector("point", point)
@@ -225,7 +212,7 @@ def query_point(world: AskedWorld, point: Pair) -> list:
 
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
-    """Bodies that a shape at a pose (x, y, angle) overlaps, sensors included. Raises TypeError, ValueError."""
+    """Bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
     pose, filter = _placeable(shape, pose), _checked(filter)
     world.queries.begin(world)
     with world.library.visited():
@@ -272,7 +259,7 @@ def _probe(world, shape, pose):
 
 def _placeable(shape, pose):
     if not isinstance(shape, SHAPES):
-        raise TypeError(f"shape must be a shape such as Circle(8) (got {shape!r})")
+        raise TypeError(f"shape must be a shape such as Circle(8) (got {checks.shown(shape)})")
     pose = checks.pose("pose", pose)
     if isinstance(shape, TileGrid) and pose[2] != 0.0:
         raise ValueError(f"pose must have angle 0 for a TileGrid (got {pose[2]})")
@@ -281,7 +268,7 @@ def _placeable(shape, pose):
 
 def _checked(filter):
     if not isinstance(filter, Filter):
-        raise TypeError(f"filter must be a Filter (got {filter!r})")
+        raise TypeError(f"filter must be a Filter (got {checks.shown(filter)})")
     return filter
 
 
@@ -298,4 +285,4 @@ def _box_around(start, end):
 
 def _hit(world, row, fraction, nx, ny, point):
     shape = world.shapes[int(row)]
-    return RayHit(world.body(int(shape["body"])), int(shape["id"]), point, (nx + 0.0, ny + 0.0), fraction)
+    return RayHit(world.body(int(shape["body"])), int(shape["id"]), Vec2(*point), Vec2(nx + 0.0, ny + 0.0), fraction)

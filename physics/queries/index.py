@@ -123,8 +123,8 @@ def rows_meeting(
     return found
 
 
-class AskedWorld(WorldTables, Protocol):
-    """What queries read of a world. Any stands for what is defined to the right of this folder."""
+class IndexedWorld(WorldTables, Protocol):
+    """A world, or the StepState of its step, whose shapes can be looked up."""
 
     queries: "QueryIndex"
     steps: int
@@ -133,6 +133,10 @@ class AskedWorld(WorldTables, Protocol):
     def broadphase(self) -> Strategy:
         """Whose structure is asked."""
         ...
+
+
+class AskedWorld(IndexedWorld, Protocol):
+    """What queries read of a world. Any stands for what is defined to the right of this folder."""
 
     def body(self, identity: int) -> Any:
         """The Body of an id."""
@@ -160,12 +164,12 @@ class QueryIndex:
         """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
-    def begin(self, world: AskedWorld) -> None:
+    def begin(self, world: IndexedWorld) -> None:
         """Start a query: counters to zero, AABBs and loose rows up to date."""
         self.work[:] = 0
         self.refresh(world)
 
-    def refresh(self, world: AskedWorld) -> None:
+    def refresh(self, world: IndexedWorld) -> None:
         """Bring AABBs and loose rows up to date. world: a World, or the StepState of its step.
 
         After a step of a world with sleeping that is what was awake before or after it, moved by itself or was touched;
@@ -214,7 +218,7 @@ class QueryIndex:
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
-    def rows_in(self, world: AskedWorld, lower: Pair, upper: Pair) -> np.ndarray:
+    def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
         """Shape rows, in order, whose AABB meets the closed box [px] within rounding; none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)

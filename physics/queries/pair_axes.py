@@ -26,7 +26,7 @@ HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
 def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
-    """(n,) AXIS rows of two shapes at poses (x, y, angle), the axis that separates most first.
+    """(n,) AXIS rows of two shapes at poses (x, y) or (x, y, angle), the axis that separates most first.
 
     The greatest separation is the distance, or minus the depth. Raises TypeError for what is no convex shape.
     """
@@ -61,12 +61,10 @@ def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.n
 def _core(name, shape, pose_name, pose):
     """(world corners (n, 2), radius) of a convex shape at a pose [px]."""
     if not isinstance(shape, HULLS) or (isinstance(shape, Bounds) and not isinstance(shape.shape, HULLS)):
-        raise TypeError(f"{name} must be a Circle, Capsule, Segment, Polygon or Bounds of one (got {shape!r})")
-    try:
-        x, y, angle = pose
-    except (TypeError, ValueError):
-        raise TypeError(f"{pose_name} must be (x, y, angle) (got {pose!r})") from None
-    (x, y), angle = checks.position(pose_name, (x, y)), checks.number(f"{pose_name}[2]", angle)
+        raise TypeError(
+            f"{name} must be a Circle, Capsule, Segment, Polygon or Bounds of one (got {checks.shown(shape)})"
+        )
+    x, y, angle = checks.pose(pose_name, pose)
     library, rows, corners = Library(), np.zeros(1, SHAPE), np.zeros((16, 2))
     rows["kind"], rows["geometry"], rows["wrapped"] = library.add(shape)
     rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)

@@ -8,22 +8,21 @@ import numpy as np
 
 from physics import checks
 from physics.checks import Pose
-from physics.proximity.gjk import AX, AY, NX, NY, new_gap_workspace
+from physics.jit import kernel, subkernel
+from physics.proximity.gjk import AX, AY, NX, NY, ROUNDS, new_gap_workspace
+from physics.proximity.separation import separate
 from physics.proximity.trace import steps_of
 from physics.proximity.witness import separate_parts
 from physics.queries.pair_manifold import collide
+from physics.queries.pair_rows import any_pair, hull_pair, hull_row, order_of
 from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Circle
 from physics.shapes.kinds import SHAPES, Shape
-from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.parts import placed_parts
-from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rows import place
+from physics.shapes.placement import hull_at, rounding
 from physics.shapes.tiles import TileGrid
-from physics.tables.body import BODY
-from physics.tables.shape import SHAPE
+from physics.vec2 import Vec2
 
 ROUNDING_BAND = 1e-11  # of the size: within it the contact test says on which side of touching two shapes are
 NEXT_TO_NOTHING = math.ulp(0.0)  # [px] apart, and no number is smaller: shapes that touch without a contact
@@ -38,14 +37,14 @@ class Distance:
     """
 
     distance: float
-    point_a: tuple[float, float]
-    point_b: tuple[float, float]
-    normal: tuple[float, float]
+    point_a: Vec2
+    point_b: Vec2
+    normal: Vec2
     iterations: int
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Distance of two shapes at poses (x, y, angle). <= 0 exactly where `collide` finds a contact.
+    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact.
 
     Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
     `collide` gives. Where shapes touch or cross without a contact (two masks side by side; a Chain from behind; tiles
@@ -53,13 +52,13 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
     the normal (1, 0), to a shape without a solid cell or pixel. Raises TypeError, ValueError.
     """
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
-    if order_of(shape_b, pose_b) < order_of(shape_a, pose_a):
+    if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
         found = _measure(shape_b, pose_b, shape_a, pose_a)
         return Distance(
             found.distance,
             found.point_b,
             found.point_a,
-            (0.0 - found.normal[0], 0.0 - found.normal[1]),
+            Vec2(0.0 - found.normal[0], 0.0 - found.normal[1]),
             found.iterations,
         )
     return _measure(shape_a, pose_a, shape_b, pose_b)
@@ -68,18 +67,16 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
 def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     # Seen from A, so that far from the origin no digits are lost.
     x, y = pose_a[0], pose_a[1]
-    parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, x, y)
-    workspace, totals = new_gap_workspace(), np.zeros(2)
-    found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
+    workspace, row_a, row_b = new_gap_workspace(), hull_row(shape_a), hull_row(shape_b)
+    boxes = isinstance(shape_a, Bounds) or isinstance(shape_b, Bounds)  # which stand where they stand in the world
+    if row_a is not None and row_b is not None and not boxes:
+        rows = hull_pair(row_a, pose_a, row_b, pose_b)
+        found, size, rounds = separate_hulls(*rows, x, y, np.zeros((16, 2)), np.zeros((16, 2)), workspace)
+    else:
+        found, size, rounds = _separate_any(shape_a, pose_a, shape_b, pose_b, workspace)
     if math.isinf(found):
-        return Distance(math.inf, pose_a[:2], pose_b[:2], (1.0, 0.0), 0)
+        return Distance(math.inf, Vec2(*pose_a[:2]), Vec2(*pose_b[:2]), Vec2(1.0, 0.0), 0)
     nx, ny, ax, ay = (float(workspace.gap[k]) for k in (NX, NY, AX, AY))
-    size = float(
-        max(
-            np.ptp(parts_a.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(),
-            np.ptp(parts_b.boxes.reshape(-1, 2, 2), axis=(0, 1)).max(),
-        )
-    )
     convex = not any(isinstance(each, (TileGrid, PixelMask, Chain)) for each in (shape_a, shape_b))
     band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
     if any(isinstance(each, Chain) for each in (shape_a, shape_b)):
@@ -94,9 +91,53 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
             deepest = int(np.argmin(contact.separations))
             found, (nx, ny) = min(float(contact.separations[deepest]), 0.0), contact.normal
             ax, ay = contact.points[deepest] - 0.5 * found * np.array((nx, ny)) - (x, y)
-    point_a = (x + float(ax), y + float(ay))
+    point_a = Vec2(x + float(ax), y + float(ay))
     nx, ny = nx + 0.0, ny + 0.0
-    return Distance(float(found), point_a, (point_a[0] + found * nx, point_a[1] + found * ny), (nx, ny), int(totals[0]))
+    point_b = Vec2(point_a[0] + found * nx, point_a[1] + found * ny)
+    return Distance(float(found), point_a, point_b, Vec2(nx, ny), int(rounds))
+
+
+@kernel
+def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
+    """Write separation, normal and points, seen from (x, y) [px], of the hulls in rows 0 and 1 to workspace.gap.
+
+    corners_a_out, corners_b_out (16, 2): scratch. Returns (separation [px], the greater size of both [px], rounds of
+    GJK and EPA).
+    """
+    a = bodies[0]
+    b = bodies[1]
+    count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
+    count_b = hull_at(geometry, shapes, 1, b.x - x, b.y - y, b.angle, corners_b_out)
+    radius_a = rounding(shapes, 0)
+    radius_b = rounding(shapes, 1)
+    separation = separate(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
+    size = max(size_of(corners_a_out, count_a, radius_a), size_of(corners_b_out, count_b, radius_b))
+    return separation, size, workspace.state[ROUNDS]
+
+
+@subkernel
+def size_of(corners, count, radius):
+    """The longer side of the box [px] around a rounded hull."""
+    longest = 0.0
+    for axis in range(2):
+        low = corners[0, axis]
+        high = low
+        for k in range(1, count):
+            low = min(low, corners[k, axis])
+            high = max(high, corners[k, axis])
+        longest = max(longest, (high + radius) - (low - radius))
+    return longest
+
+
+def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
+    """What separate_hulls tells, of any two shapes; infinite where one has no parts."""
+    parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
+    totals = np.zeros(2)
+    found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
+    if math.isinf(found):
+        return found, 0.0, 0
+    size = max(np.ptp(parts.boxes.reshape(-1, 2, 2), axis=(0, 1)).max() for parts in (parts_a, parts_b))
+    return found, float(size), totals[0]
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
@@ -106,47 +147,22 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
     """
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if isinstance(shape, (TileGrid, PixelMask, Chain)):
-            raise TypeError(f"{name} must be a convex shape (got {shape!r})")
+            raise TypeError(f"{name} must be a convex shape (got {checks.shown(shape)})")
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     parts_a, parts_b = _parts(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     return steps_of(parts_a.corners[0, : parts_a.counts[0]], parts_b.corners[0, : parts_b.counts[0]])
 
 
 def _parts(shape_a, pose_a, shape_b, pose_b, x, y):
-    library = Library()
-    bodies, shapes = np.zeros(2, BODY), np.zeros(2, SHAPE)
-    for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
-        place(library, shape, bodies, shapes, row, pose)
-    refresh_aabbs(np.arange(2), library.tables, bodies, shapes)
+    library, (_, bodies, shapes) = any_pair(shape_a, pose_a, shape_b, pose_b)
     return tuple(placed_parts(library, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])) for row in (0, 1))
 
 
 def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
     """The pose as numbers. Raises TypeError or ValueError that names the argument."""
     if not isinstance(shape, SHAPES):
-        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {shape!r})")
+        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
     pose = checks.pose(pose_name, pose)
     if isinstance(shape, TileGrid) and pose[2] != 0.0:
         raise ValueError(f"{pose_name} must have angle 0 for a TileGrid (got {pose[2]})")
     return pose
-
-
-def order_of(shape: Shape, *poses: tuple[float, float, float]) -> tuple:
-    """A key that orders any two shapes at poses, so that swapping them changes no bit of the result but the signs."""
-    kind = next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
-    if isinstance(shape, Bounds):
-        return (kind, *order_of(shape.shape, *poses))
-    if isinstance(shape, TileGrid):
-        value = (
-            *shape.solid.shape,
-            shape.tile_size,
-            shape.solid.tobytes(),
-            shape.slopes.tobytes(),
-            shape.one_way.tobytes(),
-        )
-    elif isinstance(shape, PixelMask):
-        value = (*shape.size, *shape.origin, shape.solid.tobytes())
-    else:
-        points = (shape.center,) if isinstance(shape, Circle) else shape.points
-        value = (getattr(shape, "radius", 0.0), len(points), *(each for point in points for each in point))
-    return (kind, *value, *poses)

@@ -12,7 +12,8 @@ from physics.ccd.rotational import new_rotational_workspace
 from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
 from physics.proximity.witness import separate_parts
-from physics.queries.pair_distance import checked, order_of
+from physics.queries.pair_distance import checked
+from physics.queries.pair_rows import order_of
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Circle
 from physics.shapes.kinds import Shape
@@ -21,6 +22,7 @@ from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
 from physics.shapes.parts import Parts, chain_outlines, mask_outlines, parts_of, rectangle, tile_outlines
 from physics.shapes.tiles import TileGrid
+from physics.vec2 import Vec2
 
 BOX_STOPS = 4000  # of a turning box, whose speed is only bounded: each is before the impact
 LOOKS = 1024  # of shapes that touch and do not approach
@@ -33,8 +35,8 @@ class TimeOfImpact:
 
     hit: bool
     fraction: float
-    point: tuple[float, float] | None
-    normal: tuple[float, float] | None
+    point: Vec2 | None
+    normal: Vec2 | None
 
 
 NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
@@ -43,7 +45,7 @@ NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 def time_of_impact(
     shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
 ) -> TimeOfImpact:
-    """First fraction at which two shapes touch while their poses (x, y, angle) go straight from start to end,
+    """First fraction at which two shapes touch while their poses (x, y) or (x, y, angle) go straight from start to end,
     angles unwrapped.
 
     Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
@@ -60,7 +62,7 @@ def time_of_impact(
     ground = [isinstance(each, (TileGrid, Chain)) for each in (shape_a, shape_b)]
     if all(ground):
         return NO_IMPACT
-    swap = ground[0] or (not ground[1] and order_of(shape_b, *moves[1]) < order_of(shape_a, *moves[0]))
+    swap = ground[0] or (not ground[1] and (*order_of(shape_b), *moves[1]) < (*order_of(shape_a), *moves[0]))
     given = [(shape_a, moves[0]), (shape_b, moves[1])]
     (a, move_a), (b, move_b) = reversed(given) if swap else given
     fraction, nx, ny = _first(a, move_a, b, move_b)
@@ -68,7 +70,7 @@ def time_of_impact(
         return NO_IMPACT
     side = -1.0 if swap else 1.0
     return TimeOfImpact(
-        True, float(fraction), _point(a, move_a, b, move_b, fraction), (side * nx + 0.0, side * ny + 0.0)
+        True, float(fraction), _point(a, move_a, b, move_b, fraction), Vec2(side * nx + 0.0, side * ny + 0.0)
     )
 
 
@@ -173,7 +175,7 @@ def _point(a, move_a, b, move_b, fraction):
             for each, move in ((a, move_a), (b, move_b))
         )
     )
-    return float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY]))
+    return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
 
 
 def _gap_at(parts_a, parts_b):

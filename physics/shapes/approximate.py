@@ -15,10 +15,11 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     """The shapes that stand for a mask in a tier; () for a mask without pixels.
 
     circle: the least circle that holds all pixels; aabb: the bounds at each pose; obb: the least turned box; pixels:
-    the mask itself. tolerance [px] is for tiers that simplify an outline. Raises TypeError, ValueError.
+    the mask itself. They have the mask's own values. tolerance [px] is for tiers that simplify an outline. Raises
+    TypeError, ValueError.
     """
     if not isinstance(mask, PixelMask):
-        raise TypeError(f"mask must be a PixelMask (got {mask!r})")
+        raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
     checks.choice("tier", tier, TIERS)
     checks.number("tolerance", tolerance, above=0.0)
     if tier == "pixels":
@@ -26,8 +27,9 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     if mask.area == 0:
         return ()
     if tier not in mask.fitted:  # a mask never changes, so neither does what stands for it
-        mask.fitted[tier] = _fit(mask, tier)
-    return mask.fitted[tier]
+        mask.fitted[tier] = _fit(mask.bare, tier)
+    fitted = mask.fitted[tier]
+    return fitted if mask is mask.bare else tuple(each.with_values_of(mask) for each in fitted)
 
 
 def _fit(mask, tier):

@@ -10,6 +10,8 @@ import numpy as np
 from physics import checks
 from physics.checks import Pair, Points
 from physics.shapes.mass import Mass, polygon_mass, rounded_mass
+from physics.shapes.own_values import EqualByValue
+from physics.vec2 import Vec2
 
 MAX_CORNERS = 16
 SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
@@ -21,11 +23,11 @@ def reach(points: Iterable[Pair], radius: float, x: float, y: float) -> float:
 
 
 @dataclass(frozen=True)
-class Circle:
+class Circle(EqualByValue):
     """A disc. Raises ValueError for a radius that is not > 0."""
 
     radius: float
-    center: Pair = (0.0, 0.0)
+    center: Pair = Vec2(0.0, 0.0)
 
     def __post_init__(self):
         object.__setattr__(self, "radius", checks.number("radius", self.radius, above=0.0))
@@ -37,14 +39,14 @@ class Circle:
 
     def mass_of(self, density: float) -> Mass:
         mass = density * math.pi * self.radius * self.radius
-        return Mass(mass, (self.center[0], self.center[1]), mass * self.radius * self.radius / 2.0)
+        return Mass(mass, Vec2(*self.center), mass * self.radius * self.radius / 2.0)
 
     def reach(self, x: float, y: float) -> float:
         return reach((self.center,), self.radius, x, y)
 
 
 @dataclass(frozen=True)
-class Capsule:
+class Capsule(EqualByValue):
     """All points within a radius of the line from a to b.
     Raises ValueError for a radius that is not > 0, or no length."""
 
@@ -80,7 +82,7 @@ class Capsule:
         inertia = middle * (length * length + 4.0 * r * r) / 12.0 + ends * (
             r * r / 2.0 + length * length / 4.0 + length * 4.0 * r / (3.0 * math.pi)
         )
-        center = (self.a[0] + 0.5 * (self.b[0] - self.a[0]), self.a[1] + 0.5 * (self.b[1] - self.a[1]))
+        center = Vec2(self.a[0] + 0.5 * (self.b[0] - self.a[0]), self.a[1] + 0.5 * (self.b[1] - self.a[1]))
         return Mass(middle + ends, center, inertia)
 
     def reach(self, x: float, y: float) -> float:
@@ -88,7 +90,7 @@ class Capsule:
 
 
 @dataclass(frozen=True)
-class Polygon:
+class Polygon(EqualByValue):
     """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen;
     grown and rounded by a radius.
 
@@ -119,7 +121,7 @@ class Polygon:
             )
         if turns[0] < 0:
             points = points[::-1]
-        object.__setattr__(self, "points", tuple((float(x), float(y)) for x, y in points))
+        object.__setattr__(self, "points", tuple(Vec2(x, y) for x, y in points.tolist()))
 
     @classmethod
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":

@@ -19,11 +19,12 @@ SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
     """Mass of one shape or several together: inertia about the common centre of mass.
 
+    density [mass per px2] is that of shapes without a material of their own.
     Raises TypeError for what is no shape, ValueError for a density that is not > 0.
     """
     density = checks.number("density", density, above=0.0)
     parts = shapes if isinstance(shapes, (tuple, list)) else (shapes,)
     for shape in parts:
         if not isinstance(shape, SHAPES):
-            raise TypeError(f"shapes must be shapes (got {shape!r})")
-    return together([shape.mass_of(density) for shape in parts])
+            raise TypeError(f"shapes must be shapes (got {checks.shown(shape)})")
+    return together([shape.mass_of(density if shape.material is None else shape.material.density) for shape in parts])

@@ -1,6 +1,7 @@
 """The corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
 
-A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up.
+A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up. What no shape
+uses any longer stays until it may be half of all; then what is used is put into a library of its own.
 """
 
 from collections.abc import Iterator
@@ -36,6 +37,8 @@ from physics.tables.geometry import (
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT, TILES
 from physics.tables.table import Table
 
+SLACK = 1 << 16  # [bytes] of geometry, and …
+FEW = 64  # … shapes, that are not worth tidying up for
 KIND_OF = {Polygon: POLYGON, Capsule: CAPSULE, Segment: SEGMENT, Chain: CHAIN, TileGrid: TILES, PixelMask: MASK}
 
 
@@ -51,7 +54,58 @@ class Library:
         self.shapes = {}  # key -> (row, shape); holds the shape, so that an id cannot be given twice
         self.masks, self.tile_grids = [], []
         self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by their row; chains by theirs
+        self.gone = 0  # shape rows dropped since it was made
+        self.least = 0  # [bytes] when it was made
         self.tables = self._tables()
+
+    @property
+    def grown(self) -> tuple[Table, ...]:
+        """The tables that every shape adds to."""
+        return (
+            self.polygons,
+            self.corners,
+            self.chains,
+            self.links,
+            self.link_blocks,
+            self.grids,
+            self.cells,
+            self.rasters,
+            self.words,
+        )
+
+    @property
+    def size(self) -> int:
+        """[bytes] in use."""
+        return sum(table.count * table.data.itemsize for table in self.grown)
+
+    def may_be_half_unused(self, shapes: int) -> bool:
+        """Whether more was dropped than the shapes that are left, or more was added than there was."""
+        return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
+
+    def without_unused(self, shapes: np.ndarray) -> "Library":
+        """A library of what these SHAPE rows use; their columns `geometry` and `raster` are set to its rows."""
+        fresh = Library()
+        kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
+        rasters = np.zeros(self.rasters.count + 1, np.int64)
+        for of, known in (
+            ((POLYGON, CAPSULE, SEGMENT), self.outlines),
+            ((CHAIN,), self.chain_shapes),
+            ((TILES,), self.tile_grids),
+            ((MASK,), self.masks),
+        ):
+            mine = np.flatnonzero(np.isin(kinds, of))
+            used, which = np.unique(shapes["geometry"][mine], return_inverse=True)
+            rows = np.array([fresh.add(known[row])[1] for row in used.tolist()], np.int64)
+            shapes["geometry"][mine] = rows[which]
+            if known is self.masks:
+                for old, new in zip(used.tolist(), rows.tolist(), strict=True):
+                    for bucket in np.flatnonzero(self.raster_of[old] >= 0).tolist():
+                        if fresh.raster_of[new, bucket] < 0:
+                            fresh.add_raster(new, bucket)
+                        rasters[self.raster_of[old, bucket]] = fresh.raster_of[new, bucket]
+        shapes["raster"] = rasters[shapes["raster"]]
+        fresh.least = fresh.size
+        return fresh
 
     def _tables(self):
         return Geometry(
@@ -74,6 +128,7 @@ class Library:
             return BOUNDS, row, kind
         if isinstance(shape, Circle):
             return CIRCLE, -1, -1
+        shape = shape.bare
         key = id(shape) if isinstance(shape, (TileGrid, PixelMask)) else shape
         if key not in self.shapes:
             add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(
@@ -179,20 +234,7 @@ class Library:
     @contextmanager
     def visited(self) -> Iterator[None]:
         """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
-        kept = [
-            (table, table.count)
-            for table in (
-                self.polygons,
-                self.corners,
-                self.chains,
-                self.links,
-                self.link_blocks,
-                self.grids,
-                self.cells,
-                self.rasters,
-                self.words,
-            )
-        ]
+        kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
         try:

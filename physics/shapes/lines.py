@@ -9,6 +9,8 @@ from physics.checks import Pair, Points
 from physics.shapes.convex import reach
 from physics.shapes.mass import NOTHING, Mass
 from physics.shapes.material import Material
+from physics.shapes.own_values import EqualByValue
+from physics.vec2 import Vec2
 
 SHORTEST = 1e-12  # of the largest coordinate: below, a link has no direction
 
@@ -19,7 +21,7 @@ def _check_length(name, a, b):
 
 
 @dataclass(frozen=True)
-class Segment:
+class Segment(EqualByValue):
     """The line from a to b, solid from both sides; no mass. Raises ValueError for one without length."""
 
     a: Pair
@@ -46,7 +48,7 @@ class Segment:
 
 
 @dataclass(frozen=True)
-class Chain:
+class Chain(EqualByValue):
     """Links from point to point, met from the side of (dy, -dx): a floor is listed left to right, a solid island
     clockwise on the screen, a room counter-clockwise. No mass; for static and kinematic bodies.
 
@@ -60,7 +62,7 @@ class Chain:
     materials: Sequence[Material] | None = None
 
     def __post_init__(self):
-        points = tuple(map(tuple, checks.columns("points", self.points).tolist()))
+        points = tuple(Vec2(x, y) for x, y in checks.columns("points", self.points).tolist())
         loop = checks.flag("loop", self.loop)
         least = 3 if loop else 2
         if len(points) < least:
@@ -81,12 +83,15 @@ class Chain:
             return None
         if self.loop:
             raise ValueError(
-                f"ghosts must be None for a loop, whose ends are each other's neighbours (got {self.ghosts!r})"
+                "ghosts must be None for a loop, whose ends are each other's neighbours "
+                f"(got {checks.shown(self.ghosts)})"
             )
         try:
             before, after = self.ghosts
         except (TypeError, ValueError):
-            raise TypeError(f"ghosts must be a pair of points (before, after) (got {self.ghosts!r})") from None
+            raise TypeError(
+                f"ghosts must be a pair of points (before, after) (got {checks.shown(self.ghosts)})"
+            ) from None
         ghosts = tuple(
             None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate((before, after))
         )
@@ -99,11 +104,11 @@ class Chain:
         if self.materials is None:
             return None
         if not isinstance(self.materials, (tuple, list)):
-            raise TypeError(f"materials must be a tuple of Material, one per link (got {self.materials!r})")
+            raise TypeError(f"materials must be a tuple of Material, one per link (got {checks.shown(self.materials)})")
         materials = tuple(self.materials)
         for k, each in enumerate(materials):
             if not isinstance(each, Material):
-                raise TypeError(f"materials[{k}] must be a Material (got {each!r})")
+                raise TypeError(f"materials[{k}] must be a Material (got {checks.shown(each)})")
         if len(materials) != self.links:
             raise ValueError(f"materials must be {self.links}, one per link (got {len(materials)})")
         return materials

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from physics.checks import Points
+from physics.vec2 import Vec2
 
 
 @dataclass(frozen=True)
@@ -14,11 +15,11 @@ class Mass:
     """Mass, centre of mass in body space [px], and inertia about that centre."""
 
     mass: float
-    center: tuple[float, float]
+    center: Vec2
     inertia: float
 
 
-NOTHING = Mass(0.0, (0.0, 0.0), 0.0)
+NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
 
 
 def together(parts: Iterable[Mass]) -> Mass:
@@ -35,7 +36,7 @@ def together(parts: Iterable[Mass]) -> Mass:
         part.inertia + part.mass * ((part.center[0] - base_x - x) ** 2 + (part.center[1] - base_y - y) ** 2)
         for part in parts
     )
-    return Mass(mass, (base_x + x, base_y + y), inertia)
+    return Mass(mass, Vec2(base_x + x, base_y + y), inertia)
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
@@ -49,7 +50,7 @@ def polygon_mass(points: Points, density: float) -> Mass:
     a, b = a - center, b - center
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     second = (cross * ((a * a).sum(1) + (a * b).sum(1) + (b * b).sum(1))).sum() / 12.0
-    return Mass(float(density * area), tuple((base + center).tolist()), float(density * second))
+    return Mass(float(density * area), Vec2(*(base + center).tolist()), float(density * second))
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
@@ -66,7 +67,7 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
         parts.append(
             Mass(
                 mass,
-                (points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
+                Vec2(points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
                 mass * (length * length + radius * radius) / 12.0,
             )
         )
@@ -81,7 +82,7 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
         parts.append(
             Mass(
                 mass,
-                (points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
+                Vec2(points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
                 mass * (0.5 * radius * radius - away * away),
             )
         )

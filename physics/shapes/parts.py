@@ -5,7 +5,6 @@ polygon per slope.
 """
 
 from collections.abc import Sequence
-from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -44,36 +43,9 @@ def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
     return Parts(corners, counts, boxes, float(radius))
 
 
-def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """(left, top, right, bottom) of rectangles that cover solid[row, col]: runs along rows, alike ones joined."""
-    found, open_runs = [], {}
-    edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
-    for row, line in enumerate(edges):
-        runs = set(zip(np.flatnonzero(line > 0).tolist(), np.flatnonzero(line < 0).tolist(), strict=True))
-        for run in sorted(open_runs.keys() - runs):
-            found.append((run[0], open_runs.pop(run), run[1], row))
-        for run in runs - open_runs.keys():
-            open_runs[run] = row
-    return found
-
-
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
     """Corners of a box, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
-
-
-@lru_cache(maxsize=256)
-def tile_blocks(
-    grid: TileGrid,
-) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
-    """Blocks of solid cells, cells with a slope, and blocks of one-way cells of a TileGrid, which never changes."""
-    return solid_blocks(grid.solid), np.argwhere((grid.slopes > 0.0).any(axis=2)).tolist(), solid_blocks(grid.one_way)
-
-
-@lru_cache(maxsize=256)
-def mask_blocks(mask: PixelMask, bucket: int) -> list[tuple[int, int, int, int]]:
-    """Blocks of solid pixels of a PixelMask turned to an angle bucket."""
-    return solid_blocks(mask.turned_to(bucket).solid)
 
 
 def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
@@ -83,7 +55,7 @@ def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
     what is wholly above it.
     """
     size = grid.tile_size
-    solid, slopes, one_way = tile_blocks(grid)
+    solid, slopes, one_way = grid.blocks
     found = [
         rectangle(x + left * size, y + top * size, x + right * size, y + bottom * size)
         for left, top, right, bottom in solid
@@ -104,9 +76,7 @@ def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
 
 def mask_outlines(mask: PixelMask, bucket: int, x: float, y: float) -> list:
     """Outlines of a mask's pixels at an angle bucket, whose raster's top left corner is at (x, y) [px]."""
-    return [
-        rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask_blocks(mask, bucket)
-    ]
+    return [rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask.blocks(bucket)]
 
 
 def chain_outlines(chain: Chain) -> list:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from physics import checks
 from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
@@ -17,10 +18,12 @@ from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> None:
     """Refuse no shapes, dynamic chains, turned or dynamic tiles, swept masks. Raises TypeError, ValueError."""
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
-        raise ValueError(f"shapes of a dynamic body must hold one with mass, a Segment has none (got {shapes!r})")
+        raise ValueError(
+            f"shapes of a dynamic body must hold one with mass, a Segment has none (got {checks.shown(shapes)})"
+        )
     for shape in shapes:
         if not isinstance(shape, SHAPES):
-            raise TypeError(f"shapes must be shapes such as Circle(8) (got {shape!r})")
+            raise TypeError(f"shapes must be shapes such as Circle(8) (got {checks.shown(shape)})")
         if isinstance(shape, PixelMask) and swept in (RAY, SWEPT):
             raise ValueError(
                 f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "

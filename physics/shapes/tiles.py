@@ -1,15 +1,20 @@
 """TileGrid: ground made of tiles of one size."""
 
 import math
+import sys
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
+from physics.shapes.blocks import solid_blocks
 from physics.shapes.mass import NOTHING, Mass
+from physics.shapes.own_values import OwnValues
 
 
-class TileGrid:
+class TileGrid(OwnValues):
     """Solid tiles of one size; origin at the top left corner of tile (0, 0).
 
     solid[row, col] bool; one_way[row, col] bool: open from below; slopes[row, col] = (left, right): height of the
@@ -45,8 +50,19 @@ class TileGrid:
         for array in (self.solid, self.one_way, self.slopes):
             array.flags.writeable = False
 
-    def __deepcopy__(self, memo):
-        return self  # a value: copies of a world share it
+    @cached_property
+    def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
+        """Blocks (left, top, right, bottom) of solid cells, cells with a slope, and blocks of one-way cells."""
+        return (
+            solid_blocks(self.solid),
+            np.argwhere((self.slopes > 0.0).any(axis=2)).tolist(),
+            solid_blocks(self.one_way),
+        )
+
+    @cached_property
+    def is_empty(self) -> bool:
+        """Whether no cell holds anything."""
+        return not (self.solid.any() or self.one_way.any() or (self.slopes > 0.0).any())
 
     @property
     def smallest_half(self) -> float:
@@ -66,6 +82,8 @@ class TileGrid:
 
 
 def bools(name: str, value: ArrayLike) -> np.ndarray:
+    """A C-ordered bool array [row, col]. Raises TypeError, ValueError."""
+    _refuse_pixels_of_pygame(name, value)
     try:
         array = np.array(value)
     except ValueError:
@@ -75,3 +93,15 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
         raise TypeError(f"{name} must be an array of bool (got {array.dtype})")
     return np.ascontiguousarray(array != 0)
+
+
+def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
+    """NumPy would read the words of a pygame Mask, which lie in columns of bits, as numbers of pixels."""
+    pygame = sys.modules.get("pygame")  # whoever has a Mask has imported it; the physics does not
+    for kind, way_in in (("Mask", "from_mask(mask)"), ("Surface", "from_surface(surface)")):
+        known = getattr(pygame, kind, None)
+        if isinstance(known, type) and isinstance(value, known):
+            raise TypeError(
+                f"{name} must be an array [row, col] of bool (got the pygame {kind} {value!r}): "
+                f"PixelMask.{way_in} takes it"
+            )

@@ -1,4 +1,4 @@
-"""BODY: one row per body, and what the numbers of its kinds mean.
+"""BODY: one row per body, and what the numbers of its kinds mean; GIVEN: what it says of its shapes.
 
 Rows are kept in the order of ids, so the order of rows is the canonical order of everything. A row number changes
 when an earlier row is removed; an id never changes and is never given twice.
@@ -26,6 +26,7 @@ BODY = np.dtype(
         ("inertia", np.float64),  # [density px4] about the centre of mass
         ("awake", np.bool_),
         ("active", np.bool_),  # in the rows that a step goes over; all are in a world without sleeping
+        ("stirred", np.bool_),  # within a step: added or changed by hand before it, in a world with sleeping
         ("inverse_mass", np.float64),  # 0 = cannot be pushed
         ("inverse_inertia", np.float64),  # 0 = cannot be turned
         ("local_center_x", np.float64),  # [px] centre of mass in body space
@@ -49,6 +50,20 @@ BODY = np.dtype(
         ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
         ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
         ("fraction", np.float64),  # of this step's motion that was free, 1 when nothing was in the way
+    ],
+    align=True,
+)
+GIVEN = np.dtype(
+    [  # beside BODY, row by row: what the body was given for those of its shapes that have no values of their own
+        ("density", np.float64),
+        ("friction", np.float64),
+        ("restitution", np.float64),
+        ("rolling_resistance", np.float64),
+        ("surface_speed", np.float64),  # [px/s]
+        ("membership", np.int64),  # 32 bits
+        ("mask", np.int64),  # 32 bits
+        ("mass", np.float64),  # in place of the densities'; 0: the densities'
+        ("sensor", np.bool_),
     ],
     align=True,
 )

@@ -17,6 +17,9 @@ SHAPE = np.dtype(
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
         ("sensor", np.bool_),
+        ("own_material", np.bool_),  # the shape's own, whatever its body says
+        ("own_filter", np.bool_),
+        ("own_sensor", np.bool_),
         ("density", np.float64),
         ("friction", np.float64),
         ("restitution", np.float64),

@@ -23,6 +23,7 @@ STAGE_FIELDS = (
     "substeps",
     "broadphase",
     "steps",  # made before this one
+    "kept_forces",  # collected for a step of some length, when this one has none; else None
     # tables
     "bodies",  # BODY rows
     "shapes",  # SHAPE rows
@@ -66,6 +67,7 @@ class StepState:
     substeps: int
     broadphase: Any  # broadphase.proxies.Strategy
     steps: int
+    kept_forces: np.ndarray | None
     bodies: np.ndarray
     shapes: np.ndarray
     characters: np.ndarray

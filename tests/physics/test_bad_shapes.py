@@ -97,9 +97,9 @@ def test_shape_that_is_none_is_refused(case):
         ("solver", lambda v: World(solver=v), ["soft", "", 5]),
         ("shape_a", lambda v: distance(v, STILL, BALL, STILL), [None, 5, "x"]),
         ("shape_b", lambda v: distance(BALL, STILL, v, STILL), [None, 5]),
-        ("pose_a", lambda v: distance(BALL, v, BALL, STILL), [None, 5, (0, 0), (0, 0, NAN)]),
-        ("start_a", lambda v: time_of_impact(BALL, v, STILL, BALL, STILL, STILL), [None, (0, 0), (0, NAN, 0)]),
-        ("end_b", lambda v: time_of_impact(BALL, STILL, STILL, BALL, STILL, v), [None, (0, 0), (0, INF, 0)]),
+        ("pose_a", lambda v: distance(BALL, v, BALL, STILL), [None, 5, (0,), (0, NAN), (0, 0, NAN)]),
+        ("start_a", lambda v: time_of_impact(BALL, v, STILL, BALL, STILL, STILL), [None, (0,), (0, NAN), (0, NAN, 0)]),
+        ("end_b", lambda v: time_of_impact(BALL, STILL, STILL, BALL, STILL, v), [None, (0,), (INF, 0), (0, INF, 0)]),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

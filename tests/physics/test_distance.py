@@ -379,7 +379,7 @@ def test_gjk_steps_end_at_the_distance():
     "a, pose, error, words",
     [
         ("ball", ORIGIN, TypeError, "shape_a"),
-        (Circle(1), (0, 0), TypeError, "pose_a"),
+        (Circle(1), (0, 0, 0, 0), TypeError, "pose_a"),
         (Circle(1), (0, math.nan, 0), ValueError, "pose_a"),
         (TileGrid(np.ones((1, 1), bool), 4.0), (0, 0, 0.1), ValueError, "pose_a"),
     ],

@@ -332,7 +332,7 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
     "call, error, words",
     [
         (lambda w: w.shape_cast("ball", ORIGIN, (1, 0)), TypeError, "shape"),
-        (lambda w: w.shape_cast(Circle(1), (0, 0), (1, 0)), TypeError, "pose"),
+        (lambda w: w.shape_cast(Circle(1), (0,), (1, 0)), TypeError, "pose"),
         (lambda w: w.shape_cast(Circle(1), ORIGIN, (math.nan, 0)), ValueError, "translation"),
         (lambda w: w.closest((0, math.inf)), ValueError, "point"),
         (lambda w: w.shape_cast(Circle(1), ORIGIN, (1, 0), filter=3), TypeError, "filter"),

@@ -20,7 +20,7 @@ def test_snapshot_of_another_kind_of_solver_is_stepped_with_unit_normals():
         assert np.allclose(np.hypot(world.contacts["normal_x"], world.contacts["normal_y"]), 1.0)
 
 
-def test_sleepers_of_a_snapshot_wake_under_a_solver_without_sleep():
+def test_a_snapshot_of_sleepers_brings_its_solver_and_wakes_under_another():
     world = World(Effects.rigid_bodies())
     ground = world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     box = world.add_body(Polygon.box(20, 20), position=(0, -10))
@@ -30,6 +30,8 @@ def test_sleepers_of_a_snapshot_wake_under_a_solver_without_sleep():
     taken = world.snapshot()
     world.solver = "projection"
     world.restore(taken)
+    assert world.solver == "soft_step" and not box.awake
+    world.solver = "projection"
     assert box.awake
     world.remove_body(ground)
     for _ in range(30):

@@ -1,0 +1,16 @@
+from physics import Circle, Filter, Polygon, World
+
+WALL, ENEMY, FRIEND = 1, 2, 4
+
+world = World(gravity=(0, 0))
+world.add_body(Circle(8), position=(60, 0), filter=Filter(FRIEND), user="friend")
+world.add_body(Circle(8), position=(120, 3), filter=Filter(ENEMY), user="enemy")
+world.add_body(Polygon.box(10, 200), position=(300, 0), kind="static", filter=Filter(WALL), user="wall")
+
+muzzle, reach = (0, 0), (1000, 0)
+hit = world.ray_cast(muzzle, reach, filter=Filter(mask=WALL | ENEMY))  # who is in the mask stops it
+everybody = [each.body.user for each in world.ray_cast_all(muzzle, reach)]
+
+print(f"hit {hit.body.user} at {hit.point}; the ray would pass {everybody}")
+hit.body.apply_impulse(-hit.normal * 5000, hit.point)
+assert hit.body.user == "enemy" and hit.body.velocity.x > 0 and everybody == ["friend", "enemy", "wall"]

@@ -1,0 +1,20 @@
+import random
+
+from physics import Circle, Polygon, World
+
+
+def play(inputs):
+    """The whole game: a seed and the inputs say all that happens."""
+    world = World(seed=7)
+    world.add_body(Polygon.box(400, 20), position=(0, 100), kind="static")
+    ball = world.add_body(Circle(8), position=(0, 82))
+    for push in inputs:
+        ball.apply_force((push * ball.mass, 0))
+        world.step()  # always the same dt: never the time that passed on the clock
+    return world.digest(), ball.position
+
+
+recorded = [random.choice([-400, 0, 400]) for _ in range(200)]  # what somebody pressed, frame by frame
+first, second = play(recorded), play(recorded)
+print("the replay ends at", second[1], "- as the run did:", first == second)
+assert first == second and play([0, *recorded])[0] != first[0]

@@ -1,0 +1,53 @@
+"""The digest of a world: two worlds with the same one go on alike."""
+
+import hashlib
+
+import numpy as np
+
+from physics.world_state import WorldState
+
+STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
+KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
+WALK = (
+    "body",
+    "left",
+    "top",
+    "remainder_x",
+    "remainder_y",
+    "riding",
+    "riding_shape",
+    "slope",
+    "grounded",
+    "squeezed",
+    "pressed",
+    "carry_x",
+    "carry_y",
+    "belt",
+    "belt_x",
+    "push_vx",
+    "push_vy",
+    "deep",
+    "wedged",
+)
+
+
+def digest(world: WorldState) -> str:
+    """blake2b-128 over ids, poses, velocities, flags, characters, contacts and impulses in id order, and over targets
+    and forces that wait for the next step; −0.0 as 0.0."""
+    found = hashlib.blake2b(digest_size=16)
+    for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
+        found.update(len(rows).to_bytes(8, "little"))
+        for name in names:
+            column = np.ascontiguousarray(rows[name])
+            found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
+    # What waits for the next step only; where nothing waits, nothing is added.
+    targets = world._targets
+    for identity in sorted(targets):
+        found.update(
+            b"target" + np.array([identity], np.int64).tobytes() + (np.array(targets[identity]) + 0.0).tobytes()
+        )
+    waiting = np.stack([world.bodies[name] for name in ("force_x", "force_y", "torque")], axis=1) + 0.0
+    rows = np.flatnonzero(waiting.any(axis=1))
+    if len(rows):
+        found.update(b"forces" + world.bodies["id"][rows].tobytes() + waiting[rows].tobytes())
+    return found.hexdigest()

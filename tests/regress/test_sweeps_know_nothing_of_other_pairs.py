@@ -1,0 +1,43 @@
+"""What a sweep finds depends on its pair alone, not on what another left in the workspace: a world that was restored or
+copied has another workspace, and must go on to the same bit."""
+
+import numpy as np
+import pytest
+
+from physics.ccd.rotational import new_rotational_workspace, sweep_at
+from physics.jit import JIT, kernel
+
+SLACK = 0.16  # [px]
+
+
+@kernel
+def sweep(count, other_count, core, slack, workspace):
+    """The sweep of sharp hulls that stand in the workspace."""
+    return sweep_at(count, 0.0, other_count, 0.0, core, slack, workspace)
+
+
+def hull(rng, count):
+    turns = np.sort(rng.uniform(0, 2 * np.pi, count))
+    return np.stack([10 * np.cos(turns), 7 * np.sin(turns)], axis=1)
+
+
+@pytest.mark.parametrize("core", [0.0, 1.0])
+def test_a_used_workspace_finds_what_a_new_one_finds(core):
+    rng = np.random.default_rng(3)
+    for _ in range(300 if JIT else 100):
+        count, other_count = (int(n) for n in rng.integers(3, 17, 2))
+        mover, other = hull(rng, count), hull(rng, other_count)
+        motion = np.array([0, 0, rng.uniform(-3, 3), *rng.uniform(-30, 30, 2), rng.uniform(-3, 3)])
+        still = np.array([*rng.uniform(-25, 25, 2), rng.uniform(-3, 3), 0, 0, 0])
+        found = []
+        for used in (False, True, True):
+            workspace = new_rotational_workspace()
+            if used:
+                for array in (workspace.advance.gap.gap, workspace.advance.gap.simplex, workspace.advance.a):
+                    array[:] = rng.uniform(0, 15, array.shape)
+            workspace.mover[:count], workspace.advance.local_b[:other_count] = mover, other
+            workspace.advance.motion_a[:], workspace.advance.motion_b[:] = motion, still
+            fraction, by_core = sweep(count, other_count, core, SLACK, workspace)
+            gap = workspace.advance.gap.gap.tobytes() if fraction <= 1.0 else b""
+            found.append((fraction, by_core, gap, workspace.advance.totals.tobytes()))
+        assert found[0] == found[1] == found[2]

@@ -1,0 +1,36 @@
+"""The cookbook: every recipe runs and holds what it asserts, and the page shows exactly its code."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+RECIPES = sorted((ROOT / "docs/cookbook").glob("*.py"))
+PAGE = (ROOT / "docs/cookbook.md").read_text()
+QUIET = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+
+
+@pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
+def test_a_recipe_runs_and_says_what_it_found(path):
+    environment = {**os.environ, **QUIET, "PYTHONPATH": str(ROOT)}
+    run = subprocess.run([sys.executable, path], env=environment, capture_output=True, text=True, timeout=600)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.strip() and "assert " in path.read_text()
+
+
+def test_the_page_shows_exactly_the_code_of_each():
+    assert len(RECIPES) == 15
+    shown = re.findall(r"```python\n(.*?)```\n\n\[cookbook/(\w+)\.py\]\(cookbook/(\w+)\.py\)", PAGE, re.S)
+    assert sorted(name for _, name, _ in shown) == [path.stem for path in RECIPES]
+    for code, name, target in shown:
+        assert name == target and code == (ROOT / f"docs/cookbook/{name}.py").read_text(), name
+
+
+def test_each_recipe_is_listed_at_the_top():
+    titles = re.findall(r"^## (.+)$", PAGE, re.M)
+    anchors = [re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles]
+    assert re.findall(r"^- \[(.+)\]\(#(.+)\)$", PAGE, re.M) == list(zip(titles, anchors, strict=True))
