@@ -11,6 +11,7 @@ call. Both compile alike; only the first converts its arguments when nothing is 
 import ast
 import hashlib
 import os
+import pickle
 import shutil
 import sys
 import tempfile
@@ -24,6 +25,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 WORD_MASK = 0xFFFFFFFFFFFFFFFF
+CHECKSUM = 16  # bytes
 
 try:
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
@@ -133,6 +135,10 @@ def _folder_for(path: Path) -> str:
     return str(folder)
 
 
+def _checksum(content: bytes) -> bytes:
+    return hashlib.blake2b(content, digest_size=CHECKSUM).digest()
+
+
 if JIT:
 
     class _ByContent(caching._CacheLocator):
@@ -158,22 +164,52 @@ if JIT:
     class _Results(caching.CompileResultCacheImpl):
         _locator_classes = [_ByContent]
 
+    class _Files(caching.IndexDataCacheFile):
+        """One file per compiled version, named by what it was compiled for, its checksum in front.
+
+        Numba's own index file loses entries, or mixes them up, where several processes compile side by side; and
+        machine code with a wrong byte in it ends the process.
+        """
+
+        def save(self, key, data):
+            content = self._dump((key, data))
+            with self._open_for_write(self.path_of(key)) as file:
+                file.write(_checksum(content) + content)
+
+        def load(self, key):
+            path = self.path_of(key)
+            try:
+                content = Path(path).read_bytes()
+            except FileNotFoundError:
+                return None
+            if _checksum(content[CHECKSUM:]) != content[:CHECKSUM]:
+                raise ValueError(f"{os.path.basename(path)} does not hold what was written")
+            kept, data = pickle.loads(content[CHECKSUM:])
+            return data if kept == key else None
+
+        def path_of(self, key):
+            """The file of one version; key as numba makes it: types, processor, code."""
+            name = hashlib.sha256(str(key).encode()).hexdigest()[:24]
+            return self._data_path(f"{self._index_name.removesuffix('.nbi')}.{name}.nbc")
+
     class _SafeCache(caching.FunctionCache):
         """A disk cache that treats a damaged or unwritable entry as a miss, and says so."""
 
         _impl_class = _Results
 
+        def __init__(self, function):
+            super().__init__(function)
+            self._cache_file = _Files(self._cache_path, self._impl.filename_base, 0)
+
         def load_overload(self, sig, target_context):
             try:
                 return super().load_overload(sig, target_context)
-            except Exception as error:  # pickle raises anything on damaged bytes; the entry is compiled again
+            except Exception as error:  # a file of another length, other bytes, or that may not be read
                 warnings.warn(
                     f"compiled kernel {self._name} in {self._cache_path} is damaged ({error!r}): recompiled",
                     stacklevel=2,
                 )
-                shutil.rmtree(self._cache_path, ignore_errors=True)
-                os.makedirs(self._cache_path, exist_ok=True)
-                return None
+                return None  # what is compiled now is written over it
 
         def save_overload(self, sig, data):
             try:
