@@ -6,6 +6,7 @@ from pathlib import Path
 
 from game.errors import FileError
 from game.files.data_folder import data_folder
+from game.files.json_file import chunks_of
 
 
 def levels_folder() -> Path:
@@ -23,8 +24,11 @@ def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
 
 def level_digest(path: str | Path) -> str:
     """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
+    digest = blake2b(digest_size=6)
     try:
-        return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()
+        for chunk in chunks_of(path):
+            digest.update(chunk)
+        return digest.hexdigest()
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
     except ValueError as error:  # a name that no system has, out of a recording

@@ -42,10 +42,8 @@ class Level:
         self.size = self.map.size
         self.tile = self.map.tile_size
         kinds = {number: self.map.kind_of(number) for number in self.map.tiles}
-        self.kinds = [
-            [kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY for number in row]
-            for row in self.map.layers["solid"].tolist()
-        ]
+        stands = {number: kind for number, kind in kinds.items() if kind in (SOLID, PLANK, SLOPE)}
+        self.kinds = [[stands.get(number, EMPTY) for number in row] for row in self.map.layers["solid"].tolist()]
         self.slopes = self.grid.slopes.tolist()
         self.lights = list(self._find_lights())
         self.zones = self.map.things_of("zone")
