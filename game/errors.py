@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-
 LONGEST = 400  # letters of a path, a place or a reason: names in files from elsewhere may have thousands
 
 

@@ -2,7 +2,6 @@
 
 import codecs
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -28,28 +27,20 @@ def read_json(path: str | Path) -> Any:
         raise FileError(path, "file", "nested too deeply") from error
 
 
-def chunks_of(path: str | Path) -> Iterator[bytes]:
-    """The bytes of a file, piece by piece. Raises FileError for one of more than LARGEST, or without end; OSError."""
+def _texts(path):
+    """The text of a file, piece by piece: a device that is all zeros, or noise, is known by its first piece."""
+    decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
     with open(path, "rb") as file:
-        read = 0
         while chunk := file.read(CHUNK):
+            if b"\0" in chunk:
+                raise FileError(path, f"byte {read + chunk.index(0)}", "a zero: this is no text")
+            try:
+                yield decoder.decode(chunk)
+            except UnicodeDecodeError as error:
+                raise FileError(path, f"byte {read + error.start}", "not UTF-8 text") from error
             read += len(chunk)
             if read > LARGEST:
                 raise FileError(path, "file", f"is larger than {LARGEST >> 20} MB")
-            yield chunk
-
-
-def _texts(path):
-    """The pieces as text. A device that is all zeros, or noise, is known by its first piece."""
-    decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
-    for chunk in chunks_of(path):
-        if b"\0" in chunk:
-            raise FileError(path, f"byte {read + chunk.index(0)}", "a zero: this is no text")
-        try:
-            yield decoder.decode(chunk)
-        except UnicodeDecodeError as error:
-            raise FileError(path, f"byte {read + error.start}", "not UTF-8 text") from error
-        read += len(chunk)
     try:
         yield decoder.decode(b"", final=True)
     except UnicodeDecodeError as error:

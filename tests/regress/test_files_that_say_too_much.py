@@ -7,7 +7,7 @@ import tracemalloc
 import pytest
 
 from game.errors import LONGEST, FileError, UsageError, unknown_name
-from game.files import json_file
+from game.files import json_file, own_levels
 from game.files.data_folder import keep_beside
 from game.files.json_file import read_json
 from game.files.own_levels import level_digest
@@ -101,10 +101,10 @@ def test_a_device_without_end(reader, device):
 
 
 def test_text_without_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(json_file, "LARGEST", 3 << 20)
-    path = tmp_path / "long.json"
-    path.write_text("[" + " " * (4 << 20))
-    for reader in (read_json, level_digest):
+    for module, reader in ((json_file, read_json), (own_levels, level_digest)):
+        monkeypatch.setattr(module, "LARGEST", 3 << 20)
+        path = tmp_path / "long.json"
+        path.write_text("[" + " " * (4 << 20))
         with pytest.raises(FileError, match="file: is larger than 3 MB"):
             reader(path)
 
@@ -114,7 +114,7 @@ def test_what_is_no_text_is_placed(tmp_path):
     for content, place in (
         (b'["' + b"a" * (json_file.CHUNK + 5) + b"\xff", f"byte {json_file.CHUNK + 7}"),
         (b'["a\0', "byte 3"),
-        ('["'.encode() + "ä".encode()[:1], "cut off"),
+        (b'["' + "ä".encode()[:1], "cut off"),
     ):
         path.write_bytes(content)
         with pytest.raises(FileError, match=place):
