@@ -202,7 +202,8 @@ class Scene:
         self.cues.clear()
         for name, value in inputs.now.changes:
             self.change(name, value)
-        self.camera.begin_step(STEP_SECONDS)
+        for camera in self._cameras():
+            camera.begin_step(STEP_SECONDS)
         if self.draggable:
             self.pointer = inputs.pointer
             self.drag.step(inputs, self.views())
@@ -210,6 +211,10 @@ class Scene:
         self.particles.step(STEP_SECONDS)
         self.flash.step()
         self.frame += 1
+
+    def _cameras(self):
+        """Each camera once: the scene's own, and those of all its pictures."""
+        return {id(camera): camera for camera in (self.camera, *(each for _, each in self.views()))}.values()
 
     def change(self, name: str, value: Any) -> None:
         """Apply one change that came with the input. An unknown name or value raises ValueError."""
@@ -290,7 +295,7 @@ class Scene:
         self.cues.append((sound, x, volume))
 
     def views(self) -> list[tuple[World, Camera]]:
-        """(world, camera) of each picture on the canvas, for overlays."""
+        """(world, camera) of each picture on the canvas: overlays look through them, step() begins their steps."""
         return [(self.world, self.camera)]
 
     def draw_on_frame(self, frame: Frame) -> None:
