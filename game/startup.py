@@ -77,7 +77,7 @@ def prepare_environment() -> None:
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
-def end_quietly_on_interrupt():
+def end_quietly_on_interrupt() -> "object":
     """Until take_interrupts() Ctrl-C ends the program at once, with exit code 130 and without a traceback.
 
     Returns what Ctrl-C did before. What is imported meanwhile has nothing to clean up, and an exception in the middle
@@ -92,12 +92,12 @@ def end_quietly_on_interrupt():
     return before
 
 
-def take_interrupts(handler) -> None:
+def take_interrupts(handler: "object") -> None:
     """Ctrl-C raises KeyboardInterrupt again; handler: what end_quietly_on_interrupt() returned."""
     import signal
 
     if handler is signal.default_int_handler and signal.getsignal(signal.SIGINT) is not handler:
-        signal.signal(signal.SIGINT, handler)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def say(line: str) -> None:

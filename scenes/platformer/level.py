@@ -13,6 +13,15 @@ from scenes.platformer.level_rules import check_level, tileset_picture
 
 # Who is who. Two shapes meet if each one's membership is in the other's mask.
 TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS = 1, 2, 4, 8, 16, 32, 64
+FILTER_NAMES = {
+    TILES: "ground",
+    HERO: "hero",
+    ENEMY: "enemy",
+    CRATE: "crate",
+    PLATFORM: "platform",
+    TRIGGER: "trigger",
+    DEBRIS: "debris",
+}
 SOLIDS = TILES | CRATE | PLATFORM
 TILE_FILTER = Filter(TILES, HERO | ENEMY | CRATE | DEBRIS)
 HERO_FILTER = Filter(HERO, SOLIDS | ENEMY | TRIGGER)
