@@ -15,6 +15,7 @@ from game.files.data_folder import data_folder, free_name
 from game.files.settings import Settings, load_settings
 from game.input.inputs import InputState
 from game.registry import Registry
+from game.run.compilers import Compilers, start_compilers
 from game.run.headless import finish, save_or_fail
 from game.run.loop import FixedStep
 from game.run.options import Options
@@ -34,11 +35,14 @@ def run_app(options: Options, registry: Registry) -> int:
     """Open the window and run until it is closed. Returns the exit code."""
     settings, message = load_settings()
     say(message)
-    surface = open_window(settings)
+    compilers = start_compilers(registry)
     try:
-        app = App(options, registry, settings, surface, message)
+        surface = open_window(settings)
+        app = App(options, registry, settings, surface, message, compilers)
         return app.run()
     finally:
+        if compilers is not None:
+            compilers.stop()
         pygame.quit()
 
 
@@ -46,10 +50,17 @@ class App:
     """The loop that runs the screen on top; what screens share is in `arcade`, which is next in `screens`."""
 
     def __init__(
-        self, options: Options, registry: Registry, settings: Settings, surface: pygame.Surface, message: str = ""
+        self,
+        options: Options,
+        registry: Registry,
+        settings: Settings,
+        surface: pygame.Surface,
+        message: str = "",
+        compilers: Compilers | None = None,
     ) -> None:
         self.options, self.settings = options, settings
         self.arcade = Arcade(options, registry, settings, surface, message)
+        self.arcade.compilers = compilers
         self.screens = Screens(self.arcade)
         self.inputs = InputState()
         self.clock = FixedStep()  # of the menus: a scene keeps its own time
@@ -105,6 +116,8 @@ class App:
         self._sound(started)
         pygame.mouse.set_visible(self.screen.shows_pointer)
         pygame.display.flip()
+        if self.arcade.compilers is not None:
+            self.arcade.compilers.turn(self.screen.shows_scene)
         self._rest(started)
         if self.screen.outcome is not None:
             self._follow(self.screen.outcome)

@@ -42,6 +42,11 @@ except ImportError:
     numba = None
     JIT = False
 
+LISTING = JIT and os.environ.get("HITBOX_LISTING", "") == "1"  # this process only compiles: kernels are noted, not run
+
+# claim(path): wait for the right to compile what goes there; returns what lets it go. Set where processes share work.
+claim: Callable[[str], Callable[[], object]] | None = None
+claimed: dict[str, Callable[[], object]] = {}  # path -> what lets it go, of all that is being compiled here
 registry = []  # every compiled kernel, in the order of definition: warm-up and tests read it
 
 
@@ -177,13 +182,12 @@ if JIT:
                 file.write(_checksum(content) + content)
 
         def load(self, key):
-            path = self.path_of(key)
-            try:
-                content = Path(path).read_bytes()
-            except FileNotFoundError:
+            path = Path(self.path_of(key))
+            if not path.exists():
                 return None
+            content = path.read_bytes()
             if _checksum(content[CHECKSUM:]) != content[:CHECKSUM]:
-                raise ValueError(f"{os.path.basename(path)} does not hold what was written")
+                raise ValueError(f"{path.name} does not hold what was written")
             kept, data = pickle.loads(content[CHECKSUM:])
             return data if kept == key else None
 
@@ -202,6 +206,20 @@ if JIT:
             self._cache_file = _Files(self._cache_path, self._impl.filename_base, 0)
 
         def load_overload(self, sig, target_context):
+            found = self._load(sig, target_context)
+            if found is None and claim is not None:
+                path = self.path_of(sig, target_context)
+                claimed[path] = claim(path)  # of what is called, never of what calls: nobody waits in a ring
+                found = self._load(sig, target_context)
+                if found is not None:
+                    claimed.pop(path)()
+            return found
+
+        def path_of(self, sig, target_context):
+            """Where a version is kept, or will be."""
+            return self._cache_file.path_of(self._index_key(sig, target_context.codegen()))
+
+        def _load(self, sig, target_context):
             try:
                 return super().load_overload(sig, target_context)
             except Exception as error:  # a file of another length, other bytes, or that may not be read
@@ -216,6 +234,28 @@ if JIT:
                 super().save_overload(sig, data)
             except OSError as error:
                 warnings.warn(f"compiled kernel {self._name} could not be kept ({error})", stacklevel=2)
+            claimed.pop(self.path_of(sig, data.target_context), lambda: None)()
+
+    listed = {}  # (kernel, types of its arguments) -> None, in the order of the calls
+    nesting = [0]  # calls under way
+
+    class _Listed(numba.core.dispatcher.Dispatcher):
+        """A kernel that is run as it is, and notes with which types it is called; it compiles only when told to."""
+
+        plain = None  # what stands for it where it is not its own source
+
+        def __call__(self, *arguments):
+            nesting[0] += 1
+            try:
+                if nesting[0] == 1:  # called by a stage, not by another kernel
+                    listed[self, tuple(self.typeof_pyval(each) for each in arguments)] = None
+                    arguments = [_view(each) for each in arguments]
+                return (self.plain or self.py_func)(*arguments)
+            finally:
+                nesting[0] -= 1
+
+    class _ListedIntrinsic(numba.core.extending._Intrinsic):
+        __call__ = staticmethod(int.bit_count)
 
     def _count_bits(typing_context, word):
         """Number of set bits of a uint64."""
@@ -235,6 +275,9 @@ if JIT:
 
     popcount: Any = intrinsic(_count_bits)  # Any: called with one argument, and declared with the context's too
     word: Any = numba.njit(inline="always")(_as_word)
+    if LISTING:
+        popcount.__class__, word.__class__ = _ListedIntrinsic, _Listed
+        word.plain = lambda value: value & WORD_MASK
 else:
 
     def _bits_of(word):
@@ -254,6 +297,8 @@ def _compile(function: Callable) -> Callable:
     if _folder_for(Path(function.__code__.co_filename)):
         dispatcher._cache = _SafeCache(function)
     registry.append(dispatcher)
+    if LISTING:
+        dispatcher.__class__ = _Listed
     return dispatcher
 
 

@@ -25,7 +25,11 @@ class Played(Protocol):
     panel_open: bool
     since_result: int
     helped_since: int  # the step from which the keys are shown
-    news: str  # what was just switched
+
+    @property
+    def news(self) -> str:
+        """What was just switched, or ""."""
+        ...
 
     def toggle_pause(self) -> None:
         """Stop or go on."""
