@@ -108,7 +108,7 @@ class Canvas:
         For labels that follow things: the caller counts the ones left out and says so in a fixed place.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
-        if not self.is_free(rect):
+        if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):
             return False
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))
