@@ -41,7 +41,7 @@ class Filters(Scene):
     name = "lab/filters"
     title = "Filters"
     about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
-    effects = Effects(persist=True)
+    effects = Effects()
     pieces = ("circles", "boxes")
     features = ("membership and mask, tested both ways", "filtered inside the broad phase, before a pair is written")
     sliders = (Slider("speed", 0.2, 3.0, 1.0, step=0.1),)

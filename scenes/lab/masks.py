@@ -15,7 +15,7 @@ from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene
-from physics import Effects, debug
+from physics import Effects, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
 
@@ -41,7 +41,7 @@ class Masks(Scene):
     name = "lab/masks"
     title = "Masks"
     about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
-    effects = Effects(response=True)  # for area, normal and depth; kinematic planes are pushed by nobody
+    effects = Effects()  # who meets whom; nobody is pushed, and how deep they are is asked of collide()
     pieces = ("masks", "boxes", "circles")
     features = (
         "pixel masks by bitwise AND, as drawn, at any angle",
@@ -161,12 +161,13 @@ class Masks(Scene):
         canvas.surface.fill(color, (TABLE_X + 2, y + 24, max(1, round(BAR_WIDTH * cost / dearest)), 3))
 
     def _remark(self, tier):
-        contacts = self.shown[tier].contacts
         if not self.verdicts[tier]:
             return "apart"
-        depth = max(0.0, -float(contacts["separation"].min()))
         if tier == "pixels":
-            return f"{int(contacts['area'].sum())} pixels shared, {depth:.1f} px deep"
+            found = collide(self.masks[0], tuple(self.hands.poses[0]), self.masks[1], tuple(self.hands.poses[1]))
+            depth = max(0.0, -min(found.separations.tolist(), default=0.0))
+            return f"{int(found.area)} pixels shared, {depth:.1f} px deep"
+        depth = max(0.0, -float(self.shown[tier].contacts["separation"].min()))
         says = "and so do the pixels" if self.verdicts["pixels"] else "but no pixel is shared"
         return f"{depth:.0f} px deep, {says}"
 

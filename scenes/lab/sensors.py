@@ -47,7 +47,7 @@ class Sensors(Scene):
     name = "lab/sensors"
     title = "Sensors"
     about = "Zones count who enters and leaves, however fast or thin; geometry checks every count."
-    effects = Effects(sensors=True, continuous=True)
+    effects = Effects(narrowphase=False, sensors=True, continuous=True)  # sensors test shapes by themselves
     pieces = ("circles", "boxes", "capsules")
     features = ("sensor zones: still, moving, thin, fast", "entries found between the steps", "each begin with its end")
     sliders = (Slider("speed", 60, 9000, 2400, "px/s", step=60), Slider("scanner", 300, 6000, 2400, "px/s", step=100))
