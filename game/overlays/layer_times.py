@@ -1,6 +1,6 @@
 """Stage times as a stacked graph that scrolls, with the counters of the last step beside it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import pygame
@@ -41,7 +41,7 @@ class Table(NamedTuple):
     """A heading and lines of (colour, name, value)."""
 
     head: str
-    rows: list[tuple[Color, str, str]]
+    rows: Sequence[tuple[Color, str, str]]
 
 
 class Times(Layer):
