@@ -52,9 +52,9 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
     size = (width + 8 * scale, height + 6 * scale)
-    x = area.centerx - size[0] // 2
+    across = (area.centerx - size[0] // 2, area.left + 4 * scale, area.right - size[0] - 4 * scale)
     rows = [area.bottom - size[1] - n * size[1] for n in range(1, 20)] + [area.top + 4 * scale]
-    place = frame.free_place(size, [(x, y) for y in rows if y >= area.top])
+    place = frame.free_place(size, [(x, y) for x in across for y in rows if y >= area.top])
     if place is not None:
         shade = pygame.Surface(size, pygame.SRCALPHA)
         shade.fill(SHADE)
