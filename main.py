@@ -11,6 +11,7 @@ def main(argv=None):
     """Run the arcade and return the exit code: 0 fine, 1 a check failed, 2 wrong use."""
     from game import startup
 
+    handler = startup.end_quietly_on_interrupt()
     problem = startup.python_problem(sys.version_info, sys.executable) or startup.package_problem()
     if problem:
         startup.say(problem)
@@ -21,6 +22,7 @@ def main(argv=None):
     from game.registry import Registry
     from scenes import SCENES
 
+    startup.take_interrupts(handler)
     return run(sys.argv[1:] if argv is None else argv, Registry(SCENES))
 
 

@@ -8,17 +8,18 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import GOLD
 from game.drawing.presenter import Frame
+from game.drawing.typical import Typical
 from game.drawing.window import open_window
 from game.errors import UsageError
 from game.files.data_folder import data_folder, free_name
 from game.files.settings import Settings, load_settings
 from game.input.inputs import InputState
 from game.registry import Registry
+from game.run.compilers import Compilers, start_compilers
 from game.run.headless import finish, save_or_fail
 from game.run.loop import FixedStep
 from game.run.options import Options
 from game.run.picture import save_png
-from game.scene import STEP_SECONDS
 from game.screens.arcade import Arcade
 from game.screens.loading import LoadingStopped
 from game.screens.parts.wipe import Wipe
@@ -34,11 +35,14 @@ def run_app(options: Options, registry: Registry) -> int:
     """Open the window and run until it is closed. Returns the exit code."""
     settings, message = load_settings()
     say(message)
-    surface = open_window(settings)
+    compilers = start_compilers(registry)
     try:
-        app = App(options, registry, settings, surface, message)
+        surface = open_window(settings)
+        app = App(options, registry, settings, surface, message, compilers)
         return app.run()
     finally:
+        if compilers is not None:
+            compilers.stop()
         pygame.quit()
 
 
@@ -46,15 +50,22 @@ class App:
     """The loop that runs the screen on top; what screens share is in `arcade`, which is next in `screens`."""
 
     def __init__(
-        self, options: Options, registry: Registry, settings: Settings, surface: pygame.Surface, message: str = ""
+        self,
+        options: Options,
+        registry: Registry,
+        settings: Settings,
+        surface: pygame.Surface,
+        message: str = "",
+        compilers: Compilers | None = None,
     ) -> None:
         self.options, self.settings = options, settings
         self.arcade = Arcade(options, registry, settings, surface, message)
+        self.arcade.compilers = compilers
         self.screens = Screens(self.arcade)
         self.inputs = InputState()
         self.clock = FixedStep()  # of the menus: a scene keeps its own time
         self.wipe = Wipe()
-        self.frame_seconds = STEP_SECONDS
+        self.frame_time = Typical()  # [s] of a picture, without the wait for the next
         self.before: float | None = None
         self.screens.open_first()
         self.arcade.apply_settings()
@@ -105,6 +116,8 @@ class App:
         self._sound(started)
         pygame.mouse.set_visible(self.screen.shows_pointer)
         pygame.display.flip()
+        if self.arcade.compilers is not None:
+            self.arcade.compilers.turn(self.screen.shows_scene)
         self._rest(started)
         if self.screen.outcome is not None:
             self._follow(self.screen.outcome)
@@ -117,7 +130,7 @@ class App:
 
     def _after_drawing(self, frame: Frame | None) -> None:
         if frame is not None and self.settings.show_fps:
-            text = f"{self.frame_seconds * 1000:.1f} ms a frame"
+            text = f"{self.frame_time.value * 1000:.1f} ms a frame"
             x, y = frame.area.right - 4, frame.area.top + 4
             frame.text_if_free(text, x, y, GOLD, SMALL, frame.text_scale, "right", True)
         screen = self.screen
@@ -142,7 +155,7 @@ class App:
     def _rest(self, started: float) -> None:
         """Wait for the next picture, so that an unpaced display does not burn a core."""
         spent = perf_counter() - started
-        self.frame_seconds += (spent - self.frame_seconds) * 0.05
+        self.frame_time.note(spent)
         wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
         if spent < wanted:
             pygame.time.wait(max(1, int((wanted - spent - IDLE_SECONDS) * 1000)))

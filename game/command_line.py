@@ -52,7 +52,7 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
         _give_up_output()
         return UsageError.exit_code
     except KeyboardInterrupt:
-        return 130
+        return startup.INTERRUPTED
 
 
 def _give_up_output():

@@ -15,6 +15,7 @@ from typing import Any
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.drawing.flash import Flash
+from game.drawing.number_text import plain_name
 from game.drawing.particles import Particles
 from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
@@ -73,7 +74,7 @@ class Slider:
     def show(self, value: float) -> str:
         """The value as text."""
         if self.choices:
-            return self.choices[int(value) - int(self.low)]
+            return plain_name(self.choices[int(value) - int(self.low)])
         return f"{value:g}{' ' + self.unit if self.unit else ''}"
 
 
@@ -110,7 +111,9 @@ class Scene:
     actions: tuple[tuple[str, str], ...] = ()  # (what to press, what it does) pairs for the help line
     tiers: tuple[str, ...] = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
     overlays: tuple[str, ...] = ()  # overlay layers on from the start
+    filter_names: dict[int, str] = {}  # membership bit -> what it stands for, for the legend of the filters
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
+    head = 0  # canvas px of the line on top that holds the title: the line of the keys goes beside it. 0: there is none
     hides_pointer = True
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True  # False: the scene's worlds have their own
@@ -202,7 +205,8 @@ class Scene:
         self.cues.clear()
         for name, value in inputs.now.changes:
             self.change(name, value)
-        self.camera.begin_step(STEP_SECONDS)
+        for camera in self._cameras():
+            camera.begin_step(STEP_SECONDS)
         if self.draggable:
             self.pointer = inputs.pointer
             self.drag.step(inputs, self.views())
@@ -210,6 +214,10 @@ class Scene:
         self.particles.step(STEP_SECONDS)
         self.flash.step()
         self.frame += 1
+
+    def _cameras(self):
+        """Each camera once: the scene's own, and those of all its pictures."""
+        return {id(camera): camera for camera in (self.camera, *(each for _, each in self.views()))}.values()
 
     def change(self, name: str, value: Any) -> None:
         """Apply one change that came with the input. An unknown name or value raises ValueError."""
@@ -289,8 +297,16 @@ class Scene:
         """Ask for a sound effect. x: canvas position for the pan; None: the middle."""
         self.cues.append((sound, x, volume))
 
+    @property
+    def offer(self) -> str:
+        """What another run begins with, "" while this one goes on by itself; while there is one the keys stay in sight.
+
+        (R begins it in every scene; a scene says what will happen.)
+        """
+        return ""
+
     def views(self) -> list[tuple[World, Camera]]:
-        """(world, camera) of each picture on the canvas, for overlays."""
+        """(world, camera) of each picture on the canvas: overlays look through them, step() begins their steps."""
         return [(self.world, self.camera)]
 
     def draw_on_frame(self, frame: Frame) -> None:

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 
 OLDEST_PYTHON = (3, 11)
+INTERRUPTED = 130  # exit code of a program that Ctrl-C has ended
 INSTALL = "python -m pip install -e ."
 
 
@@ -74,6 +75,29 @@ def pygame_name() -> str:
 def prepare_environment() -> None:
     """Keep pygame's greeting off standard output, where --json prints its one object."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+
+
+def end_quietly_on_interrupt() -> "object":
+    """Until take_interrupts() Ctrl-C ends the program at once, with exit code 130 and without a traceback.
+
+    Returns what Ctrl-C did before. What is imported meanwhile has nothing to clean up, and an exception in the middle
+    of an import is told in many lines, or swallowed. Where Ctrl-C means something else already, it stays so.
+    """
+    import signal
+    import threading
+
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is threading.main_thread() and before is signal.default_int_handler:
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
+    return before
+
+
+def take_interrupts(handler: "object") -> None:
+    """Ctrl-C raises KeyboardInterrupt again; handler: what end_quietly_on_interrupt() returned."""
+    import signal
+
+    if handler is signal.default_int_handler and signal.getsignal(signal.SIGINT) is not handler:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def say(line: str) -> None:

@@ -11,6 +11,7 @@ call. Both compile alike; only the first converts its arguments when nothing is 
 import ast
 import hashlib
 import os
+import pickle
 import shutil
 import sys
 import tempfile
@@ -24,6 +25,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 WORD_MASK = 0xFFFFFFFFFFFFFFFF
+CHECKSUM = 16  # bytes
 
 try:
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
@@ -40,6 +42,11 @@ except ImportError:
     numba = None
     JIT = False
 
+LISTING = JIT and os.environ.get("HITBOX_LISTING", "") == "1"  # this process only compiles: kernels are noted, not run
+
+# claim(path): wait for the right to compile what goes there; returns what lets it go. Set where processes share work.
+claim: Callable[[str], Callable[[], object]] | None = None
+claimed: dict[str, Callable[[], object]] = {}  # path -> what lets it go, of all that is being compiled here
 registry = []  # every compiled kernel, in the order of definition: warm-up and tests read it
 
 
@@ -133,6 +140,10 @@ def _folder_for(path: Path) -> str:
     return str(folder)
 
 
+def _checksum(content: bytes) -> bytes:
+    return hashlib.blake2b(content, digest_size=CHECKSUM).digest()
+
+
 if JIT:
 
     class _ByContent(caching._CacheLocator):
@@ -158,28 +169,93 @@ if JIT:
     class _Results(caching.CompileResultCacheImpl):
         _locator_classes = [_ByContent]
 
+    class _Files(caching.IndexDataCacheFile):
+        """One file per compiled version, named by what it was compiled for, its checksum in front.
+
+        Numba's own index file loses entries, or mixes them up, where several processes compile side by side; and
+        machine code with a wrong byte in it ends the process.
+        """
+
+        def save(self, key, data):
+            content = self._dump((key, data))
+            with self._open_for_write(self.path_of(key)) as file:
+                file.write(_checksum(content) + content)
+
+        def load(self, key):
+            path = Path(self.path_of(key))
+            if not path.exists():
+                return None
+            content = path.read_bytes()
+            if _checksum(content[CHECKSUM:]) != content[:CHECKSUM]:
+                raise ValueError(f"{path.name} does not hold what was written")
+            kept, data = pickle.loads(content[CHECKSUM:])
+            return data if kept == key else None
+
+        def path_of(self, key):
+            """The file of one version; key as numba makes it: types, processor, code."""
+            name = hashlib.sha256(str(key).encode()).hexdigest()[:24]
+            return self._data_path(f"{self._index_name.removesuffix('.nbi')}.{name}.nbc")
+
     class _SafeCache(caching.FunctionCache):
         """A disk cache that treats a damaged or unwritable entry as a miss, and says so."""
 
         _impl_class = _Results
 
+        def __init__(self, function):
+            super().__init__(function)
+            self._cache_file = _Files(self._cache_path, self._impl.filename_base, 0)
+
         def load_overload(self, sig, target_context):
+            found = self._load(sig, target_context)
+            if found is None and claim is not None:
+                path = self.path_of(sig, target_context)
+                claimed[path] = claim(path)  # of what is called, never of what calls: nobody waits in a ring
+                found = self._load(sig, target_context)
+                if found is not None:
+                    claimed.pop(path)()
+            return found
+
+        def path_of(self, sig, target_context):
+            """Where a version is kept, or will be."""
+            return self._cache_file.path_of(self._index_key(sig, target_context.codegen()))
+
+        def _load(self, sig, target_context):
             try:
                 return super().load_overload(sig, target_context)
-            except Exception as error:  # pickle raises anything on damaged bytes; the entry is compiled again
+            except Exception as error:  # a file of another length, other bytes, or that may not be read
                 warnings.warn(
                     f"compiled kernel {self._name} in {self._cache_path} is damaged ({error!r}): recompiled",
                     stacklevel=2,
                 )
-                shutil.rmtree(self._cache_path, ignore_errors=True)
-                os.makedirs(self._cache_path, exist_ok=True)
-                return None
+                return None  # what is compiled now is written over it
 
         def save_overload(self, sig, data):
             try:
                 super().save_overload(sig, data)
             except OSError as error:
                 warnings.warn(f"compiled kernel {self._name} could not be kept ({error})", stacklevel=2)
+            claimed.pop(self.path_of(sig, data.target_context), lambda: None)()
+
+    listed = {}  # (kernel, types of its arguments) -> None, in the order of the calls
+    nesting = [0]  # calls under way
+
+    class _Listed(numba.core.dispatcher.Dispatcher):
+        """A kernel that is run as it is, and notes with which types it is called; it compiles only when told to."""
+
+        plain = None  # what stands for it where it is not its own source
+
+        def __call__(self, *arguments):
+            nesting[0] += 1
+            try:
+                if nesting[0] == 1:  # called by a stage, not by another kernel
+                    listed[self, tuple(self.typeof_pyval(each) for each in arguments)] = None
+                    arguments = [_view(each) for each in arguments]
+                return (self.plain or self.py_func)(*arguments)
+            finally:
+                nesting[0] -= 1
+
+    class _ListedIntrinsic(numba.core.extending._Intrinsic):
+        __call__ = staticmethod(int.bit_count)
 
     def _count_bits(typing_context, word):
         """Number of set bits of a uint64."""
@@ -199,6 +275,9 @@ if JIT:
 
     popcount: Any = intrinsic(_count_bits)  # Any: called with one argument, and declared with the context's too
     word: Any = numba.njit(inline="always")(_as_word)
+    if LISTING:
+        popcount.__class__, word.__class__ = _ListedIntrinsic, _Listed
+        word.plain = lambda value: value & WORD_MASK
 else:
 
     def _bits_of(word):
@@ -218,6 +297,8 @@ def _compile(function: Callable) -> Callable:
     if _folder_for(Path(function.__code__.co_filename)):
         dispatcher._cache = _SafeCache(function)
     registry.append(dispatcher)
+    if LISTING:
+        dispatcher.__class__ = _Listed
     return dispatcher
 
 

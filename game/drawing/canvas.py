@@ -27,12 +27,18 @@ def whole(value: float) -> int:
 
 
 class Canvas:
-    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` rects that text keeps out of."""
+    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` rects that text keeps out of.
+
+    `fixed`: those of them that hold something, an icon, a bar, a plot; with the text these stay on top of overlays.
+    """
+
+    edge = 1  # [px] that an outline reaches over its text's box
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
         self.boxes = []
         self.reserved = []
+        self.fixed = []
         self.palette = "standard"  # of the overlays, as the player wants it
 
     def tone(self, color: Color) -> Color:
@@ -48,6 +54,7 @@ class Canvas:
         """Start a picture: forget the last one's text boxes; fill with `color` when given."""
         self.boxes.clear()
         self.reserved.clear()
+        self.fixed.clear()
         if color is not None:
             self.surface.fill(color)
 
@@ -101,7 +108,7 @@ class Canvas:
         For labels that follow things: the caller counts the ones left out and says so in a fixed place.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
-        if not self.is_free(rect):
+        if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):
             return False
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))
@@ -117,6 +124,22 @@ class Canvas:
     def reserve(self, rect: Box) -> None:
         """Keep text_if_free and free_place out of a rect (a graph, a panel, a life bar)."""
         self.reserved.append(pygame.Rect(rect))
+
+    def fix(self, rect: Box) -> None:
+        """Reserve a rect that holds something which overlays must not be painted over."""
+        self.reserve(rect)
+        self.fixed.append(pygame.Rect(rect))
+
+    def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
+        """What text and fixed rects show now, to be put back over what is painted meanwhile: (picture, top left)."""
+        rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
+        inside = [rect.clip(self.rect) for rect in rects]
+        return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
+
+    def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
+        """Put what lift() took on top."""
+        for picture, place in lifted:
+            self.surface.blit(picture, place)
 
     def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
         """The first (x, y) of `places` where a box of that size is free, or None."""

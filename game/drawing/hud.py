@@ -33,7 +33,7 @@ def icons(
     for number in range(shown):
         canvas.surface.blit(image, (x + number * (width + gap), y))
     rect = pygame.Rect(x, y, max(shown * (width + gap) - gap, 0), height)
-    canvas.reserve(rect)
+    canvas.fix(rect)
     if count > most:
         text = canvas.text(f"x{count}", rect.right + 3, y + height // 2 - 4, PAPER, TEXT, outline=True)
         return rect.union(text)
@@ -48,7 +48,7 @@ def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = I
         color, (rect.x + 1, rect.y + 1, round((rect.width - 2) * max(0.0, min(1.0, share))), rect.height - 2)
     )
     pygame.draw.rect(canvas.surface, SLATE, rect, 1)
-    canvas.reserve(rect)
+    canvas.fix(rect)
     return rect
 
 

@@ -1,4 +1,4 @@
-"""Times, points and counts as text, the same everywhere."""
+"""Times, points, counts and names as text, the same everywhere."""
 
 
 def clock(seconds: float) -> str:
@@ -20,6 +20,11 @@ def short_clock(seconds: float) -> str:
 def points_text(points: int) -> str:
     """12 345 678: groups of three."""
     return f"{points:,}".replace(",", " ")
+
+
+def plain_name(name: str) -> str:
+    """A solver, a stage or a counter as the screen shows it: sequential_impulse is "sequential impulse"."""
+    return name.replace("_", " ")
 
 
 def count_text(number: int, what: str) -> str:

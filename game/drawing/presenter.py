@@ -46,6 +46,16 @@ class Frame(Canvas):
         """Whole-number scale at which small text can be read at this resolution."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
+    @property
+    def edge(self) -> int:
+        """How far an outline reaches over its text's box, on the canvas or here [frame px]."""
+        return max(self.scale, self.text_scale)
+
+    @property
+    def plot_scale(self) -> int:
+        """Of small text in a plot that belongs into the game's picture: no larger than the picture's own."""
+        return min(self.text_scale, self.scale)
+
     def scale_for(self, width: int) -> int:
         """Whole-number scale at which something `width` text px wide fits over the game."""
         return max(1, min(self.text_scale, self.area.width // width))
@@ -125,6 +135,7 @@ class Presenter:
             frame.surface.blit(canvas.surface, frame.area)
         frame.boxes.extend((frame.from_canvas(rect), text) for rect, text in canvas.boxes)
         frame.reserved.extend(frame.from_canvas(rect) for rect in canvas.reserved)
+        frame.fixed.extend(frame.from_canvas(rect) for rect in canvas.fixed)
         return frame
 
     def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:

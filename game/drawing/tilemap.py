@@ -137,7 +137,7 @@ class _Reader:
         if data.get("infinite"):
             self.fail("infinite", "infinite maps are not read; untick Map > Infinite in Tiled")
         if data.get("orientation", "orthogonal") != "orthogonal":
-            self.fail("orientation", f"must be orthogonal (got {data['orientation']!r})")
+            self.fail("orientation", f"must be orthogonal (got {data['orientation']!r:.60})")
         columns = self.whole(data, "map", "width", LARGEST)
         rows = self.whole(data, "map", "height", LARGEST)
         size = self.whole(data, "map", "tilewidth", 1024)
@@ -171,13 +171,13 @@ class _Reader:
     def whole(self, data, place, name, largest):
         value = data.get(name)
         if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= largest:
-            self.fail(f"{place}.{name}", f"must be a whole number 1..{largest} (got {value!r})")
+            self.fail(f"{place}.{name}", f"must be a whole number 1..{largest} (got {value!r:.60})")
         return value
 
     def number(self, data, place, name):
         value = data.get(name, 0.0)
         if not isinstance(value, (int, float)) or isinstance(value, bool) or value != value or abs(value) > 1e9:
-            self.fail(f"{place}.{name}", f"must be a number (got {value!r})")
+            self.fail(f"{place}.{name}", f"must be a number (got {value!r:.60})")
         return float(value)
 
     def listing(self, data, place, name, default=None):
@@ -218,13 +218,13 @@ class _Reader:
                 self.fail(f"{place}.data", "is missing or not a list")
             for at, value in enumerate(data):
                 if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= 0xFFFFFFFF:
-                    self.fail(f"{place}.data[{at}]", f"must be a tile number (got {value!r})")
+                    self.fail(f"{place}.data[{at}]", f"must be a tile number (got {value!r:.60})")
             return np.array(data, dtype=np.int64)
         if encoding != "base64":
-            self.fail(f"{place}.encoding", f"must be csv or base64 (got {encoding!r})")
+            self.fail(f"{place}.encoding", f"must be csv or base64 (got {encoding!r:.60})")
         compression = layer.get("compression", "")
         if compression not in ("", "zlib", "gzip"):
-            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {compression!r})")
+            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {compression!r:.60})")
         unpack = {"": bytes, "zlib": zlib.decompress, "gzip": gzip.decompress}[compression]
         try:
             packed = unpack(base64.b64decode(data, validate=True))
@@ -248,10 +248,10 @@ class _Reader:
                 self.fail(place, "must have a whole number as id")
             found[tile["id"]] = properties = self.properties(tile, place)
             if properties.get("kind", "decor") not in KINDS:
-                self.fail(f"{place}.kind", f"must be one of {', '.join(KINDS)} (got {properties['kind']!r})")
+                self.fail(f"{place}.kind", f"must be one of {', '.join(KINDS)} (got {properties['kind']!r:.60})")
             for side in ("left", "right"):
                 if not 0.0 <= self.number(properties, place, side) <= 1.0:
-                    self.fail(f"{place}.{side}", f"must be 0..1 (got {properties[side]!r})")
+                    self.fail(f"{place}.{side}", f"must be 0..1 (got {properties[side]!r:.60})")
         return found
 
     def things(self, layer, place):

@@ -90,6 +90,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
     try:
+        if not path.is_file():
+            raise OSError(errno.EINVAL, "no file, but a folder or a device without end")
         content = path.read_bytes()
     except OSError:
         return path.rename(next(kept for kept in names if not kept.exists()))

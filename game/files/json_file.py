@@ -1,17 +1,20 @@
 """Reads a JSON file, or says which file cannot be used, where and why."""
 
+import codecs
 import json
 from pathlib import Path
 from typing import Any
 
 from game.errors import FileError
 
+LARGEST = 256 * 2**20  # bytes: ten hours of a recording in which every frame differs
+CHUNK = 2**20  # bytes that are looked at before more is read
+
 
 def read_json(path: str | Path) -> Any:
     """The content of a JSON file. Raises FileError naming file, place and reason, also for nesting without end."""
     try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
+        return json.loads("".join(_texts(path)))
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
     except UnicodeDecodeError as error:
@@ -22,3 +25,23 @@ def read_json(path: str | Path) -> Any:
         raise FileError(path, "file", str(error)) from error
     except RecursionError as error:
         raise FileError(path, "file", "nested too deeply") from error
+
+
+def _texts(path):
+    """The text of a file, piece by piece: a device that is all zeros, or noise, is known by its first piece."""
+    decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
+    with open(path, "rb") as file:
+        while chunk := file.read(CHUNK):
+            if b"\0" in chunk:
+                raise FileError(path, f"byte {read + chunk.index(0)}", "a zero: this is no text")
+            try:
+                yield decoder.decode(chunk)
+            except UnicodeDecodeError as error:
+                raise FileError(path, f"byte {read + error.start}", "not UTF-8 text") from error
+            read += len(chunk)
+            if read > LARGEST:
+                raise FileError(path, "file", f"is larger than {LARGEST >> 20} MB")
+    try:
+        yield decoder.decode(b"", final=True)
+    except UnicodeDecodeError as error:
+        raise FileError(path, f"byte {read}", "not UTF-8 text, or cut off") from error

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from game.errors import FileError
 from game.files.data_folder import data_folder
+from game.files.json_file import LARGEST
 
 
 def levels_folder() -> Path:
@@ -23,8 +24,13 @@ def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
 
 def level_digest(path: str | Path) -> str:
     """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
+    path = Path(path)
     try:
-        return blake2b(Path(path).read_bytes(), digest_size=6).hexdigest()
+        if path.exists() and not path.is_file():
+            raise FileError(path, "file", "is no file, but a folder or a device")
+        if path.exists() and path.stat().st_size > LARGEST:
+            raise FileError(path, "file", f"is larger than {LARGEST >> 20} MB")
+        return blake2b(path.read_bytes(), digest_size=6).hexdigest()
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
     except ValueError as error:  # a name that no system has, out of a recording

@@ -9,12 +9,18 @@ from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
 from physics import World, debug
 
 KINDS_LISTED = 6  # lines in the legend; a further line counts the rest
+WRITTEN = 4  # names of those that a kind meets
+EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks
 
 
 class Filters(Layer):
     """Each shape's box, inset, in the colour of its filter. Two kinds meet if each is in the other's mask."""
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
+
+    def __init__(self) -> None:
+        self.names: dict[int, str] = {}  # membership bit -> what the scene calls it
+        self.begin()
 
     def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the budget evenly."""
@@ -43,20 +49,27 @@ class Filters(Layer):
         inner[:, 2:] = np.maximum(inner[:, 2:], inner[:, :2])
         draw_boxes(frame, lens, inner, colors, which[seen])
 
+    def _who(self, word, written=32):
+        """The kinds of a word by name: all, or all but one, where that is shorter; at most so many are written."""
+        if word in EVERYBODY:
+            return "all"
+        if not self.names:
+            return "some" if word else "nobody"
+        named = [name for bit, name in self.names.items() if word & bit]
+        missing = [name for bit, name in self.names.items() if not word & bit]
+        if word & ~sum(self.names):
+            named.append("others")
+        if len(named) > 1 and len(missing) < 2:
+            return f"all but {missing[0]}" if missing else "all"
+        more = len(named) - written
+        return ", ".join(named[:written]) + (f" and {more} more" if more > 0 else "") if named else "nobody"
+
     def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         lines: list[LegendLine] = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
         listed = list(self.kinds.items())
         for (membership, mask), (color, count) in listed[:KINDS_LISTED]:
-            lines.append((color, f"{count} x {_bits(membership)} meets {_bits(mask)}"))
+            lines.append((color, f"{count} {self._who(membership)} meet {self._who(mask, WRITTEN)}"))
         if len(listed) > KINDS_LISTED:
             lines.append((FOG, f"and {len(listed) - KINDS_LISTED} more"))
         return lines
-
-
-def _bits(word):
-    """Bits as short text: numbers of the set ones, "all" for a full word."""
-    if word in (0xFFFFFFFF, 0xFFFF):
-        return "all"
-    bits = [str(i) for i in range(32) if word >> i & 1]
-    return "+".join(bits) if 0 < len(bits) <= 4 else f"0x{word:X}" if bits else "none"

@@ -1,15 +1,19 @@
 """Stage times as a stacked graph that scrolls, with the counters of the last step beside it."""
 
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, faded, toned
+from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SERIES, SLATE, Color, faded, toned
+from game.drawing.number_text import plain_name
 from game.drawing.presenter import Frame
+from game.drawing.typical import Typical
 from game.overlays.layer import Layer
 from game.scene import Scene
 
 HISTORY = 240  # steps kept: four seconds
-SMOOTHING = 0.06  # share of the newest step in the figures written out; raw ones cannot be read
 SHOWN = (  # counters written out, in the order of the step
     "bodies_integrated",
     "nodes_visited",
@@ -26,13 +30,22 @@ SHOWN = (  # counters written out, in the order of the step
     "cap_hits",
 )
 SCALED_TO = 0.95  # share of the steps that the graph shows at full height
-LEAST_GRAPH = 70  # [text px] the graph keeps at least this width
 LEAST_TOP = 0.5  # [ms] top of the graph when everything is fast
 FRAME_BUDGET = 1000 / 60  # [ms] a frame at 60 Hz
+LINE, GAP, MARGIN = 7, 5, 3  # [text px] of a line of a table, between two tables, and inside the frame
+GRAPH = (70, 40)  # [text px] the graph has at least, its three lines of text above the bars
+PLOT_LEAST = 10  # [text px] of bars under them
+
+
+class Table(NamedTuple):
+    """A heading and lines of (colour, name, value)."""
+
+    head: str
+    rows: Sequence[tuple[Color, str, str]]
 
 
 class Times(Layer):
-    """note(scene) once per step; draw() paints graph and tables into a rect."""
+    """note(scene) once per step; draw_graph() paints graph and tables into a rect."""
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
@@ -43,7 +56,8 @@ class Times(Layer):
         """Forget the history (another scene)."""
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] of the same steps
-        self.mean = {}
+        self.total = Typical()  # [ms]
+        self.stages: dict[str, Typical] = {}  # those of the last step [ms]
         self.counters = {}
         self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
         self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
@@ -61,55 +75,84 @@ class Times(Layer):
         del self.steps[:-HISTORY], self.totals[:-HISTORY]
         self.noted += 1
         self.counters = counters
-        self.mean = {
-            name: spent if name not in self.mean else self.mean[name] + (spent - self.mean[name]) * SMOOTHING
-            for name, spent in step.items()
-        }
+        self.total.note(self.totals[-1])
+        self.stages = {name: self.stages.get(name) or Typical() for name in step}
+        for name, spent in step.items():
+            self.stages[name].note(spent)
+
+    def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
+        """(width, height) [frame px] that the graph is worth being shown at, the largest first; no stage is hidden."""
+        stages, counters = self._tables()
+        wide = [_column_width(frame, table, 1) + GAP for table in (stages, counters)]
+        high = [LINE * (len(table.rows) + 1) for table in (stages, counters)]
+        for width, height in (
+            (GRAPH[0] + sum(wide), max(GRAPH[1], *high)),
+            (GRAPH[0] + wide[0], max(GRAPH[1], high[0])),
+            (max(GRAPH[0], wide[0]), GRAPH[1] + high[0]),
+        ):
+            scale = frame.text_scale
+            yield (width + 2 * MARGIN) * scale, (height + 2 * MARGIN) * scale
 
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint into a frame rect: graph on the left, stages in the middle, counters on the right."""
+        """Paint into a frame rect: graph on the left, stages in the middle, counters on the right.
+
+        Where there is no room for both tables the counters give way; where it is narrow the stages stand below.
+        """
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
-        inner = rect.inflate(-6 * scale, -6 * scale)
-        column = _column_width(frame, scale)
-        tables = [
-            ("stage [us]", [(self._color(name), name, f"{spent * 1000:.0f}") for name, spent in self.mean.items()]),
-            ("last step", [(FOG, name, f"{self.counters.get(name, 0)}") for name in SHOWN]),
-        ]
-        # Where there is no room for both tables the counters give way, then the stages.
-        fitting = max(0, min(len(tables), (inner.width - LEAST_GRAPH * scale) // (column + 5 * scale)))
-        width = inner.width - fitting * (column + 5 * scale)
-        self._graph(frame, pygame.Rect(inner.x, inner.y, width, inner.height), scale)
-        x = inner.x + width
-        for head, rows in tables[:fitting]:
-            self._table(frame, x + 5 * scale, inner, column, scale, rows, head)
-            x += column + 5 * scale
+        inner = rect.inflate(-2 * MARGIN * scale, -2 * MARGIN * scale)
+        stages, counters = self._tables()
+        columns = [_split(table, inner.height // (LINE * scale)) for table in (stages, counters)]
+        widths = [_column_width(frame, table, scale) + GAP * scale for table in (stages, counters)]
+        room = inner.width - GRAPH[0] * scale
+        taken = 0
+        shown = []
+        for parts, width in zip(columns, widths, strict=True):
+            if taken + width * len(parts) > room:
+                break
+            shown += [(part, width) for part in parts]
+            taken += width * len(parts)
+        if not shown:
+            below = min(LINE * scale * (len(stages.rows) + 1), max(0, inner.height - GRAPH[1] * scale))
+            lower = pygame.Rect(inner.x, inner.bottom - below, inner.width, below)
+            self._graph(frame, pygame.Rect(inner.x, inner.y, inner.width, inner.height - below), scale)
+            if below >= 2 * LINE * scale:
+                _draw_table(frame, _cut(stages, below // (LINE * scale)), lower.x, lower.y, lower.width, scale)
+            return
+        self._graph(frame, pygame.Rect(inner.x, inner.y, inner.width - taken, inner.height), scale)
+        x = inner.right - taken
+        for table, width in shown:
+            _draw_table(frame, table, x + GAP * scale, inner.y, width - GAP * scale, scale)
+            x += width
+
+    def _tables(self):
+        stages = [(self._color(name), name, f"{spent.value * 1000:.0f}") for name, spent in self.stages.items()]
+        counters = [(FOG, name, f"{self.counters.get(name, 0)}") for name in SHOWN]
+        return Table("stage [us]", stages), Table("last step", counters)
 
     def _color(self, name):
-        names = list(self.mean)
-        return SERIES[names.index(name) % len(SERIES)] if name in self.mean else FOG
+        names = list(self.stages)
+        return SERIES[names.index(name) % len(SERIES)] if name in self.stages else FOG
 
     def _graph(self, frame, rect, scale):
+        """Three lines of text, and the bars below them."""
         totals = sorted(self.totals) or [0.0]
         # One slow step (a compiler, a garbage collection) must not flatten all others: it is cut, and capped white.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
-        self._scroll(rect.size, top, frame.palette)
-        frame.surface.blit(self.sheet, rect)
+        lines = ((f"{self.total.value:.2f} ms a step", GOLD), (f"a frame has {FRAME_BUDGET:.1f}", FOG))
+        lines = (*lines, (f"top {top:g} ms", PAPER))
+        fitting = min(len(lines), max(0, (rect.height - PLOT_LEAST * scale) // (LINE * scale)))
+        for number, (text, color) in enumerate(lines[:fitting]):
+            frame.text(text, rect.x, rect.y + number * LINE * scale, color, SMALL, scale)
+        plot = pygame.Rect(rect.x, rect.y + fitting * LINE * scale, rect.width, rect.height - fitting * LINE * scale)
+        if plot.width < 1 or plot.height < 1:
+            return
+        self._scroll(plot.size, top, frame.palette)
+        frame.surface.blit(self.sheet, plot)
         for part in (0.5, 1.0):
-            y = rect.bottom - int(rect.height * part * 0.999)
-            pygame.draw.line(frame.surface, SLATE, (rect.left, y), (rect.right, y))
-        frame.text_if_free(f"{top:g} ms", rect.x + scale, rect.y + scale, PAPER, SMALL, scale, "left", True)
-        frame.text_if_free(
-            f"{sum(self.mean.values()):.2f} ms a step, frame {FRAME_BUDGET:.1f}",
-            rect.x + scale,
-            rect.bottom - 8 * scale,
-            GOLD,
-            SMALL,
-            scale,
-            "left",
-            True,
-        )
+            y = plot.bottom - int(plot.height * part * 0.999)
+            pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
         """Bring the graph's sheet up to date: only the new columns are painted unless its size or scale changed."""
@@ -139,19 +182,28 @@ class Times(Layer):
         if base <= 0.0:
             self.sheet.fill(PAPER, (x, 0, width, 2))
 
-    def _table(self, frame, x, inner, width, scale, rows, head):
-        height = 7 * scale
-        y = inner.y
-        frame.text(head, x, y, FOG, SMALL, scale)
-        room = inner.height // height - 1
-        shown = rows if len(rows) <= room else rows[: max(room - 1, 0)]
-        for color, name, value in shown:
-            y += height
-            frame.surface.fill(frame.tone(color), (x, y, 2 * scale, 5 * scale))
-            frame.text(name.replace("_", " "), x + 4 * scale, y, PAPER, SMALL, scale)
-            frame.text(value, x + width, y, PAPER, SMALL, scale, "right")
-        if len(shown) < len(rows):
-            frame.text(f"and {len(rows) - len(shown)} more", x + 4 * scale, y + height, FOG, SMALL, scale)
+
+def _split(table, lines):
+    """A table as several of so many lines at most, each with the heading."""
+    rows = max(1, lines - 1)
+    return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
+
+
+def _cut(table, lines):
+    """A table of so many lines; what does not fit is counted in the last one."""
+    if len(table.rows) < lines:
+        return table
+    kept = table.rows[: max(lines - 2, 0)]
+    return Table(table.head, [*kept, (FOG, f"and {len(table.rows) - len(kept)} more", "")])
+
+
+def _draw_table(frame, table, x, y, width, scale):
+    frame.text(table.head, x, y, FOG, SMALL, scale)
+    for color, name, value in table.rows:
+        y += LINE * scale
+        frame.surface.fill(frame.tone(color), (x, y, 2 * scale, 5 * scale))
+        frame.text(plain_name(name), x + 4 * scale, y, PAPER, SMALL, scale)
+        frame.text(value, x + width, y, PAPER, SMALL, scale, "right")
 
 
 def round_up(value: float) -> float:
@@ -164,7 +216,8 @@ def round_up(value: float) -> float:
         power *= 10
 
 
-def _column_width(frame, scale):
-    """Room for the longest name and a number of seven digits."""
-    longest = max(frame.measure(name.replace("_", " "), SMALL, scale)[0] for name in SHOWN)
-    return longest + frame.measure(" 9999999", SMALL, scale)[0] + 6 * scale
+def _column_width(frame, table, scale):
+    """Room for the longest name and a number of so many digits as there may be."""
+    longest = max((frame.measure(plain_name(name), SMALL, scale)[0] for _, name, _ in table.rows), default=0)
+    digits = " 999999" if table.head.startswith("stage") else " 9999999"
+    return longest + frame.measure(digits, SMALL, scale)[0] + 6 * scale

@@ -25,7 +25,6 @@ from game.overlays.layer_times import Times
 from game.scene import Scene
 
 SHORTER = (24, 16, 10, 5)  # lines of a legend that does not fit in full
-TIMES_SIZE = (250, 62)  # of the floating graph, in text pixels (frame pixels / text scale)
 
 
 class Overlays:
@@ -33,6 +32,7 @@ class Overlays:
 
     def __init__(self, on: Iterable[str] = ()) -> None:
         self.times = Times()  # keeps a history, to be told of every step
+        self.filters = Filters()  # asks the scene what its kinds are called
         self.layers: tuple[Layer, ...] = (
             Bounds(),
             Motion(),
@@ -40,7 +40,7 @@ class Overlays:
             Pairs(),
             Masks(),
             Contacts(),
-            Filters(),
+            self.filters,
             self.times,
             Impulses(),
             Features(),
@@ -74,6 +74,7 @@ class Overlays:
     def draw_on_frame(self, frame: Frame, scene: Scene) -> None:
         """Layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
+        self.filters.names = scene.filter_names
         for layer in self._active(on_canvas=False):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
@@ -95,13 +96,13 @@ class Overlays:
         """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
-        if "times" in self.on:
-            size = (min(TIMES_SIZE[0] * scale, area.width), TIMES_SIZE[1] * scale)
+        for size in self.times.sizes(frame) if "times" in self.on else ():
             place = frame.free_place(size, _corners(area, size, 4 * scale))
             if place is not None:
                 rect = pygame.Rect(place, size)
                 self.times.draw_graph(frame, rect)
                 frame.reserve(rect)
+                break
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_legend(self, frame, area, legend_at, scale):

@@ -64,14 +64,18 @@ class Picture:
             scene.flash.draw(self.canvas.surface)
         if scene.accessibility.palette == "contrast" and overlays.shows_geometry():
             self.canvas.surface.fill((SHADE,) * 3, special_flags=pygame.BLEND_RGB_MULT)
+        words = self.canvas.lift()
         overlays.draw_on_canvas(self.canvas, scene)
+        self.canvas.put_back(words)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
         if reserve is not None:
             reserve(frame)
         scene.draw_on_frame(frame)
         draw_drag(frame, scene.drag, scene.pointer)
+        words = frame.lift() if overlays.shows_geometry() else []
         overlays.draw_on_frame(frame, scene)
+        frame.put_back(words)  # score, lives, plots: nothing is painted over them
         if panel is None:
             overlays.draw_floating(frame, scene.legend_at)
         else:

@@ -222,7 +222,7 @@ def _from_json(path, place, data):
     down, wheel = data.get("down", False), data.get("wheel", 0)
     unknown = set(data) - {"actions", "pointer", "down", "wheel", "changes"}
     if unknown:
-        raise FileError(path, place, f"has unknown entries: {', '.join(sorted(unknown))}")
+        raise FileError(path, place, f"has unknown entries: {', '.join(sorted(unknown)):.60}")
     if not isinstance(actions, list) or any(action not in ACTIONS for action in actions):
         raise FileError(path, place, f"actions must be among {', '.join(ACTIONS)}")
     if not (isinstance(pointer, list) and len(pointer) == 2 and all(_near(v) for v in pointer)):

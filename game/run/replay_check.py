@@ -14,7 +14,7 @@ def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[
     recording = load_replay(path)
     if recording.scene not in registry.names:
         raise FileError(
-            path, "scene", f"there is no scene {recording.scene!r} here; valid: {', '.join(registry.names)}"
+            path, "scene", f"there is no scene {recording.scene!r:.60} here; valid: {', '.join(registry.names)}"
         )
     scene_class = registry.scene_class(recording.scene)
     check_recording(recording, scene_class)
@@ -30,7 +30,9 @@ def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
         ("tier", recording.tier, scene_class.tiers or (None,)),
     ):
         if value not in valid and not (place == "tier" and value is None):
-            raise FileError(path, place, f"{scene_class.name} has no {value!r}; valid: {', '.join(map(str, valid))}")
+            raise FileError(
+                path, place, f"{scene_class.name} has no {value!r:.60}; valid: {', '.join(map(str, valid))}"
+            )
     if recording.level is not None and not scene_class.takes_level:
         raise FileError(path, "level", f"{scene_class.name} takes none")
     asked = set()

@@ -18,12 +18,17 @@ def warm_up_scene(
     scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, progress: Progress | None = None
 ) -> None:
     """Compile what one scene needs at its start. progress(done, total, name) is called before each piece."""
-    strategy = (broadphase or scene_class.broadphase) if scene_class.switches_broadphase else "all"
+    strategy = strategy_of(scene_class, broadphase)
     names = solvers_of(scene_class, solver)
     for index, name in enumerate(names):
         physics.warmup(
             scene_class.effects, strategy, name, part_of(progress, index, len(names)), pieces_of(scene_class)
         )
+
+
+def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
+    """The broad phase that a scene's worlds begin with; "all" where each has its own."""
+    return (chosen or scene_class.broadphase) if scene_class.switches_broadphase else "all"
 
 
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:

@@ -1,12 +1,13 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from time import perf_counter
 from typing import Any
 
 import pygame
 
 from game.audio.sound import Sounds
+from game.drawing.number_text import plain_name
 from game.drawing.presenter import Frame
 from game.files.records import table_of
 from game.files.settings import Settings
@@ -21,7 +22,7 @@ from game.run.sources import BotSource
 from game.scene import ASSISTS, Scene
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.panel import Panel
-from game.screens.parts.panel_rows import following, play_rows
+from game.screens.parts.panel_rows import play_rows
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from game.screens.screen import SceneScreen
 from physics import BROADPHASES
@@ -36,6 +37,7 @@ PANEL_BUTTONS = {
     "a": pygame.K_RETURN,
 }
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
+TOLD_SECONDS = 2.5  # how long a line stays about what was switched
 KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
@@ -76,6 +78,9 @@ class Play(SceneScreen):
         self.settings_changed = lambda: None
         self.assisted = False
         self.since_result = 0
+        self.helped_since = 0  # the step from which the keys are shown
+        self.now = 0.0  # [s] of the last turn
+        self.told: tuple[str, float] = ("", 0.0)  # what was switched, and when it is no longer told [s]
         self.hint = HintCard() if self.person and settings is not None and not settings.hint_seen else None
         self.apply_settings()
 
@@ -127,6 +132,7 @@ class Play(SceneScreen):
 
     def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s], up to the last one of the run."""
+        self.now = now
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
@@ -210,9 +216,48 @@ class Play(SceneScreen):
 
     def switch_solver(self, way: int) -> None:
         """The next solver, or the one before; its kernels are compiled first, behind a bar."""
-        name = following(self.scene.solver_choices(), solver_name(self.scene), way)
-        self.prepare(name)
-        self.devices.change("solver", name)
+        choices = self.scene.solver_choices()
+        if choices:
+            name = following(choices, solver_name(self.scene), way)
+            self.prepare(name)
+            self._switch("solver", "solver", name, solver_name(self.scene))
+        elif self.scene.effects.response:
+            self._tell("each world here has a solver of its own")
+        else:
+            self._tell("nothing is pushed here: there is no solver to switch")
+
+    def switch_broadphase(self, way: int) -> None:
+        """The next broad phase, or the one before."""
+        if self.scene.switches_broadphase:
+            name = following(tuple(BROADPHASES), self.scene.broadphase, way)
+            self._switch("broadphase", "broad phase", name, self.scene.broadphase)
+        else:
+            self._tell("each world here has a broad phase of its own")
+
+    def switch_tier(self, way: int) -> None:
+        """The shape that sprites are tested as: the next, or the one before."""
+        if self.scene.tiers:
+            self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
+        else:
+            self._tell("no sprites here that could be tested as another shape")
+
+    def switch_narrowphase(self) -> None:
+        """Stop at boxes, or do not."""
+        on = not self.scene.narrowphase
+        self.devices.change("narrowphase", on)
+        self._tell("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
+
+    def _switch(self, change, what, new, old):
+        self.devices.change(change, new)
+        self._tell(f"{what}: {plain_name(new)}, was {plain_name(old or 'none')}")
+
+    def _tell(self, line):
+        self.told = line, self.now + TOLD_SECONDS
+
+    @property
+    def news(self) -> str:
+        """One line about what was just switched, "" when that is long ago."""
+        return self.told[0] if self.now < self.told[1] else ""
 
     def toggle_pause(self) -> None:
         """Stop or go on."""
@@ -227,6 +272,7 @@ class Play(SceneScreen):
         """Take an event before the game does; True if it is used up."""
         if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
             self.hint = None
+            self.helped_since = self.session.report.steps
             if self.settings is not None:
                 self.settings.hint_seen = True
             self.settings_changed()
@@ -267,7 +313,6 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def _key(self, key):
-        change, scene = self.devices.change, self.scene
         if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
             return False  # the player gave it to a move, and a move it stays
         layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
@@ -279,14 +324,14 @@ class Play(SceneScreen):
             self._toggle_panel()
         elif key == pygame.K_ESCAPE:
             self._stop()
-        elif key == pygame.K_b and scene.switches_broadphase:
-            change("broadphase", following(tuple(BROADPHASES), scene.broadphase, 1))
-        elif key == pygame.K_v and scene.solver_choices():
+        elif key == pygame.K_b:
+            self.switch_broadphase(1)
+        elif key == pygame.K_v:
             self.switch_solver(1)
-        elif key == pygame.K_t and scene.tiers:
-            change("tier", following(scene.tiers, scene.tier, 1))
+        elif key == pygame.K_t:
+            self.switch_tier(1)
         elif key == pygame.K_n:
-            change("narrowphase", not scene.narrowphase)
+            self.switch_narrowphase()
         elif key == pygame.K_r:
             self.wish_restart()
         elif key == pygame.K_p:
@@ -320,3 +365,8 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
     if scene.narrowphase != scene.effects.narrowphase:
         changes.append(("narrowphase", scene.narrowphase))
     return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]
+
+
+def following(names: Sequence[str], name: str | None, way: int) -> str:
+    """The name `way` places on, around the end; the first one where none is chosen yet."""
+    return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -5,7 +5,7 @@ import pygame
 from game.audio.sound import Sounds
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, RED, SKY, SLATE
-from game.drawing.number_text import short_clock
+from game.drawing.number_text import plain_name, short_clock
 from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
 from game.input.devices import DeviceSource
@@ -282,10 +282,11 @@ def watch_rows(watch: Watch) -> list[Row]:
     """Rows of the panel: what is seen can be changed, what happened cannot."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60
+    solver = plain_name(solver_name(scene) or "no solver")
     rows = [
         Row(HEAD, scene.title),
         Row(NOTE, f"a recording: {watch.name}"),
-        Row(NOTE, f"seed {scene.seed}, {scene.broadphase}, {solver_name(scene)}, tier {scene.tier or 'none'}"),
+        Row(NOTE, f"seed {scene.seed}, {scene.broadphase}, {solver}, tier {scene.tier or 'none'}"),
         Row(HEAD, "See"),
         *layer_rows(watch.overlays),
         Row(HEAD, "Time"),

@@ -20,7 +20,7 @@ from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Material
 from scenes.lab.billiard_table import BALL, CLOTH, HEAD_SPOT, HOLES, MOUTH, best_point, cushions, first_in_the_way, rack
 from scenes.lab.piles import kinetic_energy
-from scenes.lab.yard import draw_head, plate
+from scenes.lab.yard import HEAD, draw_head, plate
 
 TABLE = (4, 24)  # [canvas px] where the picture of the table goes
 FASTEST = 1300.0  # [px/s] of a cue ball hit with full power
@@ -44,6 +44,7 @@ class Billiards(Scene):
     sliders = (Slider("bounce", 50, 100, 96, "%", step=2), Slider("drag", 0.1, 2.0, DRAG, "1/s", step=0.1))
     actions = (("mouse", "aim; hold, let go"), ("arrows", "aim, power"), ("Space", "shoot"))
     draggable = True
+    head = HEAD
     legend_at = (SIDE, 150)
 
     def build(self):
@@ -56,6 +57,7 @@ class Billiards(Scene):
         self.aim, self.power, self.held, self.last_pointer = 0.0, 0.9, -1, (0, 0)
         self.budget = None  # what a break is measured by: momentum, steps, while no cushion was met
         self.kept = 0.0  # worst error of momentum, as a share
+        self.off = 0.0  # the error now, where a break is measured
         self.grown = self.grown_by_three = 0.0  # most that energy grew in a step, as a share; where three met
         self.compared = 0
         self.energy = 0.0
@@ -94,6 +96,11 @@ class Billiards(Scene):
         """True when every ball has stopped."""
         bodies = self.world.bodies
         return not ((bodies["vx"] != 0.0) | (bodies["vy"] != 0.0)).any()
+
+    @property
+    def offer(self):
+        """When there is nothing left to pot."""
+        return "racks them again" if len(self.ball_names) == 1 else ""
 
     def update(self, inputs):
         """Aim and shoot, one step, then the books."""
@@ -163,8 +170,8 @@ class Billiards(Scene):
             return
         left = keep**steps
         now_x, now_y = (float((bodies["mass"] * bodies[name]).sum()) for name in ("vx", "vy"))
-        off = hypot(now_x - px * left, now_y - py * left)
-        self.kept = max(self.kept, off / (hypot(px, py) * left))
+        self.off = hypot(now_x - px * left, now_y - py * left) / (hypot(px, py) * left)
+        self.kept = max(self.kept, self.off)
         self.compared += 1
         self.budget = (px, py, steps)
 
@@ -248,13 +255,15 @@ class Billiards(Scene):
         canvas.text("power", SIDE, 86, FOG, SMALL)
         canvas.surface.fill((20, 16, 32), (SIDE, 94, 78, 6))
         canvas.surface.fill(GOLD, (SIDE + 1, 95, round(76 * self.power), 4))
-        held = self.compared > 0 and self.kept < 1e-9
+        measured = self.budget is not None and self.budget[2] > 0
+        held = self.off < 1e-9
+        momentum = (("kept", GREEN) if held else ("lost", RED)) if measured else ("-", FOG)
         rows = (
             ("shots", f"{self.shots}", PAPER),
             ("scratches", f"{self.scratches}", PAPER),
             ("energy", f"{self.energy / 1e6:.2f}", PAPER),
-            ("momentum", "kept" if held else "-", GREEN if held else FOG),
-            ("  off by", f"{self.kept:.0e}", PAPER if self.kept < 1e-9 else RED),
+            ("momentum", *momentum),
+            ("  off by", f"{self.off:.0e}" if measured else "-", PAPER if held else RED),
         )
         for number, (word, value, color) in enumerate(rows):
             canvas.text(word, SIDE, 106 + number * 9, FOG, SMALL)

@@ -17,7 +17,7 @@ from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
-from scenes.lab.yard import Yard, plate
+from scenes.lab.yard import HEAD, Yard, plate
 
 LENGTH, RADIUS = 48.0, 2.0  # [px] between the centres of a card's round ends, and their radius
 LEAN = radians(25.0)  # from the vertical
@@ -49,6 +49,7 @@ class CardHouse(Scene):
     sliders = (Slider("friction", 5, 100, 70, "/ 100", step=5), Slider("storeys", 1, 4, 4), Slider("substeps", 1, 8, 4))
     actions = (("Space", "throw a coin"), ("up down", "friction"), ("left right", "storeys"))
     draggable = True
+    head = HEAD
     legend_at = (342, 88)
 
     def build(self):
@@ -153,6 +154,11 @@ class CardHouse(Scene):
     def stands(self, cards):
         """True while no card has sunk or slid by half its reach."""
         return all(self.moved(card) < REACH / 2 for card in cards)
+
+    @property
+    def offer(self):
+        """When the house has fallen."""
+        return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
         """The table with its cloths, the cards, the words."""

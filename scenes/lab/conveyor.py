@@ -18,6 +18,7 @@ from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.pieces import piece
+from scenes.lab.yard import HEAD
 
 BELT_RADIUS = 6.0  # [px] of a belt's rollers
 BELTS = {  # from, to: centres of the rollers in a view [px]
@@ -65,6 +66,7 @@ class Conveyor(Scene):
     actions = (("left right", "speed"),)
     overlays = ()
     draggable = True
+    head = HEAD
     legend_at = (8, 34)
 
     def build(self):
@@ -84,7 +86,7 @@ class Conveyor(Scene):
         self.changed = -SETTLE
         self.taken = dict.fromkeys(BELTS, 0)
         self.worst = dict.fromkeys(BELTS, 0.0)
-        self.last = dict.fromkeys(BELTS, 0.0)
+        self.last = {}  # belt -> speed of the last crate there, since the belts run as they do
         self.seen = {kind: set() for kind in KINDS}  # belts on which it was measured
         self.inside = {}  # (body id, belt) -> speed when last in the window
         self.delivered = 0
@@ -107,6 +109,7 @@ class Conveyor(Scene):
         if self.values[name] != before:
             self.changed = self.frame
             self.inside.clear()
+            self.last.clear()
             self._lay_belts()
 
     def update(self, inputs):
@@ -235,8 +238,9 @@ class Conveyor(Scene):
         pygame.draw.rect(canvas.surface, SLATE, view, 1)
         if running:
             for name, (x, y) in LABEL_AT.items():
-                color = PAPER if self.worst[name] <= ALLOWED else RED
-                text = f"{name} {self.last[name]:.1f}" if self.taken[name] else name
+                found, speed = self.last.get(name), float(self.values["speed"])
+                color = PAPER if found is None or abs(found - speed) <= ALLOWED * speed else RED
+                text = name if found is None else f"{name} {found:.1f}"
                 canvas.text(text, view.x + x, view.y + y, color, SMALL, align="center", outline=True)
         else:
             canvas.text(

@@ -11,13 +11,14 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Material, Polygon
-from scenes.lab.piles import SOLVER_WORDS, SOLVERS, kinetic_energy
-from scenes.lab.yard import Yard, plate
+from scenes.lab.piles import SOLVERS, kinetic_energy
+from scenes.lab.yard import HEAD, Yard, darken, plate
 
 COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 ZOOM, RADIUS = 0.5, 28.0  # [px] drawn 28 px large
@@ -28,7 +29,8 @@ MIDDLE, LINE = 500.0, 72.0  # [px] middle of the row, height of the channel's ax
 LEFT, RIGHT = 14.0, 946.0  # [px] faces of the end walls
 FIRST = 60.0  # [px] of the first striker
 SPEED = 300.0  # [px/s] 5 px a step, less than the gap: one collision at a time
-ASIDE = 60.0  # [px] the last ball has left when it is this far from its place
+SEEN = 1e-6  # of the strikers' speed: more is told as wrong
+SCATTERED = 0.01  # of that speed: the row has lost its order
 CLEAN = 1e-9  # of the striker's speed, momentum or energy
 SWITCH_AT = 300  # the bot's step for two strikers
 
@@ -46,13 +48,14 @@ class Cradle(Scene):
     sliders = (Slider("strikers", 1, 3, 1), Slider("gap", 0, 16, 8, "px"))
     actions = (("Space", "again"), ("up down", "strikers"), ("left right", "gap"))
     draggable = True
+    head = HEAD
     legend_at = (4, 20)
 
     def build(self):
         """The channels; fill() lays the balls in."""
         self.yard = Yard((), 90)
         self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
-        self.results = {}  # (solver, strikers, gap) -> what the first pass gave
+        self.results = {}  # (solver, strikers, gap) -> the worst of the first pass, up to the wall
         self.drift = {}  # the same -> the most that the energy was off, as a share
         self.fill()
 
@@ -76,7 +79,8 @@ class Cradle(Scene):
                 row.append(cast.add(world.add_body(Circle(RADIUS), position=(x, LINE), material=ball), "steel_ball"))
             self.casts.append(cast)
             self.balls.append(row)
-        self.goes_from = self.balls[0][-1].position[0]
+        self.laid = [[body.position[0] for body in row[strikers:]] for row in self.balls]
+        self.first_pass = [True] * len(SOLVERS)  # no ball has come to the wall on the right yet
         self.energy = [kinetic_energy(world) for world in self.worlds]
         self.momentum = [float((world.bodies["mass"] * world.bodies["vx"]).sum()) for world in self.worlds]
         self.touched = False  # someone drags: the books are closed
@@ -104,16 +108,43 @@ class Cradle(Scene):
 
     def _keep_books(self, index, name, world):
         off = abs(kinetic_energy(world) / self.energy[index] - 1.0)
-        key = (name, int(self.values["strikers"]), int(self.values["gap"]))
+        strikers = int(self.values["strikers"])
+        key = (name, strikers, int(self.values["gap"]))
         self.drift[key] = max(self.drift.get(key, 0.0), off)
-        if key in self.results or self.balls[index][-1].position[0] < self.goes_from + ASIDE:
+        row = self.balls[index]
+        self.first_pass[index] &= row[-1].position[0] + RADIUS + SPEED / 60 < RIGHT
+        if not self.first_pass[index] or not self.struck(index):
             return
-        speeds = [body.velocity[0] / SPEED for body in self.balls[index]]
-        strikers = key[1]
-        wrong = max(abs(speed - (1.0 if number >= ROW else 0.0)) for number, speed in enumerate(speeds))
-        total = sum(speeds)
-        square = sum(speed * speed for speed in speeds)
-        self.results[key] = (wrong, abs(total / strikers - 1.0), abs(square / strikers - 1.0))
+        speeds = [body.velocity[0] / SPEED for body in row]
+        found = (
+            self.others(index),
+            abs(sum(speeds) / strikers - 1.0),
+            abs(sum(speed * speed for speed in speeds) / strikers - 1.0),
+        )
+        self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
+
+    def struck(self, index):
+        """True once a ball of the row has moved, or moves."""
+        row = self.balls[index][-ROW:]
+        return any(
+            body.velocity[0] != 0.0 or body.position[0] != x for body, x in zip(row, self.laid[index], strict=True)
+        )
+
+    def others(self, index):
+        """How far a channel is now from as many balls at the strikers' speed as there are strikers, the rest at rest.
+
+        The most that a ball's speed is off, as a share of the strikers'; 1 where too many or too few are fast.
+        """
+        speeds = [abs(body.velocity[0]) / SPEED for body in self.balls[index]]
+        fast = sum(speed > 0.5 for speed in speeds)
+        if fast != int(self.values["strikers"]):
+            return 1.0
+        return max(min(speed, abs(speed - 1.0)) for speed in speeds)
+
+    @property
+    def offer(self):
+        """When balls move that should not: this row will not be as it was by itself."""
+        return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
         """One picture per channel."""
@@ -130,7 +161,7 @@ class Cradle(Scene):
     def _draw_channel(self, canvas, view):
         surface, y = canvas.surface, view.y + round(LINE * ZOOM)
         reach = round(RADIUS * ZOOM)
-        plate(canvas, (0, y - reach - 2, 480, 2 * reach + 4), (20, 16, 32, 150))
+        darken(canvas, (0, y - reach - 2, 480, 2 * reach + 4), (20, 16, 32, 150))
         for edge, lit in ((y - reach - 3, (190, 196, 216)), (y + reach + 2, (92, 96, 124))):
             surface.fill((58, 60, 82), (0, edge - 1, 480, 3))
             surface.fill(lit, (0, edge - 1, 480, 1))
@@ -140,28 +171,31 @@ class Cradle(Scene):
 
     def _draw_words(self, canvas, index, name, view):
         y = view.y + 66
-        canvas.text(SOLVER_WORDS[name], 8, view.y + 6, COLORS[name], outline=True)
+        canvas.text(plain_name(name), 8, view.y + 6, COLORS[name], outline=True)
         bodies = self.worlds[index].bodies
         energy = 100.0 * kinetic_energy(self.worlds[index]) / self.energy[index]
         momentum = 100.0 * float((bodies["mass"] * bodies["vx"]).sum()) / self.momentum[index]
-        key = (name, int(self.values["strikers"]), int(self.values["gap"]))
         plate(canvas, (4, y - 3, 472, 12))
         canvas.text("momentum", 10, y, FOG, SMALL)
         canvas.text(f"{momentum:+.4f} %", 110, y, PAPER, SMALL, align="right")
         canvas.text("energy", 134, y, FOG, SMALL)
         canvas.text(f"{energy:.4f} %", 226, y, PAPER, SMALL, align="right")
-        if key in self.results:
-            clean = self.results[key][0] < 1e-6
-            canvas.text(
-                "as many leave as came" if clean else f"others move too, by {100 * self.results[key][0]:.1f} %",
-                470,
-                y,
-                GREEN if clean else RED,
-                SMALL,
-                align="right",
-            )
-        else:
-            canvas.text("not struck yet", 470, y, FOG, SMALL, align="right")
+        words, color = self.verdict(index)
+        canvas.text(words, 470, y, color, SMALL, align="right")
+
+    def verdict(self, index):
+        """(words, colour) about a channel as it is now."""
+        if self.touched:
+            return "dragged: nothing is promised", FOG
+        if not self.struck(index):
+            return "not struck yet", FOG
+        others, strikers = self.others(index), int(self.values["strikers"])
+        if others < SEEN:
+            return "as many leave as came", GREEN
+        fast = sum(abs(body.velocity[0]) > SPEED / 2 for body in self.balls[index])
+        if fast != strikers:
+            return f"{fast} fast ones instead of {strikers}", RED
+        return f"others move too, by {100 * others:.1f} %", RED
 
     def draw_on_frame(self, frame):
         """An arrow over every ball that moves, as long as it is fast."""

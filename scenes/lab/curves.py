@@ -7,6 +7,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, INK, SLATE
+from game.drawing.typical import Typical
 
 HISTORY = 150  # steps kept: 2.5 seconds
 
@@ -17,19 +18,22 @@ class Curves:
     def __init__(self, title, names):
         self.title, self.names = title, names
         self.history = {name: deque(maxlen=HISTORY) for name in names}
-        self.smooth = {}
+        self.figures = {name: Typical() for name in names}
 
     def note(self, values):
         """Add one value per series; negative ones count as 0."""
         for name, value in values.items():
             self.history[name].append(max(float(value), 0.0))
-            before = self.smooth.get(name, value)
-            self.smooth[name] = before + (value - before) * 0.1
+            self.figures[name].note(value)
+
+    def typical(self, name):
+        """The median of a series' last second, for figures beside the curve."""
+        return self.figures[name].value
 
     def draw(self, frame, canvas_rect):
         """Draw ground, grid and curves; the title and the decades are written where there is room."""
         rect = frame.from_canvas(canvas_rect)
-        scale = frame.text_scale
+        scale = frame.plot_scale
         surface = frame.surface
         surface.fill(INK, rect)
         pygame.draw.rect(surface, SLATE, rect, 1)
@@ -55,6 +59,7 @@ class Curves:
             y = plot.bottom - plot.height * decade / decades
             if y + 7 * scale <= rect.bottom:
                 frame.text_if_free(_power(decade), plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
+        frame.fix(rect)
 
 
 def _power(decade):

@@ -18,7 +18,7 @@ from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Effects, Material, Polygon
 from scenes.lab.piles import SOLVERS
-from scenes.lab.yard import Yard, plate
+from scenes.lab.yard import HEAD, Yard, plate
 
 KEEPING = SOLVERS[1:]  # those that can hold a row of dominoes up
 SCALES = (1.0, 4.0)  # of the two rows
@@ -54,6 +54,7 @@ class Dominoes(Scene):
     )
     actions = (("Space", "push"), ("left right", "spacing"), ("up down", "substeps"))
     draggable = True
+    head = HEAD
     legend_at = (190, 20)
 
     def build(self):
@@ -151,6 +152,12 @@ class Dominoes(Scene):
         """How many times as fast the wave of the large ones is, or None."""
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
+
+    @property
+    def offer(self):
+        """When both waves have run through."""
+        through = all(at is not None for row in self.passed for at in row)
+        return "sets them up again" if through else ""
 
     def views(self):
         """One picture per row."""

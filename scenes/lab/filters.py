@@ -15,6 +15,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SERIES
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter
+from scenes.lab.yard import HEAD
 
 KINDS = ("player", "enemy", "shot", "enemy shot", "wall", "pick-up")
 MEETS = {  # whom each kind says yes to, at the start
@@ -40,11 +41,13 @@ class Filters(Scene):
     name = "lab/filters"
     title = "Filters"
     about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
-    effects = Effects(persist=True)
+    effects = Effects()
     pieces = ("circles", "boxes")
     features = ("membership and mask, tested both ways", "filtered inside the broad phase, before a pair is written")
     sliders = (Slider("speed", 0.2, 3.0, 1.0, step=0.1),)
     actions = (("mouse", "click a cell"), ("arrows", "choose"), ("Space", "switch"))
+    filter_names = {1 << number: kind for number, kind in enumerate(KINDS)}
+    head = HEAD
     legend_at = (322, 176)
     hides_pointer = False
 

@@ -18,6 +18,7 @@ from game.drawing.sprites import load_atlas, load_backdrop
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.pieces import piece
+from scenes.lab.yard import HEAD
 
 FLOORS = ("boxes", "tiles", "chain")
 TITLES = {"boxes": "separate boxes", "tiles": "one grid of tiles", "chain": "one chain"}
@@ -54,6 +55,8 @@ class GhostBumps(Scene):
     sliders = (Slider("speed", 60, 600, 360, "px/s", step=20),)
     actions = (("left right", "speed"),)
     draggable = True
+    filter_names = {1: "floor"} | {2 << number: kind for number, kind in enumerate(KINDS)}
+    head = HEAD
     legend_at = (318, 220)
 
     def build(self):
@@ -168,7 +171,7 @@ class GhostBumps(Scene):
             self.casts[index].draw(canvas, camera, self.worlds[index], alpha)
             pygame.draw.rect(canvas.surface, SLATE, view, 1)
             canvas.text(TITLES[floor], view.x + 2, view.y - 8, COLORS[floor], SMALL)
-            words = "   ".join(f"{kind} {amount(self.slowed[floor, kind])}" for kind in KINDS)
+            words = "worst   " + "   ".join(f"{kind} {amount(self.slowed[floor, kind])}" for kind in KINDS)
             canvas.text(words, view.right - 2, view.y - 8, PAPER, SMALL, align="right")
         for number, floor in enumerate(FLOORS):
             y = 222 + number * 14
@@ -208,7 +211,7 @@ class GhostBumps(Scene):
         """The two curves at window resolution."""
         for number, (title, canvas_rect) in enumerate(PLOTS):
             rect = frame.from_canvas(canvas_rect)
-            scale = frame.text_scale
+            scale = frame.plot_scale
             frame.surface.fill(INK, rect)
             pygame.draw.rect(frame.surface, SLATE, rect, 1)
             frame.text(title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
@@ -230,6 +233,7 @@ class GhostBumps(Scene):
             for value, text in marks:  # over the curves
                 y = plot.bottom - plot.height * share(number, value)
                 frame.text_if_free(text, plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
+            frame.fix(rect)
 
     def check(self):
         """Seams are felt where nobody merges them, and nowhere else."""

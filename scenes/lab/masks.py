@@ -12,10 +12,12 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
+from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene
-from physics import Effects, debug
+from physics import Effects, collide, debug
 from scenes.lab.hands import Hands
+from scenes.lab.yard import HEAD
 
 SPRITES = ("large_plane_a", "large_plane_b")
 ARENA = pygame.Rect(0, 16, 316, 254)
@@ -39,7 +41,7 @@ class Masks(Scene):
     name = "lab/masks"
     title = "Masks"
     about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
-    effects = Effects(response=True)  # for area, normal and depth; kinematic planes are pushed by nobody
+    effects = Effects()  # who meets whom; nobody is pushed, and how deep they are is asked of collide()
     pieces = ("masks", "boxes", "circles")
     features = (
         "pixel masks by bitwise AND, as drawn, at any angle",
@@ -54,6 +56,7 @@ class Masks(Scene):
         ("Space", "other plane"),
     )
     overlays = ("masks", "contacts")
+    head = HEAD
     legend_at = (324, 196)
     hides_pointer = False
 
@@ -68,7 +71,7 @@ class Masks(Scene):
         for tier in ROWS:
             self.shown[tier] = self._world(tier, 1)
             self.timed[tier] = self._world(tier, COPIES)
-        self.cost = dict.fromkeys(ROWS, 0.0)
+        self.cost = {tier: Typical() for tier in ROWS}  # [us] of one test
         self.verdicts = dict.fromkeys(ROWS, False)
         self.lies = dict.fromkeys(ROWS, 0)  # steps in which a tier said hit and the pixels did not
         self.wrong = self.steps = self.apart = self.hits = 0
@@ -119,9 +122,7 @@ class Masks(Scene):
     def observe(self):
         """The clock: one pair's share of what the copies took."""
         for tier, world in self.timed.items():
-            spent = world.profile.stages["narrow_phase"] / COPIES * 1e6
-            before = self.cost[tier]
-            self.cost[tier] = spent if before == 0.0 else before + (spent - before) * 0.05
+            self.cost[tier].note(world.profile.stages["narrow_phase"] / COPIES * 1e6)
 
     def views(self):
         """The overlays show the world of the pixels."""
@@ -147,25 +148,26 @@ class Masks(Scene):
         verdict, color = self.verdicts[tier], COLORS[tier]
         box = pygame.Rect(TABLE_X - 4, y - 4, 480 - TABLE_X, ROW_HEIGHT - 4)
         canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
+        canvas.fix(box)
         canvas.surface.fill(color, (box.x, box.y, 2, box.height))
         canvas.text(NAMES[tier], TABLE_X + 2, y, color)
         canvas.text(
             "HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center", outline=verdict
         )
-        cost = self.cost[tier]
+        cost, dearest = self.cost[tier].value, max(each.value for each in self.cost.values()) or 1.0
         canvas.text(f"{cost:.2f} us" if cost < 100 else f"{cost:,.0f} us", 474, y, PAPER, align="right")
         canvas.text(self._remark(tier), TABLE_X + 2, y + 13, PAPER, SMALL)
-        dearest = max(self.cost.values()) or 1.0
         canvas.surface.fill(INK, (TABLE_X + 2, y + 24, BAR_WIDTH, 3))
-        canvas.surface.fill(color, (TABLE_X + 2, y + 24, max(1, round(BAR_WIDTH * self.cost[tier] / dearest)), 3))
+        canvas.surface.fill(color, (TABLE_X + 2, y + 24, max(1, round(BAR_WIDTH * cost / dearest)), 3))
 
     def _remark(self, tier):
-        contacts = self.shown[tier].contacts
         if not self.verdicts[tier]:
             return "apart"
-        depth = max(0.0, -float(contacts["separation"].min()))
         if tier == "pixels":
-            return f"{int(contacts['area'].sum())} pixels shared, {depth:.1f} px deep"
+            found = collide(self.masks[0], tuple(self.hands.poses[0]), self.masks[1], tuple(self.hands.poses[1]))
+            depth = max(0.0, -min(found.separations.tolist(), default=0.0))
+            return f"{int(found.area)} pixels shared, {depth:.1f} px deep"
+        depth = max(0.0, -float(self.shown[tier].contacts["separation"].min()))
         says = "and so do the pixels" if self.verdicts["pixels"] else "but no pixel is shared"
         return f"{depth:.0f} px deep, {says}"
 

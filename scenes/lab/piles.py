@@ -3,7 +3,6 @@
 import numpy as np
 
 SOLVERS = ("projection", "sequential_impulse", "soft_step")
-SOLVER_WORDS = {"projection": "push out", "sequential_impulse": "impulses", "soft_step": "soft step"}
 
 
 def deepest(world):
@@ -12,19 +11,24 @@ def deepest(world):
     return max(0.0, -float(contacts["separation"].min())) if len(contacts) else 0.0
 
 
-def kinetic_energy(world):
-    """Of all moving bodies, turning included [mass px2/s2]."""
-    bodies = world.bodies
+def kinetic_energy(world, without=()):
+    """Of all moving bodies but those with the ids in `without`, turning included [mass px2/s2]."""
+    bodies = _but(world.bodies, without)
     inertia = bodies["inertia"] if world.effects.rotation else 0.0
     return 0.5 * float(
         np.sum(bodies["mass"] * (bodies["vx"] ** 2 + bodies["vy"] ** 2) + inertia * bodies["angular_velocity"] ** 2)
     )
 
 
-def height_energy(world):
-    """Of all dynamic bodies in the world's gravity, against y = 0 [mass px2/s2]."""
-    bodies = world.bodies[world.bodies["inverse_mass"] > 0.0]
+def height_energy(world, without=()):
+    """Of all dynamic bodies but those in `without` in the world's gravity, against y = 0 [mass px2/s2]."""
+    bodies = _but(world.bodies, without)
+    bodies = bodies[bodies["inverse_mass"] > 0.0]
     return -float(np.sum(bodies["mass"] * bodies["center_y"])) * world.gravity[1]
+
+
+def _but(bodies, without):
+    return bodies[~np.isin(bodies["id"], without)] if without else bodies
 
 
 def fastest(world):

@@ -9,14 +9,15 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
+from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.curves import Curves
-from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds
-from scenes.lab.yard import Yard, plate
+from scenes.lab.piles import SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds
+from scenes.lab.yard import HEAD, Yard, plate
 
 SIZE = 32.0  # [px] a crate of one metre
 LOOKS = ((9, 24), (14, 16), (20, 11))  # up to so many rows, crates are drawn that large [canvas px]
@@ -49,6 +50,7 @@ class Pyramid(Scene):
     sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 2, choices=SOLVERS))
     actions = (("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
     draggable = True
+    head = HEAD
     legend_at = (4, 212)
 
     def build(self):
@@ -104,14 +106,29 @@ class Pyramid(Scene):
         self.world.step()
         self._sound()
         self.since += 1
+        self.energy = self._energy()
         if self.thrown is None and not self.drag.holds:
-            self.energy = kinetic_energy(self.world) + height_energy(self.world)
             self.most_energy = max(self.most_energy, self.energy)
         if JUDGED_AT - 60 <= self.since <= JUDGED_AT and self.thrown is None:
             self.quiet = max(self.quiet, fastest(self.world))
             self.deepest = max(self.deepest, deepest(self.world))
             if self.since == JUDGED_AT:
                 self.still = self.top.position
+
+    def _energy(self):
+        """Of the crates, whoever throws or drags them [mass px2/s2]."""
+        ball = () if self.thrown is None else (self.thrown.id,)
+        return kinetic_energy(self.world, ball) + height_energy(self.world, ball)
+
+    @property
+    def offer(self):
+        """When the top is down."""
+        down = self.top.position[1] - self._built_at()[1] > SIZE
+        return "piles them up again" if down else ""
+
+    def _built_at(self):
+        """Where the top crate was laid [px]."""
+        return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):
         """A new ball from the upper left; the one before is taken away."""
@@ -147,10 +164,10 @@ class Pyramid(Scene):
         plate(canvas, (4, 22, 130, 80))
         solver = SOLVERS[int(self.values["solver"])]
         canvas.text(f"{self.crates} crates", 10, 26, GOLD)
-        spent = self.curves[0].smooth.get(PLOTS[0][0], 0.0) / 1000.0
+        spent = self.curves[0].typical(PLOTS[0][0]) / 1000.0
         change = 100.0 * (self.energy - self.start_energy) / abs(self.start_energy)
         rows = (
-            ("solver", SOLVER_WORDS[solver]),
+            ("solver", plain_name(solver)),
             ("substeps", f"{self.values['substeps']}"),
             ("a step", f"{spent:.2f} ms"),
             ("contacts", f"{len(self.world.contacts)}"),
@@ -166,11 +183,12 @@ class Pyramid(Scene):
         """The curves."""
         for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
             curves.draw(frame, (4, y, 130, 48))
-        if self.still is not None and self.thrown is None:
-            lens = frame.lens(self.camera)
-            x, y = lens.points(self.still[0], self.still[1] - SIZE)
+        if self.thrown is None:
+            (x, y), lens = self._built_at(), frame.lens(self.camera)
+            aside = max(abs(self.top.position[0] - x), abs(self.top.position[1] - y))
+            color = GREEN if aside < SIZE / 20 and fastest(self.world) < SIZE / 20 else RED
+            x, y = lens.points(x, y - SIZE)
             wide, high = 3 * frame.scale, 5 * frame.scale
-            color = GREEN if self.quiet < SIZE / 20 else RED
             pygame.draw.polygon(frame.surface, color, [(x, y), (x - wide, y - high), (x + wide, y - high)])
 
     def check(self):

@@ -17,6 +17,7 @@ from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Circle, Effects, Filter, Polygon
+from scenes.lab.yard import HEAD
 
 ZONES = {  # name: (width, height) [px], middle at the start, colour
     "field": ((64.0, 118.0), (92.0, 94.0), SKY),
@@ -46,11 +47,13 @@ class Sensors(Scene):
     name = "lab/sensors"
     title = "Sensors"
     about = "Zones count who enters and leaves, however fast or thin; geometry checks every count."
-    effects = Effects(sensors=True, continuous=True)
+    effects = Effects(narrowphase=False, sensors=True, continuous=True)  # sensors test shapes by themselves
     pieces = ("circles", "boxes", "capsules")
     features = ("sensor zones: still, moving, thin, fast", "entries found between the steps", "each begin with its end")
     sliders = (Slider("speed", 60, 9000, 2400, "px/s", step=60), Slider("scanner", 300, 6000, 2400, "px/s", step=100))
     actions = (("left right", "speed"), ("up down", "scanner"))
+    filter_names = {SHIP: "ship", ZONE: "zone"}
+    head = HEAD
     legend_at = (8, 252)
     broadphase = "sweep"
     draggable = True

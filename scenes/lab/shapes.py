@@ -20,6 +20,7 @@ from physics import Capsule, Circle, Effects, Polygon, Segment, collide, debug, 
 from scenes.lab.hands import Hands
 from scenes.lab.pieces import hull
 from scenes.lab.shape_pictures import draw_differences, draw_shadows, placed_hull
+from scenes.lab.yard import HEAD
 
 CHOICES = {
     "circle": Circle(33.0),
@@ -73,6 +74,7 @@ class Shapes(Scene):
         ("Space", "other"),
         ("Enter", "next step"),
     )
+    head = HEAD
     legend_at = (8, 22)
     hides_pointer = False
 

@@ -1,7 +1,7 @@
 """The same column of crates in three worlds, one per solver: which of them stands straight?
 
-What to see: pushing out treats each overlap by itself and forgets the weight above: the column jitters apart.
-Impulses that are kept from step to step carry it. The soft step keeps them too, and its contacts give like stiff
+What to see: projection pushes each overlap out by itself and forgets the weight above: the column jitters apart.
+Sequential impulse keeps from step to step what carries it. Soft step does too, and its contacts give like stiff
 springs: its column stands a third of a percent lower, and comes to rest after a nudge. Take substeps away, make the
 crate on top heavy, drag one out: who falls first?
 """
@@ -13,13 +13,14 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Effects, Material, Polygon
-from scenes.lab.piles import SOLVER_WORDS, SOLVERS, deepest
-from scenes.lab.yard import Yard, plate
+from scenes.lab.piles import SOLVERS, deepest
+from scenes.lab.yard import HEAD, Yard, plate
 
 COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 SIZE, ZOOM = 32.0, 0.5  # [px] a crate of one metre, drawn 16 px large
@@ -40,11 +41,12 @@ class Stacks(Scene):
     about = "One column of crates under three solvers: height, sway and overlap, measured live."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes",)
-    features = ("push-out, sequential impulses and soft step side by side", "sag, sway and overlap measured live")
+    features = ("projection, sequential impulse and soft step side by side", "sag, sway and overlap measured live")
     solvers = SOLVERS
     sliders = (Slider("crates", 4, 12, 11), Slider("top crate", 1, 20, 1, "x as heavy"), Slider("substeps", 1, 8, 4))
     actions = (("Space", "nudge"), ("left right", "crates"), ("up down", "top crate"))
     draggable = True
+    head = HEAD
     legend_at = (4, 20)
 
     def build(self):
@@ -118,6 +120,17 @@ class Stacks(Scene):
         """True while the top crate has never left its place by a crate's size."""
         return self.standing[name] == self.since
 
+    def stands_now(self, index):
+        """True while the top crate of a column is within a crate's size of its place."""
+        x, y = self.tops[index].position
+        return hypot(x - MIDDLE, y - (GROUND - (int(self.values["crates"]) - 0.5) * SIZE)) < SIZE
+
+    @property
+    def offer(self):
+        """When no column is left to be nudged."""
+        fallen = not any(self.stands_now(index) for index in range(len(SOLVERS)))
+        return "piles them up again" if fallen else ""
+
     def views(self):
         """One picture per solver."""
         return list(zip(self.worlds, self.cameras, strict=True))
@@ -127,22 +140,22 @@ class Stacks(Scene):
         self.yard.draw(canvas, "STACKS", "which solver lets a column of crates stand straight?")
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
-            self._draw_words(canvas, name, camera.viewport)
+            self._draw_words(canvas, index, name, camera.viewport)
         for x in (160, 319):
             pygame.draw.line(canvas.surface, faded(PAPER, 0.75), (x, 16), (x, 269))
 
-    def _draw_words(self, canvas, name, view):
+    def _draw_words(self, canvas, index, name, view):
         box = pygame.Rect(view.x, 222, view.width, 46)
         plate(canvas, box)
         canvas.surface.fill(COLORS[name], (box.x, box.y, 2, box.height))
-        canvas.text(SOLVER_WORDS[name], box.x + 6, box.y + 3, COLORS[name])
-        stands = self.stands(name)
+        canvas.text(plain_name(name), box.x + 6, box.y + 3, COLORS[name])
+        stands = self.stands_now(index)
         canvas.text("stands" if stands else "fell", box.right - 4, box.y + 3, GREEN if stands else RED, align="right")
         tall = self.values["crates"] * SIZE
         rows = (
             ("sinks", self.sag[name] / tall),
             ("sways", self.sway[name] / SIZE),
-            ("overlap", self.depth[name] / SIZE),
+            ("overlap", deepest(self.worlds[index]) / SIZE),
         )
         for row, (word, share) in enumerate(rows):
             y = box.y + 16 + row * 9
@@ -161,12 +174,12 @@ class Stacks(Scene):
                 pygame.draw.line(frame.surface, PAPER, (x, y), (x + 3 * frame.scale, y))
 
     def check(self):
-        """Impulses that are kept hold the column, also against a nudge; pushing out does not."""
+        """Impulses that are kept hold the column, also against a nudge; projection does not."""
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
         return [
             Goal(
-                "the soft step stands, also after a nudge",
+                "soft step stands, also after a nudge",
                 300,
                 self.stands(soft) and self.nudged > 0,
                 f"{self.standing[soft]} of {self.since} steps",
@@ -190,13 +203,13 @@ class Stacks(Scene):
                 f"{self.depth[soft]:.2f} px",
             ),
             Goal(
-                "sequential impulses stand until the nudge",
+                "sequential impulse stands until the nudge",
                 240,
                 self.standing[kept] >= 240,
                 f"sways {self.calm_sway[kept]:.2f} px",
             ),
             Goal(
-                "pushing out falls, or sinks three times as far",
+                "projection falls, or sinks three times as far",
                 300,
                 not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
                 f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px",

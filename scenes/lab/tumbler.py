@@ -16,11 +16,12 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
+from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.piles import deepest, kinetic_energy, step_seconds
-from scenes.lab.yard import Yard, plate
+from scenes.lab.yard import HEAD, Yard, plate
 
 ZOOM = 0.5
 SIDES = 10
@@ -63,6 +64,7 @@ class Tumbler(Scene):
     sliders = (Slider("bodies", 20, 160, 130, step=10), Slider("speed", -2.0, 2.0, 0.6, "rad/s", step=0.1))
     actions = (("left right", "drum's speed"), ("up down", "bodies"))
     draggable = True
+    head = HEAD
     legend_at = (4, 130)
 
     def build(self):
@@ -88,7 +90,7 @@ class Tumbler(Scene):
         self.highest = MIDDLE[1] + INSIDE  # y of the highest centre since the load has settled
         self.most = self.energy = 0.0  # kinetic energy
         self.overlap = self.pressed = 0.0  # [px] deepest ever, and deepest of each step on average
-        self.spent = 0.0  # [ms]
+        self.spent = Typical()  # [ms]
         self.since = 0
 
     def change_slider(self, name, value):
@@ -125,7 +127,7 @@ class Tumbler(Scene):
 
     def observe(self):
         """The clock."""
-        self.spent += (step_seconds(self.world) * 1e3 - self.spent) * 0.05
+        self.spent.note(step_seconds(self.world) * 1e3)
 
     def draw(self, canvas, alpha):
         """The drum, its load, the numbers."""
@@ -143,7 +145,7 @@ class Tumbler(Scene):
             ("overlap", f"{deepest(self.world):.2f} px"),
             ("on average", f"{self.pressed:.2f} px"),
             ("speed", f"{self._pace():.0f} px/s"),
-            ("a step", f"{self.spent:.2f} ms"),
+            ("a step", f"{self.spent.value:.2f} ms"),
         )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 40 + number * 10, FOG, SMALL)

@@ -17,6 +17,7 @@ from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon
+from scenes.lab.yard import HEAD
 
 LANES = ("off", "ray", "swept", "toi")
 SHOTS = ("balls", "rods", "bullets")
@@ -68,6 +69,7 @@ class Tunnelling(Scene):
     actions = (("left right", "speed"), ("up down", "plate"), ("Space", "balls, rods, bullets"))
     broadphase = "sweep"
     draggable = True
+    head = HEAD
     legend_at = (392, 226)
 
     def build(self):

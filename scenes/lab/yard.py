@@ -35,7 +35,13 @@ def draw_head(canvas, title, question):
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """A dark see-through plate to write on."""
+    """A dark see-through plate to write on, kept on top of overlays."""
+    darken(canvas, rect, ground)
+    canvas.fix(rect)
+
+
+def darken(canvas, rect, ground=(20, 16, 32, 205)):
+    """A dark see-through ground in a picture."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

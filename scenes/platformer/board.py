@@ -86,7 +86,7 @@ def _draw_gems(canvas, scene, x):
         found = number < scene.secrets
         up = lift if number == scene.secrets - 1 else 0
         canvas.surface.blit(icon if found else _empty(icon), (x + 12 * number, MARGIN - 1 - up))
-    canvas.reserve((x, MARGIN - 1, 12 * places, 10))
+    canvas.fix((x, MARGIN - 1, 12 * places, 10))
 
 
 @lru_cache(maxsize=4)
@@ -124,7 +124,7 @@ def _draw_signs(canvas, scene):
             height = max(LINE * len(lines) + 9, icon.get_height() + 10)
             left, top = (CANVAS_SIZE[0] - width) // 2, CANVAS_SIZE[1] - height - SIGN_BOTTOM
             draw_box(canvas, (left, top, width, height))
-            canvas.reserve((left, top, width, height))
+            canvas.fix((left, top, width, height))
             canvas.surface.blit(icon, (left + 8, top + (height - icon.get_height()) // 2))
             first = top + (height - LINE * len(lines)) // 2 + 2
             for number, line in enumerate(lines):
@@ -134,8 +134,8 @@ def _draw_signs(canvas, scene):
 
 def _opened(scene):
     """How far the iris is open, 0..1: it closes before a new life and opens with it."""
-    if scene.phase == "won":
-        return 1.0
+    if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
+        return 1.0  # the first life begins with the level in sight: a replay may stand still there
     left = scene.since if scene.phase == "playing" else scene.life_after - scene.since
     return min(left / steps(IRIS), 1.0)
 
@@ -156,7 +156,7 @@ def _draw_result(canvas, scene):
     middle, width, height = CANVAS_SIZE[0] // 2, 214, 146
     left, top = middle - width // 2, 62 + whole(max(0.0, 0.25 - since) ** 2 * 1600)
     draw_box(canvas, (left, top, width, height), "panel")
-    canvas.reserve((left, top, width, height))
+    canvas.fix((left, top, width, height))
     canvas.text("THE FLAG!", middle, top + 10, GOLD, TEXT, 2, "center", True)
     icons = load_atlas("ui")
     for number, (earned, reason) in enumerate(stars(scene)):

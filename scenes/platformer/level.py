@@ -13,6 +13,15 @@ from scenes.platformer.level_rules import check_level, tileset_picture
 
 # Who is who. Two shapes meet if each one's membership is in the other's mask.
 TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS = 1, 2, 4, 8, 16, 32, 64
+FILTER_NAMES = {
+    TILES: "ground",
+    HERO: "hero",
+    ENEMY: "enemy",
+    CRATE: "crate",
+    PLATFORM: "platform",
+    TRIGGER: "trigger",
+    DEBRIS: "debris",
+}
 SOLIDS = TILES | CRATE | PLATFORM
 TILE_FILTER = Filter(TILES, HERO | ENEMY | CRATE | DEBRIS)
 HERO_FILTER = Filter(HERO, SOLIDS | ENEMY | TRIGGER)
@@ -42,10 +51,8 @@ class Level:
         self.size = self.map.size
         self.tile = self.map.tile_size
         kinds = {number: self.map.kind_of(number) for number in self.map.tiles}
-        self.kinds = [
-            [kinds[number] if number >= 0 and kinds[number] in (SOLID, PLANK, SLOPE) else EMPTY for number in row]
-            for row in self.map.layers["solid"].tolist()
-        ]
+        stands = {number: kind for number, kind in kinds.items() if kind in (SOLID, PLANK, SLOPE)}
+        self.kinds = [[stands.get(number, EMPTY) for number in row] for row in self.map.layers["solid"].tolist()]
         self.slopes = self.grid.slopes.tolist()
         self.lights = list(self._find_lights())
         self.zones = self.map.things_of("zone")

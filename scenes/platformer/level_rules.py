@@ -96,7 +96,7 @@ def _check_size(tilemap):
 def _check_thing(tilemap, thing):
     path, place = tilemap.path, thing.place
     if thing.kind not in KINDS:
-        raise FileError(path, place, f"unknown type {thing.kind!r}; a level's objects are {', '.join(KINDS)}")
+        raise FileError(path, place, f"unknown type {thing.kind!r:.60}; a level's objects are {', '.join(KINDS)}")
     place = f"{place} ({thing.kind})"
     kind, (width, height) = KINDS[thing.kind], tilemap.size
     if not (0.0 < thing.width <= width and 0.0 < thing.height <= height):
@@ -116,12 +116,12 @@ def _check_value(path, place, value, wanted, least, most):
     if wanted is str:
         if isinstance(least, tuple):
             if value not in least:
-                raise FileError(path, place, f"must be one of {', '.join(least)} (got {value!r})")
+                raise FileError(path, place, f"must be one of {', '.join(least)} (got {value!r:.60})")
         elif not isinstance(value, str) or not least <= len(value) <= most:
-            raise FileError(path, place, f"must be a text of {least} to {most} letters (got {value!r})")
+            raise FileError(path, place, f"must be a text of {least} to {most} letters (got {value!r:.60})")
         return
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
-        raise FileError(path, place, f"must be a number {least:g}..{most:g} (got {value!r})")
+        raise FileError(path, place, f"must be a number {least:g}..{most:g} (got {value!r:.60})")
 
 
 def tileset_picture(tilemap):
@@ -130,7 +130,7 @@ def tileset_picture(tilemap):
         if tilemap.image and path.is_file():
             break
     else:
-        raise FileError(tilemap.path, "tilesets[0].image", f"there is no picture {tilemap.image!r} beside the map")
+        raise FileError(tilemap.path, "tilesets[0].image", f"there is no picture {tilemap.image!r:.60} beside the map")
     try:
         with open(path, "rb") as file:
             signature, width, height = struct.unpack(">8s8x2I", file.read(24))

@@ -6,7 +6,7 @@ from scenes.platformer.contents import BELOW, Contents
 from scenes.platformer.feats import Feats
 from scenes.platformer.feel import GRAVITY, HEIGHT, steps
 from scenes.platformer.hero import Hero
-from scenes.platformer.level import level_of
+from scenes.platformer.level import FILTER_NAMES, level_of
 from scenes.platformer.look import Look
 from scenes.platformer.runner import Runner
 from scenes.platformer.view import hero_frame, level_view
@@ -52,6 +52,7 @@ class Platformer(Scene):
         "pick-ups are sensor events",
         "three secrets, a ghost of the best run",
     )
+    filter_names = FILTER_NAMES
     actions = (("Arrows", "run, climb"), ("Space", "jump"), ("Down + Space", "through planks"))
     broadphase = "hash"
     music = "platformer"

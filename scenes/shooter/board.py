@@ -58,7 +58,7 @@ def _draw_score(canvas, scene):
     if score.chain:
         color = GOLD if score.times == TOP_CHAIN else SKY
         canvas.surface.fill(color, (left + 1, top + 1, round((width - 2) * score.hold / HOLD), height - 2))
-    canvas.reserve(CHAIN)
+    canvas.fix(CHAIN)
     canvas.text(f"CHAIN {score.chain}  GRAZE {score.grazes}", MARGIN, 23, PAPER, SMALL, outline=True)
 
 
@@ -118,7 +118,7 @@ def _draw_leader(canvas, scene, leader):
     canvas.surface.fill(tuple(min(c + 60, 255) for c in color), (start, top + 1, round((part - 1) * share), 1))
     for number in range(1, phases):
         canvas.surface.fill(PAPER, (left + round(part * number), top - 1, 1, height + 2))
-    canvas.reserve(BAR)
+    canvas.fix(BAR)
     if leader.mode == "fight" and leader.since < PHASE_NAME:
         canvas.text(leader.phase.name, left, top + 11, SKY, SMALL, outline=True)
 

@@ -8,6 +8,17 @@ from physics import Filter
 
 CORE, HULL, RING, ENEMY, SHOT, BULLET, ITEM, BLAST = (1 << bit for bit in range(8))
 
+FILTER_NAMES = {
+    CORE: "core",
+    HULL: "hull",
+    RING: "graze ring",
+    ENEMY: "enemy",
+    SHOT: "shot",
+    BULLET: "bullet",
+    ITEM: "pick-up",
+    BLAST: "bomb",
+}
+
 # The player: a small core, the hull that is drawn, and a ring that bullets graze and pick-ups are taken by.
 AT_RISK = {
     "core": Filter(CORE, ENEMY | BULLET),

@@ -7,7 +7,7 @@ from physics import Effects
 from scenes.shooter.blows import Blow, Blows, push
 from scenes.shooter.bomb import DAMAGE, LEADER_DAMAGE, SHELTER, Bomb
 from scenes.shooter.bullets import Bullets, outside
-from scenes.shooter.cast import FIRED, GROUND_SPEED, INCOMING, steps
+from scenes.shooter.cast import FILTER_NAMES, FIRED, GROUND_SPEED, INCOMING, steps
 from scenes.shooter.director import Director
 from scenes.shooter.ending import Ending
 from scenes.shooter.fleet import KINDS, Fleet, draw_turned
@@ -44,6 +44,7 @@ class Shooter(Scene):
         "filters: bullets never pair with bullets or with their own side",
         "bullets are rows, added and removed in batches: 1,500 at once",
     )
+    filter_names = FILTER_NAMES
     actions = (("arrows", "fly"), ("Space", "fire"), ("Shift", "focus"), ("X", "bomb"))
     tiers = ("pixels", "obb", "aabb", "circle")
     broadphase = "sweep"  # bullets are spread over the whole sky: four times as quick as a grid with 1,500 of them

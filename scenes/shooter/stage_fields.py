@@ -19,9 +19,9 @@ class Number:
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
         if not whole and (self.whole or not isinstance(value, float) or not isfinite(value)):
-            reader.fail(place, f"must be {kind} (got {value!r})")
+            reader.fail(place, f"must be {kind} (got {value!r:.60})")
         if not self.low <= value <= self.high:
-            reader.fail(place, f"must be {self.low:g}..{self.high:g} (got {value!r})")
+            reader.fail(place, f"must be {self.low:g}..{self.high:g} (got {value!r:.60})")
         return value if self.whole else float(value)
 
 
@@ -34,12 +34,12 @@ class Text:
     def read(self, reader, place, value):
         """The text, or FileError."""
         if not isinstance(value, str):
-            reader.fail(place, f"must be text (got {value!r})")
+            reader.fail(place, f"must be text (got {value!r:.60})")
         if not 1 <= len(value) <= self.most:
             reader.fail(place, f"must have 1..{self.most} characters (has {len(value)})")
         strange = [c for c in value if not " " <= c <= "~"]
         if strange:
-            reader.fail(place, f"may hold letters, digits and signs of ASCII only (got {strange[0]!r})")
+            reader.fail(place, f"may hold letters, digits and signs of ASCII only (got {strange[0]!r:.60})")
         return value
 
 
@@ -52,7 +52,7 @@ class Choice:
     def read(self, reader, place, value):
         """The name, or FileError with the nearest one as a guess."""
         if value not in self.names:
-            reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r}){guess(value, self.names)}")
+            reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
         return value
 
 

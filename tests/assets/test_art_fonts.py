@@ -43,3 +43,13 @@ def test_bad_drawing_names_its_line():
         read_drawing("= A B\n### ##\n#.# ###\n", 7)
     with pytest.raises(ValueError, match="3 rows, at most 2"):
         read_drawing("= A\n#\n#\n#\n", 2)
+
+
+@pytest.mark.parametrize("name", FONTS)
+def test_a_small_f_is_no_capital(name):
+    """A capital stands on its left edge. A small f is a hook with a bar through it, which shows on both sides."""
+    small, capital = load_glyphs(name)["f"], load_glyphs(name)["F"]
+    assert capital[: FONTS[name]["baseline"], 0].all()
+    assert small[:, 0].sum() <= 1, "only the bar reaches the left edge"
+    bar = small.sum(axis=1).argmax()
+    assert small[0].any() and not small[0, 0] and 0 < bar < FONTS[name]["baseline"] - 1

@@ -1,34 +1,31 @@
 """Which rows the panel has while a scene is played. Everything that changes the simulation goes through
 devices.change, so that a recording holds it."""
 
-from collections.abc import Sequence
-
+from game.drawing.number_text import plain_name
 from game.overlays.stack import Overlays
 from game.run.loop import SPEEDS
 from game.run.outcome import solver_name
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
 from game.screens.parts.played import Played
-from physics import BROADPHASES
 
 
 def play_rows(play: Played) -> list[Row]:
-    """Rows for a Play screen."""
+    """Rows for a Play screen; what belongs to this scene alone comes first, where no window is too small for it."""
     scene = play.scene
     return [
         Row(HEAD, scene.title),
+        *(_slider(play, scene, slider) for slider in scene.sliders),
         *_switches(play, scene),
         Row(HEAD, "See"),
         *layer_rows(play.overlays),
         Row(HEAD, "Time"),
         *_time(play),
-        *_sliders(play, scene),
         Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none")),
     ]
 
 
 def _switches(play, scene):
     rows = []
-    change = play.devices.change
     if scene.switches_broadphase:
         rows.append(
             Row(
@@ -36,7 +33,7 @@ def _switches(play, scene):
                 "Broad phase",
                 scene.broadphase,
                 "B",
-                turn=lambda way: change("broadphase", following(tuple(BROADPHASES), scene.broadphase, way)),
+                turn=play.switch_broadphase,
                 hint="how pairs that may touch are found",
             )
         )
@@ -45,22 +42,15 @@ def _switches(play, scene):
             Row(
                 CHOICE,
                 "Solver",
-                (solver_name(scene) or "").replace("_", " "),
+                plain_name(solver_name(scene) or ""),
                 "V",
-                turn=lambda way: play.switch_solver(way),
+                turn=play.switch_solver,
                 hint="how overlaps are resolved",
             )
         )
     if scene.tiers:
         rows.append(
-            Row(
-                CHOICE,
-                "Tested as",
-                scene.tier,
-                "T",
-                turn=lambda way: change("tier", following(scene.tiers, scene.tier, way)),
-                hint="the shape that stands for a sprite",
-            )
+            Row(CHOICE, "Tested as", scene.tier, "T", turn=play.switch_tier, hint="the shape that stands for a sprite")
         )
     rows.append(
         Row(
@@ -68,7 +58,7 @@ def _switches(play, scene):
             "Narrow phase",
             key="N",
             on=scene.narrowphase,
-            press=lambda: change("narrowphase", not scene.narrowphase),
+            press=play.switch_narrowphase,
             hint="off: two boxes that meet are a hit",
         )
     )
@@ -107,12 +97,6 @@ def _time(play):
     ]
 
 
-def _sliders(play, scene):
-    if not scene.sliders:
-        return []
-    return [Row(HEAD, "This scene"), *(_slider(play, scene, slider) for slider in scene.sliders)]
-
-
 def _slider(play, scene, slider):
     value = scene.values[slider.name]
     change = play.devices.change
@@ -138,8 +122,3 @@ def _slider(play, scene, slider):
         turn=lambda way: set_value(value + way * nudge),
         put=lambda share: set_value(slider.low + share * span),
     )
-
-
-def following(names: Sequence[str], name: str | None, way: int) -> str:
-    """The name `way` places on, around the end."""
-    return names[(names.index(name) + way) % len(names)]

@@ -24,6 +24,12 @@ class Played(Protocol):
     person: bool
     panel_open: bool
     since_result: int
+    helped_since: int  # the step from which the keys are shown
+
+    @property
+    def news(self) -> str:
+        """What was just switched, or ""."""
+        ...
 
     def toggle_pause(self) -> None:
         """Stop or go on."""
@@ -39,4 +45,16 @@ class Played(Protocol):
 
     def switch_solver(self, way: int) -> None:
         """The next solver, or the one before."""
+        ...
+
+    def switch_broadphase(self, way: int) -> None:
+        """The next broad phase, or the one before."""
+        ...
+
+    def switch_tier(self, way: int) -> None:
+        """The next tier, or the one before."""
+        ...
+
+    def switch_narrowphase(self) -> None:
+        """Stop at boxes, or do not."""
         ...

@@ -3,13 +3,16 @@
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import GOLD, PAPER, Color
+from game.drawing.colors import GOLD, INK, PAPER, Color
 from game.drawing.presenter import Frame
 from game.input.bindings import help_pairs
 from game.screens.parts.played import Played
 
 HELP_SECONDS = 6.0  # how long the keys stay after the start
 RESULT_WAIT = 60  # steps after the end before a key leads on: nobody skips it by holding fire
+GAP = "   "  # between the parts of a line
+LINE = 7  # [text px] from one row to the next
+HEAD_TITLE = 16  # [canvas px] a title begins this far from the left edge at most
 SHADE = (20, 16, 32, 225)
 
 
@@ -17,12 +20,14 @@ def draw_status(frame: Frame, play: Played) -> None:
     """Draw what there is to say of a Play."""
     text, color = status_of(play)
     if text:
-        draw_line(frame, text, color)
+        draw_line(frame, text, color, play.scene.head)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
     """(text, color) of the line; "" where nothing is to be said."""
     scene, clock = play.scene, play.clock
+    if play.news:
+        return play.news, GOLD
     if clock.paused:
         return "FROZEN   P goes on   O one step   R restart   Esc menu", GOLD
     if clock.speed < 1.0:
@@ -30,24 +35,62 @@ def status_of(play: Played) -> tuple[str, Color]:
     if play.person and scene.result is not None:
         from_now = play.since_result > RESULT_WAIT
         return ("Space or A goes on" if from_now else ""), GOLD
-    if play.session.report.steps < HELP_SECONDS * 60 and not play.panel_open and play.hint is None:
+    steps = play.session.report.steps - play.helped_since
+    if not play.panel_open and (steps < HELP_SECONDS * 60 or play.hint is not None or scene.offer):
         pairs = scene.actions if play.settings is None else help_pairs(scene.actions, play.settings.keys)
         parts = [f"{key} {what}" for key, what in pairs] + ["mouse drag"] * scene.draggable
-        return "   ".join([*parts, "1-9 see", "Tab panel", "Esc menu"]), PAPER
+        offer = [f"R {scene.offer}"] if scene.offer else []
+        return GAP.join([*offer, *parts, "1-9 see", "Tab panel", "Esc menu"]), GOLD if offer else PAPER
     return "", PAPER
 
 
-def draw_line(frame: Frame, text: str, color: Color) -> None:
-    """In the middle near the bottom, or wherever a line is free."""
+def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
+    """Beside the title, in the line of `head` canvas px on top; without one near the bottom, or wherever it is free."""
+    if head and _draw_in_head(frame, text, color, head):
+        return
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
     size = (width + 8 * scale, height + 6 * scale)
-    x = area.centerx - size[0] // 2
+    across = (area.centerx - size[0] // 2, area.left + 4 * scale, area.right - size[0] - 4 * scale)
     rows = [area.bottom - size[1] - n * size[1] for n in range(1, 20)] + [area.top + 4 * scale]
-    place = frame.free_place(size, [(x, y) for y in rows if y >= area.top])
+    place = frame.free_place(size, [(x, y) for x in across for y in rows if y >= area.top])
     if place is not None:
         shade = pygame.Surface(size, pygame.SRCALPHA)
         shade.fill(SHADE)
         frame.surface.blit(shade, place)
         frame.text(text, place[0] + 4 * scale, place[1] + 3 * scale, color, SMALL, scale)
+
+
+def _draw_in_head(frame, text, color, head):
+    """In one row or two, as large as fits; what else stands in that line gives way. False where nothing fits."""
+    band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)
+    titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.scale]
+    left = max((box.right for box in titles), default=band.left) + 6 * frame.scale
+    room = pygame.Rect(left, band.top, band.right - left, band.height)
+    for scale in range(frame.text_scale, 0, -1):
+        rows = _rows(frame, text, room.width - 8 * scale, scale)
+        if rows and len(rows) * LINE * scale <= room.height:
+            break
+    else:
+        return False
+    frame.surface.fill(INK, room)
+    frame.boxes[:] = [each for each in frame.boxes if not room.colliderect(each[0])]
+    y = room.y + (room.height - len(rows) * LINE * scale + 2 * scale) // 2
+    for number, row in enumerate(rows):
+        frame.text(row, room.right - 4 * scale, y + number * LINE * scale, color, SMALL, scale, "right")
+    return True
+
+
+def _rows(frame, text, width, scale):
+    """The parts of a line in as few rows as hold them; none where a part is wider than a row."""
+    rows = []
+    for part in text.split(GAP):
+        longer = f"{rows[-1]}{GAP}{part}" if rows else part
+        if rows and frame.measure(longer, SMALL, scale)[0] <= width:
+            rows[-1] = longer
+        elif frame.measure(part, SMALL, scale)[0] <= width:
+            rows.append(part)
+        else:
+            return []
+    return rows

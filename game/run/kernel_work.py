@@ -1,0 +1,89 @@
+"""Kernels as work that several processes share: which there are, which are kept, and who compiles one.
+
+Who is at a kernel holds a lock on a file beside it, which the system lets go when its process ends, however it ends.
+"""
+
+import contextlib
+import os
+import time
+from collections.abc import Callable
+from typing import Any
+
+from physics import jit
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
+
+POLL = 0.02  # [s]
+
+
+class Version:
+    """A kernel and the types that it is called with."""
+
+    def __init__(self, kernel: Any, types: tuple) -> None:
+        self.kernel, self.types = kernel, types
+        self.path = kernel._cache.path_of(types, kernel.targetctx)
+
+    @property
+    def kept(self) -> bool:
+        """True where it lies in the cache, compiled."""
+        return os.path.exists(self.path)
+
+    def compile(self) -> bool:
+        """Compile it with all that it calls; False: another process is at it."""
+        let_go = try_claim(self.path)
+        if let_go is None:
+            return False
+        let_go()
+        try:
+            self.kernel.compile(self.types)
+        finally:
+            for let_go in jit.claimed.values():
+                let_go()
+            jit.claimed.clear()
+        return True
+
+
+def listing(run: Callable[[], object]) -> list[Version]:
+    """The versions that run() calls, the largest first; nothing is compiled. Only where jit.LISTING is set."""
+    jit.listed.clear()
+    run()
+    found = [Version(kernel, types) for kernel, types in jit.listed]
+    return sorted(found, key=lambda each: -len(each.kernel.py_func.__code__.co_code))
+
+
+def claim(path: str) -> Callable[[], object]:
+    """Wait for the right to make the file at `path`; returns what lets it go."""
+    while (let_go := try_claim(path)) is None:
+        time.sleep(POLL)
+    return let_go
+
+
+def try_claim(path: str) -> Callable[[], object] | None:
+    """As claim(), None where another process has it.
+
+    Where a folder cannot be written, or its system knows no such locks, everybody has it: at worst work is done twice.
+    """
+    if fcntl is None:
+        return lambda: None
+    beside = f"{path}.claim"
+    try:
+        file = open(beside, "ab")
+    except OSError:
+        return lambda: None
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        return None
+    except OSError:
+        return file.close
+
+    def let_go():
+        with contextlib.suppress(OSError):
+            os.unlink(beside)
+        file.close()
+
+    return let_go
