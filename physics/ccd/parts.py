@@ -94,7 +94,7 @@ def advance_on_ground(
         copy_part(a.corners, i, a.counts[i], workspace.mover)
         if is_chain == 1:
             fraction, nx, ny, _ = sweep_chain(
-                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, 0.0, workspace
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, workspace
             )
         else:
             fraction, nx, ny, _ = sweep_tiles(

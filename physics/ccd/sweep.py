@@ -16,7 +16,7 @@ from physics.ccd.impacts import (
     move_back,
     write_impacts,
 )
-from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
+from physics.ccd.linear import find_impacts, stop_at_impacts
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.approach import measure_approach
 from physics.collision.detect import detect
@@ -30,7 +30,7 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
-NO_IMPACTS = np.zeros((0, 5))
+NO_IMPACTS = np.zeros((0, 6))
 
 
 class Sweeper:
@@ -39,7 +39,7 @@ class Sweeper:
     def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
-        self.impacts = np.zeros((16, 5))
+        self.impacts = np.zeros((16, 6))
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
 
     def grow(self, state: StepState) -> None:
@@ -49,12 +49,11 @@ class Sweeper:
             self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
             self.fast = np.zeros(2 * bodies, bool)
         if len(self.impacts) < candidates:
-            self.impacts = np.zeros((2 * candidates, 5))
+            self.impacts = np.zeros((2 * candidates, 6))
 
 
-def _look(state, moving, everyone) -> np.ndarray:
-    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1).
-    everyone: see find_rotational_impacts."""
+def _look(state, moving) -> np.ndarray:
+    """Impacts (n, 6) of the fast with what stands still (moving 0), or moves (1)."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -64,7 +63,8 @@ def _look(state, moving, everyone) -> np.ndarray:
         rows,
         len(rows),
         moving,
-        everyone,
+        state.effects.stacking,
+        state.effects.rotation,
         state.tolerances.slop,
         state.effects.one_way,
         sweeper.paths,
@@ -78,10 +78,10 @@ def _look(state, moving, everyone) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Impacts (n, 5) of the bodies whose way has a closed form."""
+    """Impacts (n, 6) of the bodies whose way has a closed form."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
-    found = find_impacts_by_mode[state.effects.one_way](
+    found = find_impacts(
         state.library.tables,
         bodies,
         state.shapes,
@@ -109,8 +109,7 @@ def foresee_impacts(state: StepState) -> None:
     foresee_paths(rows, bodies, dt, sweeper.paths)
     bodies["fraction"][rows] = 1.0
     if find_fast(rows, bodies, sweeper.paths, sweeper.fast)[0]:
-        everyone = 1 if state.effects.rotation else 2
-        found = np.concatenate([found, _look(state, 0, everyone), _look(state, 1, everyone)])
+        found = np.concatenate([found, _look(state, 0), _look(state, 1)])
     state.impacts = found
     if state.effects.response:
         stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
@@ -214,15 +213,15 @@ def _sweep_straight(state) -> np.ndarray:
 
 def _sweep_rotational(state) -> np.ndarray:
     """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
-    met = _look(state, 0, 0)
+    met = _look(state, 0)
     stop_at_impacts(state.shapes, state.pairs.rows, met, len(met), state.bodies)
-    moving, rounds = _look(state, 1, 0), 0
+    moving, rounds = _look(state, 1), 0
     while len(moving) and _stop(state, moving):
         rounds += 1
         if rounds == IMPACT_ROUNDS:
             state.work[CAP_HITS] += 1
             break
-        moving = _look(state, 1, 0)
+        moving = _look(state, 1)
     return np.concatenate([met, moving])
 
 
