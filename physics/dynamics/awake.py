@@ -68,7 +68,6 @@ class Awake:
         self.stirred = []  # ids of what was added or touched since the last step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
-        self.gathered = NONE  # room for as many shape rows as there are
         self.known = (0, 0)  # bodies and shapes that the lists have taken in
         self.stale = True  # rows have moved: everything is looked for again
 
@@ -130,7 +129,6 @@ class Awake:
         owners = np.ascontiguousarray(shapes["body_row"])
         self.order = np.argsort(owners, kind="stable")
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
-        self.gathered = np.empty(len(owners), np.int64)
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
         """Whether the lists are those of these tables."""
@@ -143,8 +141,8 @@ class Awake:
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Shape rows of these body rows, ascending."""
-        found = gather_shapes(rows, self.order, self.starts, self.gathered)
-        return np.sort(self.gathered[:found])
+        found = np.empty(len(self.order), np.int64)
+        return np.sort(found[: gather_shapes(rows, self.order, self.starts, found)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
