@@ -13,7 +13,7 @@ from physics.ccd.rotational_pairs import stands_deep, sweep_rotational
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
-from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, SWEPT
+from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT
 from physics.tables.counters import TOI_CALLS
 from physics.tables.shape import CHAIN, MASK, TILES
 
@@ -302,6 +302,55 @@ def move_back(
             u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
+
+
+@kernel
+def list_pushed(
+    # read
+    candidates,
+    impacts,
+    count,
+    shapes,
+    bodies,
+    paths,
+    # write
+    rows_out,
+    moves_out,
+):
+    """List the body rows that a kinematic body ran into, and how far [px] it pushes each for the rest of the step.
+
+    Its surface goes on along its path; what it met stays in front of it, along the normal. rows_out (count,), moves_out
+    (count, 2). Returns their number; a body may be listed twice. O(impacts).
+    """
+    found = 0
+    for i in range(count):
+        a = shapes[candidates[int(impacts[i, 0]), 0]]
+        b = shapes[candidates[int(impacts[i, 0]), 1]]
+        if a.sensor or b.sensor:
+            continue
+        for side in range(2):
+            row = b.body_row if side == 0 else a.body_row
+            other = a.body_row if side == 0 else b.body_row
+            if bodies[row].kind != DYNAMIC or bodies[other].kind != KINEMATIC or impacts[i, 1] != bodies[row].fraction:
+                continue
+            sign = 1.0 if side == 0 else -1.0
+            nx = sign * impacts[i, 2]
+            ny = sign * impacts[i, 3]
+            left = 1.0 - impacts[i, 1]
+            # Where the point of the kinematic body that is now at the other's centre of mass will be.
+            u = bodies[row].center_x - (paths[other, 3] - left * (paths[other, 3] - paths[other, 0]))
+            v = bodies[row].center_y - (paths[other, 4] - left * (paths[other, 4] - paths[other, 1]))
+            turn = left * (paths[other, 5] - paths[other, 2])
+            w, z = turned(u, v, math.cos(turn), math.sin(turn))
+            dx = paths[other, 3] + w - bodies[row].center_x
+            dy = paths[other, 4] + z - bodies[row].center_y
+            ahead = nx * dx + ny * dy
+            if ahead > 0.0:
+                rows_out[found] = row
+                moves_out[found, 0] = ahead * nx
+                moves_out[found, 1] = ahead * ny
+                found += 1
+    return found
 
 
 @kernel

@@ -13,6 +13,7 @@ from physics.ccd.impacts import (
     find_rotational_impacts,
     foresee_paths,
     list_paths,
+    list_pushed,
     move_back,
     write_impacts,
 )
@@ -115,7 +116,7 @@ def foresee_impacts(state: StepState) -> None:
         stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
 
 
-@stage("narrow_phase", reads=(*FORESEEN, "impacts"), writes=("manifolds", "work", "workspace"))
+@stage("narrow_phase", reads=(*FORESEEN, "impacts", "manifolds"), writes=("manifolds", "work", "workspace"))
 def detect_moved(state: StepState) -> None:
     """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
     manifolds = detect(state)
@@ -184,6 +185,7 @@ def sweep_piles(state: StepState) -> None:
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
         move_back(stopped, paths, bodies)
+        _push_ahead(state, met)
         follow_bodies(bodies, state.anchors, state.manifolds)
         place_shapes(state)
     _tell(state, met)
@@ -232,6 +234,32 @@ def _stop(state, impacts) -> bool:
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
     # The same impact may come out a rounding earlier from the shortened paths: that stops nobody anew.
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
+
+
+def _push_ahead(state, met):
+    """Have what a kinematic body ran into stay in front of it for the rest of the step, as far as nothing that stands
+    is in the way."""
+    sweeper, bodies = state.workspace.sweep, state.bodies
+    rows, moves = np.zeros(2 * len(met), np.int64), np.zeros((2 * len(met), 2))
+    found = list_pushed(state.pairs.rows, met, len(met), state.shapes, bodies, sweeper.paths, rows, moves)
+    if not found:
+        return
+    rows, first = np.unique(rows[:found], return_index=True)
+    moves, stopped = moves[first], bodies["fraction"][rows]
+    place_shapes(state)
+    sweeper.fast[state.awake.bodies] = False
+    sweeper.fast[rows] = True
+    for column, name in enumerate(("center_x", "center_y", "angle")):
+        sweeper.paths[rows, column] = sweeper.paths[rows, 3 + column] = bodies[name][rows]
+    sweeper.paths[rows, 3:5] += moves
+    bodies["fraction"][rows] = 1.0
+    walls = _look(state, 0)
+    stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
+    moves *= bodies["fraction"][rows][:, None]
+    for column, axis in enumerate("xy"):
+        bodies[axis][rows] += moves[:, column]
+        bodies[f"center_{axis}"][rows] += moves[:, column]
+    bodies["fraction"][rows] = stopped
 
 
 def _tell(state, met):

@@ -5,6 +5,7 @@ towards what is in its way. Every body that stays may be in the way of another, 
 new has to stay: at most once per body, usually two or three rounds.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +15,7 @@ from physics.collision.detect import detect
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
+from physics.math2d import turned
 from physics.solver.pushes import PushSet
 from physics.tables.body import DYNAMIC
 from physics.tables.counters import SOLVER_ROWS
@@ -48,11 +50,12 @@ def stay_behind(
         for side in range(2):
             b = bodies_inout[m.body_row_a if side == 0 else m.body_row_b]
             if b.kind == DYNAMIC and (b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle):
-                b.center_x += b.previous_x - b.x
-                b.center_y += b.previous_y - b.y
                 b.x = b.previous_x
                 b.y = b.previous_y
                 b.angle = b.previous_angle
+                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                b.center_x = b.x + u
+                b.center_y = b.y + v
                 m.swept = True
                 put_back += 1
     return put_back
