@@ -19,6 +19,7 @@ from physics.ccd.advance import (
     CENTER_Y,
     MOVE_X,
     MOVE_Y,
+    TOLERANCE,
     TOUCHING_BAND,
     TURN,
     AdvanceWorkspace,
@@ -31,10 +32,11 @@ from physics.ccd.advance import (
 from physics.ccd.closed_form import MISS
 from physics.jit import subkernel
 from physics.math2d import length_of, turned
-from physics.proximity.gjk import FIRST_A, FIRST_B
+from physics.proximity.gjk import FIRST_A, FIRST_B, NX, NY
 from physics.shapes.placement import hull_at
 from physics.tables.shape import BOUNDS
 
+BACKWARDS = 6  # rounds of Newton's method: two or three do
 CORE = 0.25  # of a body's smallest half extent
 
 
@@ -111,6 +113,29 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 
 @subkernel
+def back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace):
+    """The fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
+
+    Newton's method from there: an earlier touch with a side of the piece that the ground goes on behind is not met.
+    """
+    gap = workspace.advance.gap.gap
+    nx = gap[NX]
+    ny = gap[NY]
+    most = fraction
+    separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+    for _ in range(BACKWARDS):
+        approach = approach_at(count, other_count, fraction, TOUCHING_BAND * size, workspace.advance)
+        if approach <= 0.0 or abs(separation + depth) <= TOLERANCE * size:
+            break
+        fraction = min(max(0.0, fraction + (separation + depth) / approach), most)
+        separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+    if nx * gap[NX] + ny * gap[NY] < 0.5:
+        gap[NX] = nx  # another side is nearer there, which it did not come through
+        gap[NY] = ny
+    return fraction
+
+
+@subkernel
 def sweep_part(count, radius, other_count, other_radius, half, depth, slack, workspace):
     """(fraction or MISS, whether the core met it) of the mover against a convex piece, workspace.advance.local_b.
 
@@ -130,8 +155,7 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
     fraction = advance(count, radius - sink - depth, other_count, other_radius, workspace.advance)
     if fraction > 1.0:
         return MISS, False
-    approach = approach_at(count, other_count, fraction, TOUCHING_BAND * size, workspace.advance)
-    return (max(0.0, fraction - sink / approach) if approach > 0.0 else fraction), False
+    return back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace), False
 
 
 @subkernel

@@ -9,7 +9,7 @@ from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import part_feature
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import turned
 from physics.proximity.gjk import NX, NY
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
 
@@ -102,9 +102,15 @@ def place_link(link, local_x, local_y, workspace):
 
 
 @subkernel
-def in_front(count, fraction, core, workspace):
-    """How far [px] the middle of the mover's corners, or its centre of mass, is in front of the link in
-    workspace.advance.local_b at a fraction of both motions."""
+def ahead_of(ax, ay, bx, by, u, v):
+    """How far a point is in front of the line from a to b, times its length."""
+    return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
+
+
+@subkernel
+def is_before(link, local_x, local_y, count, fraction, core, workspace):
+    """Whether the middle of the mover's corners, or its centre of mass, is in front of a link at a fraction of both
+    motions. Beyond an end where the chain turns to its front the neighbour is met first."""
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     middle_x = 0.0
@@ -119,13 +125,19 @@ def in_front(count, fraction, core, workspace):
     x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
     y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
     u, v = turned(x, y, math.cos(angle), -math.sin(angle))
-    ends = workspace.advance.local_b
-    tx = ends[1, 0] - ends[0, 0]
-    ty = ends[1, 1] - ends[0, 1]
-    length = length_of(tx, ty)
-    if length == 0.0:
-        return 0.0
-    return (ty * (u - ends[0, 0]) - tx * (v - ends[0, 1])) / length
+    u += local_x
+    v += local_y
+    if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
+        return False
+    tx = link.bx - link.ax
+    ty = link.by - link.ay
+    if link.has_after and tx * (u - link.bx) + ty * (v - link.by) > 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.after_x, link.after_y) > 0.0:
+            return False
+    if link.has_before and tx * (u - link.ax) + ty * (v - link.ay) < 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.before_x, link.before_y) > 0.0:
+            return False
+    return True
 
 
 @subkernel
@@ -161,7 +173,7 @@ def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
-            if in_front(count, 0.0, False, workspace) >= 0.0:
+            if is_before(link, local_x, local_y, count, 0.0, False, workspace):
                 depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
     return depth
 
@@ -189,7 +201,7 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, w
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
-            if fraction < best and in_front(count, fraction, core, workspace) >= 0.0:
+            if fraction < best and is_before(link, local_x, local_y, count, fraction, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]

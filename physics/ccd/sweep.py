@@ -215,16 +215,16 @@ def _sweep_straight(state) -> np.ndarray:
 
 def _sweep_rotational(state) -> np.ndarray:
     """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
-    met = _look(state, 0)
-    stop_at_impacts(state.shapes, state.pairs.rows, met, len(met), state.bodies)
-    moving, rounds = _look(state, 1), 0
-    while len(moving) and _stop(state, moving):
-        rounds += 1
-        if rounds == IMPACT_ROUNDS:
+    found = [_look(state, 0)]
+    stop_at_impacts(state.shapes, state.pairs.rows, found[0], len(found[0]), state.bodies)
+    found.append(_look(state, 1))
+    while len(found[-1]) and _stop(state, found[-1]):
+        if len(found) == IMPACT_ROUNDS:
             state.work[CAP_HITS] += 1
             break
-        moving = _look(state, 1)
-    return np.concatenate([met, moving])
+        found.append(_look(state, 1))
+    # Those of earlier rounds that somebody no longer gets to are left out when they are written.
+    return np.concatenate(found)
 
 
 def _stop(state, impacts) -> bool:
