@@ -43,6 +43,13 @@ def list_paths(
         paths_out[i, 5] = b.previous_angle if b.continuous == RAY or b.continuous == SWEPT else b.angle
 
 
+@subkernel
+def way_of(bodies, paths, row):
+    """How far [px] any point of a body moves at most."""
+    moved = length_of(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
+    return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+
+
 @kernel
 def find_fast(
     # read
@@ -52,14 +59,19 @@ def find_fast(
     # write
     fast_out,
 ):
-    """Flag the bodies that a sweep is asked for. Returns (their number, the number of those that are swept without
-    turning, moving or not). O(rows).
+    """Flag the bodies that a sweep is asked for. Returns (how many there are to look at, the number of those that are
+    swept without turning, moving or not). O(rows).
 
     "toi", "ray" and "swept" always, while they move; "auto" when a point may move by more than half the body's size.
-    fast_out (bodies) bool.
+    To be looked at as well, without a flag, is who may be jumped over by something kinematic: see outruns. fast_out
+    (bodies) bool.
     """
     found = 0
     straight = 0
+    carried = 0.0
+    for k in range(len(rows)):
+        if bodies[rows[k]].kind == KINEMATIC:
+            carried = max(carried, way_of(bodies, paths, rows[k]))
     for k in range(len(rows)):
         i = rows[k]
         b = bodies[i]
@@ -68,12 +80,27 @@ def find_fast(
             straight += 1
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
-        moved = length_of(paths[i, 3] - paths[i, 0], paths[i, 4] - paths[i, 1])
-        moved += b.extent * min(abs(paths[i, 5] - paths[i, 2]), 2.0)
+        moved = way_of(bodies, paths, i)
         if moved > 0.0 and (b.continuous != AUTO or moved > b.smallest_half):
             fast_out[i] = True
             found += 1
+        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.smallest_half:
+            found += 1
     return found, straight
+
+
+@subkernel
+def outruns(bodies, paths, row, other):
+    """Whether a kinematic body (other) and a dynamic one move against each other by more than half its size."""
+    b = bodies[row]
+    if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
+        return False
+    dx = (paths[row, 3] - paths[row, 0]) - (paths[other, 3] - paths[other, 0])
+    dy = (paths[row, 4] - paths[row, 1]) - (paths[other, 4] - paths[other, 1])
+    far = length_of(paths[row, 0] - paths[other, 0], paths[row, 1] - paths[other, 1]) + b.extent
+    turned = far * min(abs(paths[other, 5] - paths[other, 2]), 2.0)
+    turned += b.extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+    return length_of(dx, dy) + turned > b.smallest_half
 
 
 @kernel
@@ -228,7 +255,9 @@ def find_rotational_impacts(
         b = shapes[candidates[i, 1]]
         rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
         rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
-        if not (fast_inout[a.body_row] or fast_inout[b.body_row]):
+        fast = fast_inout[a.body_row] or fast_inout[b.body_row]
+        fast = fast or outruns(bodies, paths_inout, a.body_row, b.body_row)
+        if not (fast or outruns(bodies, paths_inout, b.body_row, a.body_row)):
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
@@ -302,55 +331,6 @@ def move_back(
             u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
-
-
-@kernel
-def list_pushed(
-    # read
-    candidates,
-    impacts,
-    count,
-    shapes,
-    bodies,
-    paths,
-    # write
-    rows_out,
-    moves_out,
-):
-    """List the body rows that a kinematic body ran into, and how far [px] it pushes each for the rest of the step.
-
-    Its surface goes on along its path; what it met stays in front of it, along the normal. rows_out (count,), moves_out
-    (count, 2). Returns their number; a body may be listed twice. O(impacts).
-    """
-    found = 0
-    for i in range(count):
-        a = shapes[candidates[int(impacts[i, 0]), 0]]
-        b = shapes[candidates[int(impacts[i, 0]), 1]]
-        if a.sensor or b.sensor:
-            continue
-        for side in range(2):
-            row = b.body_row if side == 0 else a.body_row
-            other = a.body_row if side == 0 else b.body_row
-            if bodies[row].kind != DYNAMIC or bodies[other].kind != KINEMATIC or impacts[i, 1] != bodies[row].fraction:
-                continue
-            sign = 1.0 if side == 0 else -1.0
-            nx = sign * impacts[i, 2]
-            ny = sign * impacts[i, 3]
-            left = 1.0 - impacts[i, 1]
-            # Where the point of the kinematic body that is now at the other's centre of mass will be.
-            u = bodies[row].center_x - (paths[other, 3] - left * (paths[other, 3] - paths[other, 0]))
-            v = bodies[row].center_y - (paths[other, 4] - left * (paths[other, 4] - paths[other, 1]))
-            turn = left * (paths[other, 5] - paths[other, 2])
-            w, z = turned(u, v, math.cos(turn), math.sin(turn))
-            dx = paths[other, 3] + w - bodies[row].center_x
-            dy = paths[other, 4] + z - bodies[row].center_y
-            ahead = nx * dx + ny * dy
-            if ahead > 0.0:
-                rows_out[found] = row
-                moves_out[found, 0] = ahead * nx
-                moves_out[found, 1] = ahead * ny
-                found += 1
-    return found
 
 
 @kernel

@@ -110,7 +110,7 @@ def ahead_of(ax, ay, bx, by, u, v):
 @subkernel
 def is_before(link, local_x, local_y, count, fraction, core, workspace):
     """Whether the middle of the mover's corners, or its centre of mass, is in front of a link at a fraction of both
-    motions. Beyond an end where the chain turns to its front the neighbour is met first."""
+    motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well."""
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     middle_x = 0.0
@@ -133,10 +133,10 @@ def is_before(link, local_x, local_y, count, fraction, core, workspace):
     ty = link.by - link.ay
     if link.has_after and tx * (u - link.bx) + ty * (v - link.by) > 0.0:
         if ahead_of(link.ax, link.ay, link.bx, link.by, link.after_x, link.after_y) > 0.0:
-            return False
+            return ahead_of(link.bx, link.by, link.after_x, link.after_y, u, v) >= 0.0
     if link.has_before and tx * (u - link.ax) + ty * (v - link.ay) < 0.0:
         if ahead_of(link.ax, link.ay, link.bx, link.by, link.before_x, link.before_y) > 0.0:
-            return False
+            return ahead_of(link.before_x, link.before_y, link.ax, link.ay, u, v) >= 0.0
     return True
 
 

@@ -13,11 +13,11 @@ from physics.ccd.impacts import (
     find_rotational_impacts,
     foresee_paths,
     list_paths,
-    list_pushed,
     move_back,
     write_impacts,
 )
 from physics.ccd.linear import find_impacts, stop_at_impacts
+from physics.ccd.push_ahead import push_ahead
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.approach import measure_approach
 from physics.collision.detect import detect
@@ -25,7 +25,7 @@ from physics.collision.manifold import new_workspace
 from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order, order_of
-from physics.settings import IMPACT_ROUNDS
+from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
@@ -185,7 +185,7 @@ def sweep_piles(state: StepState) -> None:
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
         move_back(stopped, paths, bodies)
-        _push_ahead(state, met)
+        _push_ahead(state, stopped)
         follow_bodies(bodies, state.anchors, state.manifolds)
         place_shapes(state)
     _tell(state, met)
@@ -236,16 +236,32 @@ def _stop(state, impacts) -> bool:
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
 
 
-def _push_ahead(state, met):
-    """Have what a kinematic body ran into stay in front of it for the rest of the step, as far as nothing that stands
-    is in the way."""
-    sweeper, bodies = state.workspace.sweep, state.bodies
-    rows, moves = np.zeros(2 * len(met), np.int64), np.zeros((2 * len(met), 2))
-    found = list_pushed(state.pairs.rows, met, len(met), state.shapes, bodies, sweeper.paths, rows, moves)
-    if not found:
+def _push_ahead(state, stopped):
+    """Have what kinematic bodies run into stay in front of them for the rest of the step, as far as nothing that stands
+    is in the way. stopped: body rows."""
+    sweeper, bodies, pairs = state.workspace.sweep, state.bodies, state.pairs.rows
+    moves = np.zeros((len(bodies), 2))
+    for rounds in range(PUSH_ROUNDS):
+        if not push_ahead(
+            state.library.tables,
+            bodies,
+            state.shapes,
+            pairs,
+            len(pairs),
+            state.tolerances.slop,
+            state.effects.one_way,
+            sweeper.paths,
+            sweeper.cuts,
+            sweeper.turning,
+            moves,
+            state.work,
+        ):
+            break
+        state.work[CAP_HITS] += rounds == PUSH_ROUNDS - 1
+    rows = stopped[moves[stopped].any(axis=1)]
+    if not len(rows):
         return
-    rows, first = np.unique(rows[:found], return_index=True)
-    moves, stopped = moves[first], bodies["fraction"][rows]
+    moves, fractions = moves[rows], bodies["fraction"][rows]
     place_shapes(state)
     sweeper.fast[state.awake.bodies] = False
     sweeper.fast[rows] = True
@@ -254,12 +270,12 @@ def _push_ahead(state, met):
     sweeper.paths[rows, 3:5] += moves
     bodies["fraction"][rows] = 1.0
     walls = _look(state, 0)
-    stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
+    stop_at_impacts(state.shapes, pairs, walls, len(walls), bodies)
     moves *= bodies["fraction"][rows][:, None]
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
-    bodies["fraction"][rows] = stopped
+    bodies["fraction"][rows] = fractions
 
 
 def _tell(state, met):

@@ -180,7 +180,9 @@ def test_every_pair_of_kinds_meets_at_distance_nothing_and_mirrors(kind_a, kind_
                 tuple(p + found.fraction * (q - p) for p, q in zip(*each, strict=True))
                 for each in ((start_a, end_a), (start_b, end_b))
             ]
-            assert abs(distance(a, poses[0], b, poses[1]).distance) <= 1e-8
+            between = distance(a, poses[0], b, poses[1]).distance
+            # What came through a chain from behind may still be in one link when it meets the front of the next.
+            assert between <= 1e-8 and (between >= -1e-8 or "chain" in (kind_a, kind_b))
             before = [
                 tuple(p + max(0.0, found.fraction - 1e-3) * (q - p) for p, q in zip(*each, strict=True))
                 for each in ((start_a, end_a), (start_b, end_b))
