@@ -116,9 +116,24 @@ def foresee_impacts(state: StepState) -> None:
         stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
 
 
-@stage("narrow_phase", reads=(*FORESEEN, "impacts", "manifolds"), writes=("manifolds", "work", "workspace"))
+@stage(
+    "narrow_phase",
+    reads=(*FORESEEN, "impacts", "manifolds"),
+    writes=(
+        "manifolds",
+        "library",
+        "work",
+        "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")),
+        *PLACED,
+    ),
+)
 def detect_moved(state: StepState) -> None:
     """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
+    rows = state.awake.bodies
+    stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
+    if len(stopped) and push_stopped(state, stopped):
+        place_shapes(state)
     manifolds = detect(state)
     if not len(state.impacts):
         state.manifolds = manifolds
@@ -185,7 +200,7 @@ def sweep_piles(state: StepState) -> None:
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
         move_back(stopped, paths, bodies)
-        _push_ahead(state, stopped)
+        push_stopped(state, stopped)
         follow_bodies(bodies, state.anchors, state.manifolds)
         place_shapes(state)
     _tell(state, met)
@@ -236,9 +251,10 @@ def _stop(state, impacts) -> bool:
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
 
 
-def _push_ahead(state, stopped):
-    """Have what kinematic bodies run into stay in front of them for the rest of the step, as far as nothing that stands
-    is in the way. stopped: body rows."""
+def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
+    """Have what kinematic bodies run into stay in front of them for the rest of the step, as far as nothing that
+    stands is in the way. stopped: rows of bodies that were stopped at their fraction of the paths of the sweep. Returns
+    whether any was pushed."""
     sweeper, bodies, pairs = state.workspace.sweep, state.bodies, state.pairs.rows
     moves = np.zeros((len(bodies), 2))
     for rounds in range(PUSH_ROUNDS):
@@ -260,7 +276,7 @@ def _push_ahead(state, stopped):
         state.work[CAP_HITS] += rounds == PUSH_ROUNDS - 1
     rows = stopped[moves[stopped].any(axis=1)]
     if not len(rows):
-        return
+        return False
     moves, fractions = moves[rows], bodies["fraction"][rows]
     place_shapes(state)
     sweeper.fast[state.awake.bodies] = False
@@ -276,6 +292,7 @@ def _push_ahead(state, stopped):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
     bodies["fraction"][rows] = fractions
+    return True
 
 
 def _tell(state, met):
