@@ -53,8 +53,8 @@ class Sweeper:
             self.impacts = np.zeros((2 * candidates, 6))
 
 
-def _look(state, moving) -> np.ndarray:
-    """Impacts (n, 6) of the fast with what stands still (moving 0), or moves (1)."""
+def _look(state, moving, strict=False) -> np.ndarray:
+    """Impacts (n, 6) of the fast with what stands still (moving 0), or moves (1); strict: the least of them stops."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -64,7 +64,7 @@ def _look(state, moving) -> np.ndarray:
         rows,
         len(rows),
         moving,
-        state.effects.stacking,
+        strict or state.effects.stacking,
         state.effects.rotation,
         state.tolerances.slop,
         state.effects.one_way,
@@ -277,22 +277,31 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
     rows = stopped[moves[stopped].any(axis=1)]
     if not len(rows):
         return False
-    moves, fractions = moves[rows], bodies["fraction"][rows]
     place_shapes(state)
-    sweeper.fast[state.awake.bodies] = False
-    sweeper.fast[rows] = True
+    shift_freely(state, rows, moves[rows])
+    return True
+
+
+def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
+    """Shift bodies by (n, 2) [px], each as far as nothing that stands is in the way; arrived: nor what is kinematic,
+    which has come to where it ends the step."""
+    sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
+    sweeper.grow(state)
+    fractions = bodies["fraction"][rows]
+    placed = awake if arrived else rows
     for column, name in enumerate(("center_x", "center_y", "angle")):
-        sweeper.paths[rows, column] = sweeper.paths[rows, 3 + column] = bodies[name][rows]
+        sweeper.paths[placed, column] = sweeper.paths[placed, 3 + column] = bodies[name][placed]
     sweeper.paths[rows, 3:5] += moves
+    sweeper.fast[awake] = False
+    sweeper.fast[rows] = True
     bodies["fraction"][rows] = 1.0
-    walls = _look(state, 0)
-    stop_at_impacts(state.shapes, pairs, walls, len(walls), bodies)
-    moves *= bodies["fraction"][rows][:, None]
+    walls = _look(state, 0, strict=True)
+    stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
+    moves = moves * bodies["fraction"][rows][:, None]
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
     bodies["fraction"][rows] = fractions
-    return True
 
 
 def _tell(state, met):
