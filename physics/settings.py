@@ -35,6 +35,7 @@ ITERATIONS_PER_SUBSTEP = 2.5  # passes of sequential impulses that cost what one
 COLORS = 62  # bits of an int64 that are safe to shift; what fits in none is solved first, in order
 SLEEP_SPEED = 0.05  # [m/s] of the fastest point; slower bodies fall asleep after …
 SLEEP_TIME = 0.5  # [s] (Box2D v3.2)
+PUSH_ROUNDS = 16  # times that a body is pushed on by kinematic surfaces in the rest of a step: two in a corner
 IMPACT_ROUNDS = 64  # times that impacts are looked for again after one stopped another's partner
 
 MASK_ANGLE_BUCKETS = 128  # masks are turned to multiples of 360/128 = 2.8 degrees: the edge of a 64 px sprite moves by

@@ -9,11 +9,11 @@ import math
 
 from physics.ccd.closed_form import MISS
 from physics.ccd.linear import has_closed_form, write_impact
-from physics.ccd.rotational_pairs import sweep_rotational
+from physics.ccd.rotational_pairs import stands_deep, sweep_rotational
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
-from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, SWEPT
+from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT
 from physics.tables.counters import TOI_CALLS
 from physics.tables.shape import CHAIN, MASK, TILES
 
@@ -43,6 +43,13 @@ def list_paths(
         paths_out[i, 5] = b.previous_angle if b.continuous == RAY or b.continuous == SWEPT else b.angle
 
 
+@subkernel
+def way_of(bodies, paths, row):
+    """How far [px] any point of a body moves at most."""
+    moved = length_of(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
+    return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+
+
 @kernel
 def find_fast(
     # read
@@ -52,14 +59,19 @@ def find_fast(
     # write
     fast_out,
 ):
-    """Flag the bodies that a sweep is asked for. Returns (their number, the number of those that are swept without
-    turning, moving or not). O(rows).
+    """Flag the bodies that a sweep is asked for. Returns (how many there are to look at, the number of those that are
+    swept without turning, moving or not). O(rows).
 
     "toi", "ray" and "swept" always, while they move; "auto" when a point may move by more than half the body's size.
-    fast_out (bodies) bool.
+    To be looked at as well, without a flag, is who may be jumped over by something kinematic: see outruns. fast_out
+    (bodies) bool.
     """
     found = 0
     straight = 0
+    carried = 0.0
+    for k in range(len(rows)):
+        if bodies[rows[k]].kind == KINEMATIC:
+            carried = max(carried, way_of(bodies, paths, rows[k]))
     for k in range(len(rows)):
         i = rows[k]
         b = bodies[i]
@@ -68,12 +80,27 @@ def find_fast(
             straight += 1
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
-        moved = length_of(paths[i, 3] - paths[i, 0], paths[i, 4] - paths[i, 1])
-        moved += b.extent * min(abs(paths[i, 5] - paths[i, 2]), 2.0)
+        moved = way_of(bodies, paths, i)
         if moved > 0.0 and (b.continuous != AUTO or moved > b.smallest_half):
             fast_out[i] = True
             found += 1
+        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.smallest_half:
+            found += 1
     return found, straight
+
+
+@subkernel
+def outruns(bodies, paths, row, other):
+    """Whether a kinematic body (other) and a dynamic one move against each other by more than half its size."""
+    b = bodies[row]
+    if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
+        return False
+    dx = (paths[row, 3] - paths[row, 0]) - (paths[other, 3] - paths[other, 0])
+    dy = (paths[row, 4] - paths[row, 1]) - (paths[other, 4] - paths[other, 1])
+    far = length_of(paths[row, 0] - paths[other, 0], paths[row, 1] - paths[other, 1]) + b.extent
+    turned = far * min(abs(paths[other, 5] - paths[other, 2]), 2.0)
+    turned += b.extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+    return length_of(dx, dy) + turned > b.smallest_half
 
 
 @kernel
@@ -144,7 +171,7 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
     """Fraction of the step at which `mover` first meets `other`,
     each going as far as its body's fraction and resting then.
 
-    Returns (fraction or MISS, normal from other to mover).
+    Returns (fraction or MISS, normal from other to mover, feature).
     """
     p = shapes[mover].body_row
     q = shapes[other].body_row
@@ -154,22 +181,22 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
     if both > 0.0:
         cut_path(paths, p, 0.0, both, cuts_out)
         cut_path(paths, q, 0.0, both, cuts_out)
-        fraction, nx, ny, core = sweep_rotational(
+        fraction, nx, ny, feature = sweep_rotational(
             geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
         )
         if fraction <= 1.0:
-            return fraction * both, nx, ny
+            return fraction * both, nx, ny, feature
     last = max(far_p, far_q)
     if last == both:
-        return MISS, 0.0, -1.0
+        return MISS, 0.0, -1.0, -1
     cut_path(paths, p, min(both, far_p), far_p, cuts_out)
     cut_path(paths, q, min(both, far_q), far_q, cuts_out)
-    fraction, nx, ny, core = sweep_rotational(
+    fraction, nx, ny, feature = sweep_rotational(
         geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
     )
     if fraction <= 1.0:
-        return both + fraction * (last - both), nx, ny
-    return MISS, 0.0, -1.0
+        return both + fraction * (last - both), nx, ny, feature
+    return MISS, 0.0, -1.0, -1
 
 
 @subkernel
@@ -202,7 +229,8 @@ def find_rotational_impacts(
     candidates,
     count,
     moving,
-    everyone,
+    stacking,
+    rotation,
     slack,
     one_way,
     # write
@@ -213,13 +241,13 @@ def find_rotational_impacts(
     impacts_out,
     work_inout,
 ):
-    """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets on its path.
+    """List (candidate, fraction, normal from A to B, stops, feature) of the pairs that a fast body meets on its path.
 
     paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for
-    the others; everyone: 0 where only bullets mind what moves, 1 where all do, 2 where besides nothing turns and what
-    has a closed form was found by it; slack [px]: closer at the start is in contact already. Without a stacking solver
-    motion into the other by less than a quarter of the half size stops nobody: the contact lets it out at once.
-    impacts_out (n, 5). Returns the number found. O(candidates).
+    the others; stacking: two dynamic bodies are left to the solver unless one is a bullet; without, motion into the
+    other by less than a quarter of the half size stops nobody: the contact lets it out at once; rotation: without,
+    nothing turns, and what has a closed form was found by it; slack [px]: see sweep_part. impacts_out (n, 6). Returns
+    the number found. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -227,25 +255,34 @@ def find_rotational_impacts(
         b = shapes[candidates[i, 1]]
         rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
         rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
-        if not (fast_inout[a.body_row] or fast_inout[b.body_row]):
+        fast = fast_inout[a.body_row] or fast_inout[b.body_row]
+        fast = fast or outruns(bodies, paths_inout, a.body_row, b.body_row)
+        if not (fast or outruns(bodies, paths_inout, b.body_row, a.body_row)):
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
         still = stands_still(bodies, paths_inout, a.body_row) or stands_still(bodies, paths_inout, b.body_row)
-        if still == (moving == 1) or not (still or everyone > 0 or p.bullet or q.bullet):
+        if still == (moving == 1):
             continue
-        from_a = fast_inout[a.body_row] and a.kind != TILES and a.kind != CHAIN and a.kind != MASK
+        if stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet):
+            continue
+        # The one that can be stopped is swept, or else the fast one: they move relative to each other.
+        ground_a = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
+        first = fast_inout[a.body_row] if (p.kind == DYNAMIC) == (q.kind == DYNAMIC) else p.kind == DYNAMIC
+        from_a = first and not ground_a
         mover = candidates[i, 0] if from_a else candidates[i, 1]
         other = candidates[i, 1] if from_a else candidates[i, 0]
         kind = shapes[mover].kind
         if kind == TILES or kind == CHAIN or kind == MASK or shapes[other].kind == MASK:
             continue
         mode = bodies[shapes[mover].body_row].continuous
-        straight = mode == RAY or mode == SWEPT or (mode == AUTO and everyone == 2)
+        straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
-            continue
+            # From deep inside, by the rule of the others.
+            if not stands_deep(geometry, bodies, shapes, paths_inout, mover, other, slack, workspace):
+                continue
         work_inout[TOI_CALLS] += 1
-        fraction, nx, ny = first_meeting(
+        fraction, nx, ny, feature = first_meeting(
             geometry, bodies, shapes, paths_inout, mover, other, slack, one_way, cuts_out, workspace, work_inout
         )
         if fraction > 1.0:
@@ -262,8 +299,8 @@ def find_rotational_impacts(
             abs(paths_inout[m, 5] - paths_inout[m, 2]) * bodies[m].extent
             + abs(paths_inout[o, 5] - paths_inout[o, 2]) * bodies[o].extent
         )
-        stops = everyone == 0 or -(nx * dx + ny * dy) > room_left or turns > room_left
-        found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
+        stops = stacking or -(nx * dx + ny * dy) > room_left or turns > room_left
+        found = write_impact(i, fraction, nx, ny, feature, from_a, stops, found, impacts_out)
     return found
 
 
@@ -311,7 +348,7 @@ def write_impacts(
 ):
     """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
-    impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the
+    impacts (n, 6): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the
     two boxes. With response 1 the separation is that at the final poses: what a side went on by after the impact.
     """
     found = 0
@@ -345,7 +382,7 @@ def write_impacts(
             m.y_1 = y
             m.separation_1 = separation
             m.area_1 = 0.0
-            m.feature_1 = -1
+            m.feature_1 = int(impacts[i, 5])
             m.swept = True
         found += 1
     return found

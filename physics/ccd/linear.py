@@ -1,36 +1,36 @@
-"""First time of impact of shapes that move without turning: circles and convex polygons, against each other and tiles.
+"""First time of impact of shapes that move without turning: circles and convex polygons, against each other.
 
 Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative motion
 enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear per edge
-(Ericson, Real-Time Collision Detection, 5.5). All in closed form, relative to B.
+(Ericson, Real-Time Collision Detection, 5.5). All in closed form, relative to B. What stands deeper in the other than
+the slop before it moves is left to the sweep of rotational.py.
 """
 
 import math
-from collections.abc import Callable
 
 from physics.ccd.closed_form import MISS, sweep_circle_polygon, sweep_circles, sweep_polygons
 from physics.collision.circles import collide_polygon_circle
 from physics.collision.clipping import ALL_EDGES
-from physics.collision.tiles import tile_at
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.shapes.placement import corners_at, is_hull
 from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, TOI
 from physics.tables.counters import TOI_CALLS
-from physics.tables.geometry import EMPTY, ONE_WAY
 from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
 
 
 @subkernel
-def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, edges, slack, corners_inout):
+def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, slack, corners_inout):
     """A moving circle or polygon (or a ray from its middle) against an outline: (fraction or MISS, normal to it)."""
     s = shapes[row]
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
         radius = 0.0 if ray else s.radius
-        fraction, nx, ny = sweep_circle_polygon(target, target_count, edges, x + u, y + v, dx, dy, radius)
+        fraction, nx, ny = sweep_circle_polygon(target, target_count, ALL_EDGES, x + u, y + v, dx, dy, radius)
         if fraction == 0.0 and s.radius > 0.0:
-            hit, mx, my, _, _, separation, _ = collide_polygon_circle(target, target_count, edges, x + u, y + v, radius)
+            hit, mx, my, _, _, separation, _ = collide_polygon_circle(
+                target, target_count, ALL_EDGES, x + u, y + v, radius
+            )
             if hit and separation < -slack:
                 return MISS, nx, ny
         return fraction, nx, ny
@@ -41,55 +41,8 @@ def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_
         for k in range(count):
             middle_x += corners_inout[k, 0] / count
             middle_y += corners_inout[k, 1] / count
-        return sweep_circle_polygon(target, target_count, edges, middle_x, middle_y, dx, dy, 0.0)
-    return sweep_polygons(corners_inout, count, target, target_count, edges, dx, dy, slack)
-
-
-@subkernel
-def sweep_grid(geometry, shapes, row, x, y, angle, ray, dx, dy, grid, grid_x, grid_y, one_way, slack, scratch):
-    """One moving shape against the tiles its motion rectangle covers: (fraction or MISS, normal from the tile)."""
-    g = geometry.grids[grid]
-    s = shapes[row]
-    if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
-        left = x + u - s.radius
-        right = x + u + s.radius
-        top = y + v - s.radius
-        bottom = y + v + s.radius
-    else:
-        count = corners_at(geometry, shapes, row, x, y, angle, scratch.b)
-        left = scratch.b[0, 0]
-        right = left
-        top = scratch.b[0, 1]
-        bottom = top
-        for k in range(1, count):
-            left = min(left, scratch.b[k, 0])
-            right = max(right, scratch.b[k, 0])
-            top = min(top, scratch.b[k, 1])
-            bottom = max(bottom, scratch.b[k, 1])
-    first_column = max(0, math.ceil((left + min(dx, 0.0) - grid_x) / g.tile_size) - 1)
-    last_column = min(g.columns - 1, math.floor((right + max(dx, 0.0) - grid_x) / g.tile_size))
-    first_row = max(0, math.ceil((top + min(dy, 0.0) - grid_y) / g.tile_size) - 1)
-    last_row = min(g.rows - 1, math.floor((bottom + max(dy, 0.0) - grid_y) / g.tile_size))
-    best = MISS
-    best_x = 0.0
-    best_y = -1.0
-    for tile_row in range(first_row, last_row + 1):
-        for tile_column in range(first_column, last_column + 1):
-            kind = geometry.cells[g.offset + tile_row * g.columns + tile_column].kind
-            if kind == EMPTY:
-                continue
-            if kind == ONE_WAY and not (one_way and dy > 0.0 and bottom <= grid_y + tile_row * g.tile_size + slack):
-                continue
-            count, edges = tile_at(geometry, grid, grid_x, grid_y, tile_row, tile_column, scratch.a)
-            fraction, nx, ny = sweep_shape(
-                geometry, shapes, row, x, y, angle, ray, dx, dy, scratch.a, count, edges, slack, scratch.b
-            )
-            if fraction < best:
-                best = fraction
-                best_x = nx
-                best_y = ny
-    return best, best_x, best_y
+        return sweep_circle_polygon(target, target_count, ALL_EDGES, middle_x, middle_y, dx, dy, 0.0)
+    return sweep_polygons(corners_inout, count, target, target_count, ALL_EDGES, dx, dy, slack)
 
 
 @subkernel
@@ -108,7 +61,7 @@ def is_fast(body, dt, only_straight):
 
 
 @subkernel
-def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, scratch):
+def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
     """Shape `row` against shape `other`, both moving through dt [s]: (fraction or MISS, normal from other to row)."""
     s = shapes[row]
     o = shapes[other]
@@ -119,10 +72,6 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, sc
     if q.kind != STATIC:
         dx -= dt * q.vx
         dy -= dt * q.vy
-    if o.kind == TILES:
-        return sweep_grid(
-            geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, o.geometry, q.x, q.y, one_way, slack, scratch
-        )
     if o.kind == CIRCLE:
         u, v = turned(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
         if s.kind == CIRCLE:
@@ -143,23 +92,22 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, one_way, slack, sc
                 y += scratch.a[k, 1] / count
             return sweep_circles(x - q.x - u, y - q.y - v, dx, dy, o.radius)
         # The circle flies the other way, against the polygon at rest.
-        fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, q.x + u, q.y + v, -dx, -dy, o.radius)
+        x = q.x + u
+        y = q.y + v
+        fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, x, y, -dx, -dy, o.radius)
+        if fraction == 0.0:
+            hit, mx, my, _, _, separation, _ = collide_polygon_circle(scratch.a, count, ALL_EDGES, x, y, o.radius)
+            if hit and separation < -slack:
+                return MISS, -nx, -ny
         return fraction, -nx, -ny
     count = corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a)
-    return sweep_shape(
-        geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, ALL_EDGES, slack, scratch.b
-    )
+    return sweep_shape(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, slack, scratch.b)
 
 
 @subkernel
 def is_straight(shape):
-    """Whether the closed forms here know a shape; what is rounded or a chain is left to the sweep with turning."""
-    return (
-        shape.kind == CIRCLE
-        or shape.kind == BOUNDS
-        or shape.kind == TILES
-        or (shape.kind == POLYGON and shape.radius == 0.0)
-    )
+    """Whether the closed forms here know a shape; what is rounded, and ground, is left to the sweep with turning."""
+    return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
 
 
 @subkernel
@@ -171,10 +119,10 @@ def has_closed_form(mover, other, mode):
 
 
 @subkernel
-def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
+def write_impact(pair, fraction, nx, ny, feature, from_a, stops, found, impacts_out):
     """Write an impact of a candidate pair when there is room. Returns the count, which goes on past the capacity.
 
-    nx, ny: from what was met to the mover, which is A of the pair where from_a says so.
+    nx, ny: from what was met to the mover, which is A of the pair where from_a says so; feature: which tiles or link.
     """
     if found < impacts_out.shape[0]:
         impacts_out[found, 0] = float(pair)
@@ -182,72 +130,65 @@ def write_impact(pair, fraction, nx, ny, from_a, stops, found, impacts_out):
         impacts_out[found, 2] = -nx if from_a else nx
         impacts_out[found, 3] = -ny if from_a else ny
         impacts_out[found, 4] = 1.0 if stops else 0.0
+        impacts_out[found, 5] = float(feature)
     return found + 1
 
 
-def make_impact_pass(one_way: bool) -> Callable:
-    """The pass over the candidates of fast bodies; one-way tiles only where the effect is declared."""
+@kernel
+def find_impacts(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    dt,
+    slack,
+    only_straight,
+    # write
+    scratch,
+    impacts_out,
+    work_inout,
+):
+    """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
 
-    @kernel
-    def find_impacts(
-        # read
-        geometry,
-        bodies,
-        shapes,
-        candidates,
-        count,
-        dt,
-        slack,
-        only_straight,
-        # write
-        scratch,
-        impacts_out,
-        work_inout,
-    ):
-        """List (candidate, fraction, normal from A to B, stops) of the pairs that a fast body meets within dt [s].
-
-        Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
-        the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
-        only_straight: see is_fast; impacts_out (n, 5) float64. Returns the number found. O(candidates).
-        """
-        found = 0
-        for i in range(count):
-            a = shapes[candidates[i, 0]]
-            b = shapes[candidates[i, 1]]
-            p = bodies[a.body_row]
-            q = bodies[b.body_row]
-            a_fast = is_fast(p, dt, only_straight)
-            b_fast = is_fast(q, dt, only_straight)
-            if not (a_fast or b_fast):
-                continue
-            from_a = a_fast and a.kind != TILES
-            if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
-                from_a = False
-            mover = candidates[i, 0] if from_a else candidates[i, 1]
-            other = candidates[i, 1] if from_a else candidates[i, 0]
-            body = p if from_a else q
-            if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
-                continue
-            work_inout[TOI_CALLS] += 1
-            fraction, nx, ny = sweep_pair(
-                geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, one_way, slack, scratch
-            )
-            if fraction > 1.0:
-                continue
-            dx = body.vx
-            dy = body.vy
-            rest = q if from_a else p
-            if rest.kind != STATIC:
-                dx -= rest.vx
-                dy -= rest.vy
-            stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
-            found = write_impact(i, fraction, nx, ny, from_a, stops, found, impacts_out)
-        return found
-
-    return find_impacts
-
-
-find_impacts_by_mode = {o: make_impact_pass(one_way=o) for o in (False, True)}
+    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
+    the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
+    only_straight: see is_fast; impacts_out (n, 6) float64. Returns the number found. O(candidates).
+    """
+    found = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        a_fast = is_fast(p, dt, only_straight)
+        b_fast = is_fast(q, dt, only_straight)
+        if not (a_fast or b_fast):
+            continue
+        from_a = a_fast and a.kind != TILES
+        if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
+            from_a = False
+        mover = candidates[i, 0] if from_a else candidates[i, 1]
+        other = candidates[i, 1] if from_a else candidates[i, 0]
+        body = p if from_a else q
+        if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
+            continue
+        work_inout[TOI_CALLS] += 1
+        fraction, nx, ny = sweep_pair(
+            geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, slack, scratch
+        )
+        if fraction > 1.0:
+            continue
+        dx = body.vx
+        dy = body.vy
+        rest = q if from_a else p
+        if rest.kind != STATIC:
+            dx -= rest.vx
+            dy -= rest.vy
+        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
+        found = write_impact(i, fraction, nx, ny, -1, from_a, stops, found, impacts_out)
+    return found
 
 
 @kernel

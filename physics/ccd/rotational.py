@@ -1,9 +1,11 @@
-"""The sweep of a hull that moves and turns about its centre of mass: against hulls, tiles, chains.
+"""The sweep of a hull that moves and turns about its centre of mass: one rule for whatever it may meet.
 
-What touches at the start is in the hands of the solver, and a body that rests or slides must not be held by it. But it
-must not pass through either: then a core circle, a quarter of the body's smallest half extent about its centre of mass,
-is swept in its place (the rule of Box2D v3), and the hull itself counts again once it is a slop deeper. The same holds
-where a tile or link is met from a side that its neighbour covers: no such side exists, but the core must not pass.
+Nothing is gone into deeper than the mover stands in it already, and a slop more: then it is put back to where it was no
+deeper than at the start. So what rests or slides is never held, no seam between two pieces of ground is felt (a piece
+that lies flush is no deeper under the mover than the whole), and what breaks through is stopped, wherever it was at
+the start. What stands so deep that its core, a quarter of its smallest half extent about its centre of mass, would
+go in too, has this core swept instead: a centre never gets across (Box2D v3's core circle). One-sided ground is met
+only while the mover is in front of it.
 """
 
 import math
@@ -17,6 +19,7 @@ from physics.ccd.advance import (
     CENTER_Y,
     MOVE_X,
     MOVE_Y,
+    TOLERANCE,
     TOUCHING_BAND,
     TURN,
     AdvanceWorkspace,
@@ -28,13 +31,13 @@ from physics.ccd.advance import (
 )
 from physics.ccd.closed_form import MISS
 from physics.jit import subkernel
-from physics.math2d import turned
+from physics.math2d import length_of, turned
+from physics.proximity.gjk import FIRST_A, FIRST_B, NX, NY
 from physics.shapes.placement import hull_at
 from physics.tables.shape import BOUNDS
 
+BACKWARDS = 6  # rounds of Newton's method: two or three do
 CORE = 0.25  # of a body's smallest half extent
-GRAZE = 2.0**-20  # of the size: motion into ground by less is a slide along it
-ON_FACE = 1.0 - 1e-12  # cosine: a normal that is a face's own
 
 
 class RotationalWorkspace(NamedTuple):
@@ -76,26 +79,21 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
 
 
 @subkernel
-def sweep_at(count, radius, other_count, other_radius, core_radius, slack, workspace):
-    """(fraction or MISS, whether the core circle met it) of the mover against what stands in workspace.advance.local_b.
+def place_mover(count, workspace):
+    """Have the mover swept, with nothing of what the last pair left behind. Returns its reach [px]."""
+    for k in range(count):
+        workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
+        workspace.advance.local_a[k, 1] = workspace.mover[k, 1]
+    workspace.advance.gap.gap[FIRST_A] = 0.0
+    workspace.advance.gap.gap[FIRST_B] = 0.0
+    return reach_of(workspace.mover, count)
 
-    slack [px]: apart by no more at the start is in contact. core_radius [px]: 0 sweeps the hull in any case.
-    """
-    for k in range(count):
-        workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
-        workspace.advance.local_a[k, 1] = workspace.mover[k, 1]
-    start = separate_at(count, radius, other_count, other_radius, 0.0, workspace.advance)
-    if core_radius == 0.0 or start > slack:
-        return advance(count, radius, other_count, other_radius, workspace.advance), False
-    # In contact: what rests or slides stays as deep as it is, what breaks through gets a slop deeper, or its core in.
-    core = sweep_core(core_radius, other_count, other_radius, workspace)
-    for k in range(count):
-        workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
-        workspace.advance.local_a[k, 1] = workspace.mover[k, 1]
-    deeper = advance(count, radius - slack - max(-start, 0.0), other_count, other_radius, workspace.advance)
-    if core < deeper:
-        return sweep_core(core_radius, other_count, other_radius, workspace), True
-    return deeper, False
+
+@subkernel
+def depth_at_start(count, radius, other_count, other_radius, workspace):
+    """How deep [px] the mover stands in workspace.advance.local_b before it moves; 0: not at all."""
+    place_mover(count, workspace)
+    return max(0.0, -separate_at(count, radius, other_count, other_radius, 0.0, workspace.advance))
 
 
 @subkernel
@@ -106,6 +104,8 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
+    workspace.advance.gap.gap[FIRST_A] = 0.0
+    workspace.advance.gap.gap[FIRST_B] = 0.0
     left = separate_at(1, 0.0, other_count, other_radius, 0.0, workspace.advance)
     if left <= 0.0:
         return MISS
@@ -113,13 +113,49 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 
 @subkernel
-def only_grazes(count, radius, other_count, fraction, slack, workspace):
-    """Whether the mover slides along a piece of ground that it meets: goes into it by no more than slack [px]."""
-    reach = reach_of(workspace.advance.local_a, count)
-    size = reach + radius
-    approach = approach_at(count, other_count, fraction, TOUCHING_BAND * size, workspace.advance)
-    approach += abs(workspace.advance.motion_a[TURN]) * reach
-    return approach * (1.0 - fraction) <= max(slack, GRAZE * size)
+def back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace):
+    """The fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
+
+    Newton's method from there: an earlier touch with a side of the piece that the ground goes on behind is not met.
+    """
+    gap = workspace.advance.gap.gap
+    nx = gap[NX]
+    ny = gap[NY]
+    most = fraction
+    separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+    for _ in range(BACKWARDS):
+        approach = approach_at(count, other_count, fraction, TOUCHING_BAND * size, workspace.advance)
+        if approach <= 0.0 or abs(separation + depth) <= TOLERANCE * size:
+            break
+        fraction = min(max(0.0, fraction + (separation + depth) / approach), most)
+        separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+    if nx * gap[NX] + ny * gap[NY] < 0.5:
+        gap[NX] = nx  # another side is nearer there, which it did not come through
+        gap[NY] = ny
+    return fraction
+
+
+@subkernel
+def sweep_part(count, radius, other_count, other_radius, half, depth, slack, workspace):
+    """(fraction or MISS, whether the core met it) of the mover against a convex piece, workspace.advance.local_b.
+
+    half [px]: the mover's smallest half extent, 0: it has no core; depth [px]: how deep it may be in any case, as it
+    stands in the whole that the piece belongs to; slack [px]: how much deeper it may get, 0: by no more than rounding.
+    """
+    reach = place_mover(count, workspace)
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    size = reach + radius + reach_of(workspace.advance.local_b, other_count) + other_radius
+    path = length_of(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
+    sink = max(slack, TOUCHING_BAND * (size + path))
+    if half > 0.0:
+        sink = min(sink, 0.5 * half)
+        if sink + depth > (1.0 - CORE) * half:
+            return sweep_core(CORE * half, other_count, other_radius, workspace), True
+    fraction = advance(count, radius - sink - depth, other_count, other_radius, workspace.advance)
+    if fraction > 1.0:
+        return MISS, False
+    return back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace), False
 
 
 @subkernel

@@ -1,229 +1,209 @@
-"""Rotational continuous collision with tiles and chains: only what can be touched from outside stops a body."""
+"""The sweep of a hull against tiles and chains: piece by piece, all by the rule of rotational.py."""
 
 import math
 
 from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, reach_of
 from physics.ccd.closed_form import MISS
-from physics.ccd.rotational import ON_FACE, only_grazes, sweep_at, sweep_core, swept_box
-from physics.collision.clipping import ALL_EDGES, edge_normal
+from physics.ccd.rotational import depth_at_start, sweep_part, swept_box
+from physics.collision.clipping import ALL_EDGES
+from physics.collision.features import part_feature
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import turned
 from physics.proximity.gjk import NX, NY
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
 
 
 @subkernel
-def is_touchable(corners, count, edges, mx, my):
-    """Whether a polygon can be touched with an outward normal: of a face, or between the two faces of a corner.
-
-    edges: see tiles.tile_at: low bits the faces, from bit 16 those whose corners can be touched.
-    """
-    if edges == ALL_EDGES:
-        return True
-    best = 0
-    most = -2.0
-    for k in range(count):
-        nx, ny = edge_normal(corners, count, k)
-        along = mx * nx + my * ny
-        if along > most:
-            most = along
-            best = k
-    if most >= ON_FACE:
-        return (edges >> best) & 1 == 1
-    # On which side of the nearest face's normal it leans tells the corner.
-    nx, ny = edge_normal(corners, count, best)
-    after = best + 1 if best + 1 < count else 0
-    before = best - 1 if best > 0 else count - 1
-    other = after if nx * my - ny * mx > 0.0 else before
-    return (edges >> (16 + best)) & 1 == 1 and (edges >> (16 + other)) & 1 == 1
-
-
-@subkernel
-def link_allows(link, mx, my):
-    """Whether a link of a chain, in body space, can be touched with a normal: its own, or up to its neighbour's.
-
-    An end without a neighbour can be touched up to a quarter turn.
-    """
-    tx = link.bx - link.ax
-    ty = link.by - link.ay
-    length = length_of(tx, ty)
-    if length == 0.0:
-        return False
-    tx /= length
-    ty /= length
-    facing = mx * ty - my * tx
-    if facing >= ON_FACE:
-        return True
-    if facing < 0.0:
-        return False
-    beyond = mx * tx + my * ty > 0.0
-    if not (link.has_after if beyond else link.has_before):
-        return True
-    sx = link.after_x - link.bx if beyond else link.ax - link.before_x
-    sy = link.after_y - link.by if beyond else link.ay - link.before_y
-    # Convex where the chain turns away from its front, and then no further than the neighbour's normal (sy, -sx).
-    if beyond:
-        return tx * sy - ty * sx > 0.0 and mx * -sx - my * sy >= 0.0
-    return sx * ty - sy * tx > 0.0 and sy * my + sx * mx >= 0.0
-
-
-@subkernel
-def sweep_tiles(geometry, grid, local_x, local_y, count, radius, core_radius, slack, one_way, workspace):
-    """(fraction or MISS, normal from the tiles, core) of the mover against the tiles in its swept box. O(cells in it).
-
-    local_x, local_y [px]: the grid's centre of mass in its body space; a grid does not turn.
-    """
-    g = geometry.grids[grid]
-    reach = reach_of(workspace.mover, count) + radius
-    left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, workspace.advance.motion_b)
-    left += local_x
-    right += local_x
-    top += local_y
-    bottom += local_y
-    falls = workspace.advance.motion_a[MOVE_Y] > workspace.advance.motion_b[MOVE_Y]
+def feet_of(count, radius, local_y, workspace):
+    """How far down [px] the mover reaches before it moves, seen from the origin of a grid."""
+    motion = workspace.advance.motion_a
+    cosine = math.cos(motion[ANGLE])
+    sine = math.sin(motion[ANGLE])
     feet = -math.inf
-    cosine = math.cos(workspace.advance.motion_a[ANGLE])
-    sine = math.sin(workspace.advance.motion_a[ANGLE])
     for k in range(count):
         u, v = turned(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
         feet = max(feet, v + radius)
-    feet += workspace.advance.motion_a[CENTER_Y] - workspace.advance.motion_b[CENTER_Y] + local_y
+    return feet + motion[CENTER_Y] - workspace.advance.motion_b[CENTER_Y] + local_y
+
+
+@subkernel
+def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace):
+    """Write what of a tile stops the mover to workspace.advance.local_b. Returns its number of corners, 0: nothing.
+
+    Of a tile that is open from below it is its top, for a mover whose feet are no lower than `stood` [px].
+    """
+    g = geometry.grids[grid]
+    kind = geometry.cells[g.offset + line * g.columns + column].kind
+    if kind == EMPTY or (kind == ONE_WAY and stood > line * g.tile_size):
+        return 0
+    corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, workspace.advance.local_b)
+    if kind == ONE_WAY:
+        return 2
+    return 0 if edges == ALL_EDGES else corners  # covered all round: nothing gets there first
+
+
+@subkernel
+def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, workspace):
+    """(fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
+
+    O(cells in it). local_x, local_y [px]: the grid's centre of mass in its body space; a grid does not turn. half,
+    slack: see sweep_part; one_way: whether tiles open from below take part; they stop what falls from above them.
+    """
+    g = geometry.grids[grid]
+    size = g.tile_size
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    left, top, right, bottom = swept_box(reach, motion, other)
+    falls = one_way and motion[MOVE_Y] > other[MOVE_Y]
+    stood = feet_of(count, radius, local_y, workspace) - slack if falls else math.inf
+    first_row = max(0, math.ceil((top + local_y) / size) - 1)
+    last_row = min(g.rows - 1, math.floor((bottom + local_y) / size))
+    first_column = max(0, math.ceil((left + local_x) / size) - 1)
+    last_column = min(g.columns - 1, math.floor((right + local_x) / size))
+    x = motion[CENTER_X] - other[CENTER_X] + local_x
+    y = motion[CENTER_Y] - other[CENTER_Y] + local_y
+    high_row = min(last_row, math.floor((y + reach) / size))
+    low = max(first_column, math.floor((x - reach) / size))
+    high = min(last_column, math.floor((x + reach) / size))
+    depth = 0.0
+    for line in range(max(first_row, math.floor((y - reach) / size)), high_row + 1):
+        for column in range(low, high + 1):
+            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            if corners > 0:
+                depth = max(depth, depth_at_start(count, radius, corners, 0.0, workspace))
     best = MISS
     best_x = 0.0
     best_y = -1.0
-    best_core = False
-    for line in range(max(0, math.ceil(top / g.tile_size) - 1), min(g.rows - 1, math.floor(bottom / g.tile_size)) + 1):
-        for column in range(
-            max(0, math.ceil(left / g.tile_size) - 1), min(g.columns - 1, math.floor(right / g.tile_size)) + 1
-        ):
-            kind = geometry.cells[g.offset + line * g.columns + column].kind
-            if kind == EMPTY or (kind == ONE_WAY and not (one_way and falls and feet <= line * g.tile_size + slack)):
+    feature = -1
+    for line in range(first_row, last_row + 1):
+        for column in range(first_column, last_column + 1):
+            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            if corners == 0:
                 continue
-            corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, workspace.advance.local_b)
-            if edges == ALL_EDGES:
-                continue  # covered all round: nothing gets there first
-            fraction, core = sweep_at(count, radius, corners, 0.0, core_radius, slack, workspace)
-            if fraction <= 1.0 and not core and only_grazes(count, radius, corners, fraction, slack, workspace):
-                continue
-            # A normal from the tile to the mover; workspace.advance.local_b is not turned.
-            if fraction <= 1.0 and not is_touchable(
-                workspace.advance.local_b,
-                corners,
-                edges,
-                -workspace.advance.gap.gap[NX],
-                -workspace.advance.gap.gap[NY],
-            ):
-                fraction = MISS if core or core_radius == 0.0 else sweep_core(core_radius, corners, 0.0, workspace)
-                core = True
-                if fraction <= 1.0 and not is_touchable(
-                    workspace.advance.local_b,
-                    corners,
-                    edges,
-                    -workspace.advance.gap.gap[NX],
-                    -workspace.advance.gap.gap[NY],
-                ):
-                    fraction = MISS
+            fraction, core = sweep_part(count, radius, corners, 0.0, half, depth, slack, workspace)
             if fraction < best:
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
-                best_core = core
-    return best, best_x, best_y, best_core
+                first = geometry.cells[g.offset + line * g.columns + column].first
+                feature = part_feature(line * g.columns + first, 0)
+    return best, best_x, best_y, feature
 
 
 @subkernel
-def front_side(mover, count, motion, other, fraction, local_x, local_y, link):
-    """How far the middle of the mover's corners is in front of a link [px] at a fraction of both motions."""
-    middle_x = 0.0
-    middle_y = 0.0
-    for k in range(count):
-        middle_x += mover[k, 0] / count
-        middle_y += mover[k, 1] / count
-    angle = motion[ANGLE] + fraction * motion[TURN]
-    middle_x, middle_y = turned(middle_x, middle_y, math.cos(angle), math.sin(angle))
-    angle = other[ANGLE] + fraction * other[TURN]
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
-    x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
-    y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
-    u, v = turned(x, y, cosine, -sine)
-    tx = link.bx - link.ax
-    ty = link.by - link.ay
-    length = length_of(tx, ty)
-    if length == 0.0:
-        return 0.0
-    return (ty * (u + local_x - link.ax) - tx * (v + local_y - link.ay)) / length
-
-
-@subkernel
-def sweep_link(geometry, k, local_x, local_y, count, radius, core_radius, half, slack, workspace):
-    """(fraction or MISS, core) of the mover against one link of a chain, from its front.
-
-    half [px]: the mover's smallest half extent; 0: of none. Motion into the link by no
-    more than `slack` [px] slides along.
-    """
-    link = geometry.links[k]
-    motion = workspace.advance.motion_a
-    other = workspace.advance.motion_b
-    if half > 0.0 and (
-        front_side(workspace.mover, count, motion, other, 0.0, local_x, local_y, link)
-        - front_side(workspace.mover, count, motion, other, 1.0, local_x, local_y, link)
-        <= slack
-    ):
-        return MISS, False
+def place_link(link, local_x, local_y, workspace):
+    """Write the ends of a link to workspace.advance.local_b."""
     workspace.advance.local_b[0, 0] = link.ax - local_x
     workspace.advance.local_b[0, 1] = link.ay - local_y
     workspace.advance.local_b[1, 0] = link.bx - local_x
     workspace.advance.local_b[1, 1] = link.by - local_y
-    fraction, core = sweep_at(count, radius, 2, 0.0, core_radius, slack, workspace)
-    if fraction <= 1.0 and not core and only_grazes(count, radius, 2, fraction, slack, workspace):
-        return MISS, core
-    for _ in range(2):
-        if fraction > 1.0 or front_side(workspace.mover, count, motion, other, fraction, local_x, local_y, link) < 0.0:
-            return MISS, core
-        angle = other[ANGLE] + fraction * other[TURN]
-        mx, my = turned(
-            -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY], math.cos(angle), -math.sin(angle)
-        )
-        if link_allows(link, mx, my):
-            return fraction, core
-        if core or core_radius == 0.0:
-            return MISS, core
-        fraction = sweep_core(core_radius, 2, 0.0, workspace)
-        core = True
-    return MISS, core
 
 
 @subkernel
-def sweep_chain(geometry, chain, local_x, local_y, count, radius, core_radius, half, slack, workspace):
-    """(fraction or MISS, normal from the chain, core) of the mover against the links of a chain within reach."""
-    span = geometry.chains[chain]
-    reach = reach_of(workspace.mover, count) + radius
+def ahead_of(ax, ay, bx, by, u, v):
+    """How far a point is in front of the line from a to b, times its length."""
+    return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
+
+
+@subkernel
+def is_before(link, local_x, local_y, count, fraction, core, workspace):
+    """Whether the middle of the mover's corners, or its centre of mass, is in front of a link at a fraction of both
+    motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well."""
+    motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    turns = other[ANGLE] != 0.0 or other[TURN] != 0.0
-    left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, other)
-    best = MISS
-    best_x = 0.0
-    best_y = -1.0
-    best_core = False
+    middle_x = 0.0
+    middle_y = 0.0
+    if not core:
+        for k in range(count):
+            middle_x += workspace.mover[k, 0] / count
+            middle_y += workspace.mover[k, 1] / count
+        angle = motion[ANGLE] + fraction * motion[TURN]
+        middle_x, middle_y = turned(middle_x, middle_y, math.cos(angle), math.sin(angle))
+    angle = other[ANGLE] + fraction * other[TURN]
+    x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
+    y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
+    u, v = turned(x, y, math.cos(angle), -math.sin(angle))
+    u += local_x
+    v += local_y
+    if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
+        return False
+    tx = link.bx - link.ax
+    ty = link.by - link.ay
+    if link.has_after and tx * (u - link.bx) + ty * (v - link.by) > 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.after_x, link.after_y) > 0.0:
+            return ahead_of(link.bx, link.by, link.after_x, link.after_y, u, v) >= 0.0
+    if link.has_before and tx * (u - link.ax) + ty * (v - link.ay) < 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.before_x, link.before_y) > 0.0:
+            return ahead_of(link.before_x, link.before_y, link.ax, link.ay, u, v) >= 0.0
+    return True
+
+
+@subkernel
+def misses_block(box, local_x, local_y, left, top, right, bottom):
+    """Whether the links of a block lie beside a box [px], seen from the chain's own moving point."""
+    return (
+        box.min_x - local_x > right
+        or box.max_x - local_x < left
+        or box.min_y - local_y > bottom
+        or box.max_y - local_y < top
+    )
+
+
+@subkernel
+def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
+    """How deep [px] the mover stands in the links that it is in front of, before it moves."""
+    span = geometry.chains[chain]
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    x, y = turned(
+        motion[CENTER_X] - other[CENTER_X],
+        motion[CENTER_Y] - other[CENTER_Y],
+        math.cos(other[ANGLE]),
+        -math.sin(other[ANGLE]),
+    )
+    depth = 0.0
     for block in range(span.blocks):
         box = geometry.link_blocks[span.first_block + block]
-        if not turns and (
-            box.min_x - local_x > right
-            or box.max_x - local_x < left
-            or box.min_y - local_y > bottom
-            or box.max_y - local_y < top
-        ):
+        if misses_block(box, local_x, local_y, x - reach, y - reach, x + reach, y + reach):
             continue
         first = span.offset + block * BLOCK_LINKS
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
-            fraction, core = sweep_link(
-                geometry, k, local_x, local_y, count, radius, core_radius, half, slack, workspace
-            )
-            if fraction < best:
+            link = geometry.links[k]
+            place_link(link, local_x, local_y, workspace)
+            if is_before(link, local_x, local_y, count, 0.0, False, workspace):
+                depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
+    return depth
+
+
+@subkernel
+def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, workspace):
+    """(fraction or MISS, normal from the chain, feature) of the mover against the links of a chain within reach, from
+    their front. half, slack: see sweep_part. O(links near the way)."""
+    span = geometry.chains[chain]
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    turns = other[ANGLE] != 0.0 or other[TURN] != 0.0
+    left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, other)
+    depth = depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace)
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    feature = -1
+    for block in range(span.blocks):
+        box = geometry.link_blocks[span.first_block + block]
+        if not turns and misses_block(box, local_x, local_y, left, top, right, bottom):
+            continue
+        first = span.offset + block * BLOCK_LINKS
+        for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
+            link = geometry.links[k]
+            place_link(link, local_x, local_y, workspace)
+            fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
+            if fraction < best and is_before(link, local_x, local_y, count, fraction, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
-                best_core = core
-    return best, best_x, best_y, best_core
+                feature = part_feature(k - span.offset, 0)
+    return best, best_x, best_y, feature

@@ -16,7 +16,8 @@ from physics.ccd.impacts import (
     move_back,
     write_impacts,
 )
-from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
+from physics.ccd.linear import find_impacts, stop_at_impacts
+from physics.ccd.push_ahead import push_ahead
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.approach import measure_approach
 from physics.collision.detect import detect
@@ -24,13 +25,13 @@ from physics.collision.manifold import new_workspace
 from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order, order_of
-from physics.settings import IMPACT_ROUNDS
+from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
-NO_IMPACTS = np.zeros((0, 5))
+NO_IMPACTS = np.zeros((0, 6))
 
 
 class Sweeper:
@@ -39,7 +40,7 @@ class Sweeper:
     def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
-        self.impacts = np.zeros((16, 5))
+        self.impacts = np.zeros((16, 6))
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
 
     def grow(self, state: StepState) -> None:
@@ -49,12 +50,11 @@ class Sweeper:
             self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
             self.fast = np.zeros(2 * bodies, bool)
         if len(self.impacts) < candidates:
-            self.impacts = np.zeros((2 * candidates, 5))
+            self.impacts = np.zeros((2 * candidates, 6))
 
 
-def _look(state, moving, everyone) -> np.ndarray:
-    """Impacts (n, 5) of the fast with what stands still (moving 0), or moves (1).
-    everyone: see find_rotational_impacts."""
+def _look(state, moving, strict=False) -> np.ndarray:
+    """Impacts (n, 6) of the fast with what stands still (moving 0), or moves (1); strict: the least of them stops."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -64,7 +64,8 @@ def _look(state, moving, everyone) -> np.ndarray:
         rows,
         len(rows),
         moving,
-        everyone,
+        strict or state.effects.stacking,
+        state.effects.rotation,
         state.tolerances.slop,
         state.effects.one_way,
         sweeper.paths,
@@ -78,10 +79,10 @@ def _look(state, moving, everyone) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Impacts (n, 5) of the bodies whose way has a closed form."""
+    """Impacts (n, 6) of the bodies whose way has a closed form."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
-    found = find_impacts_by_mode[state.effects.one_way](
+    found = find_impacts(
         state.library.tables,
         bodies,
         state.shapes,
@@ -109,16 +110,30 @@ def foresee_impacts(state: StepState) -> None:
     foresee_paths(rows, bodies, dt, sweeper.paths)
     bodies["fraction"][rows] = 1.0
     if find_fast(rows, bodies, sweeper.paths, sweeper.fast)[0]:
-        everyone = 1 if state.effects.rotation else 2
-        found = np.concatenate([found, _look(state, 0, everyone), _look(state, 1, everyone)])
+        found = np.concatenate([found, _look(state, 0), _look(state, 1)])
     state.impacts = found
     if state.effects.response:
         stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
 
 
-@stage("narrow_phase", reads=(*FORESEEN, "impacts"), writes=("manifolds", "work", "workspace"))
+@stage(
+    "narrow_phase",
+    reads=(*FORESEEN, "impacts", "manifolds"),
+    writes=(
+        "manifolds",
+        "library",
+        "work",
+        "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")),
+        *PLACED,
+    ),
+)
 def detect_moved(state: StepState) -> None:
     """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
+    rows = state.awake.bodies
+    stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
+    if len(stopped) and push_stopped(state, stopped):
+        place_shapes(state)
     manifolds = detect(state)
     if not len(state.impacts):
         state.manifolds = manifolds
@@ -185,6 +200,7 @@ def sweep_piles(state: StepState) -> None:
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
         move_back(stopped, paths, bodies)
+        push_stopped(state, stopped)
         follow_bodies(bodies, state.anchors, state.manifolds)
         place_shapes(state)
     _tell(state, met)
@@ -214,16 +230,16 @@ def _sweep_straight(state) -> np.ndarray:
 
 def _sweep_rotational(state) -> np.ndarray:
     """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
-    met = _look(state, 0, 0)
-    stop_at_impacts(state.shapes, state.pairs.rows, met, len(met), state.bodies)
-    moving, rounds = _look(state, 1, 0), 0
-    while len(moving) and _stop(state, moving):
-        rounds += 1
-        if rounds == IMPACT_ROUNDS:
+    found = [_look(state, 0)]
+    stop_at_impacts(state.shapes, state.pairs.rows, found[0], len(found[0]), state.bodies)
+    found.append(_look(state, 1))
+    while len(found[-1]) and _stop(state, found[-1]):
+        if len(found) == IMPACT_ROUNDS:
             state.work[CAP_HITS] += 1
             break
-        moving = _look(state, 1, 0)
-    return np.concatenate([met, moving])
+        found.append(_look(state, 1))
+    # Those of earlier rounds that somebody no longer gets to are left out when they are written.
+    return np.concatenate(found)
 
 
 def _stop(state, impacts) -> bool:
@@ -233,6 +249,59 @@ def _stop(state, impacts) -> bool:
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
     # The same impact may come out a rounding earlier from the shortened paths: that stops nobody anew.
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
+
+
+def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
+    """Have what kinematic bodies run into stay in front of them for the rest of the step, as far as nothing that
+    stands is in the way. stopped: rows of bodies that were stopped at their fraction of the paths of the sweep. Returns
+    whether any was pushed."""
+    sweeper, bodies, pairs = state.workspace.sweep, state.bodies, state.pairs.rows
+    moves = np.zeros((len(bodies), 2))
+    for rounds in range(PUSH_ROUNDS):
+        if not push_ahead(
+            state.library.tables,
+            bodies,
+            state.shapes,
+            pairs,
+            len(pairs),
+            state.tolerances.slop,
+            state.effects.one_way,
+            sweeper.paths,
+            sweeper.cuts,
+            sweeper.turning,
+            moves,
+            state.work,
+        ):
+            break
+        state.work[CAP_HITS] += rounds == PUSH_ROUNDS - 1
+    rows = stopped[moves[stopped].any(axis=1)]
+    if not len(rows):
+        return False
+    place_shapes(state)
+    shift_freely(state, rows, moves[rows])
+    return True
+
+
+def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
+    """Shift bodies by (n, 2) [px], each as far as nothing that stands is in the way; arrived: nor what is kinematic,
+    which has come to where it ends the step."""
+    sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
+    sweeper.grow(state)
+    fractions = bodies["fraction"][rows]
+    placed = awake if arrived else rows
+    for column, name in enumerate(("center_x", "center_y", "angle")):
+        sweeper.paths[placed, column] = sweeper.paths[placed, 3 + column] = bodies[name][placed]
+    sweeper.paths[rows, 3:5] += moves
+    sweeper.fast[awake] = False
+    sweeper.fast[rows] = True
+    bodies["fraction"][rows] = 1.0
+    walls = _look(state, 0, strict=True)
+    stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
+    moves = moves * bodies["fraction"][rows][:, None]
+    for column, axis in enumerate("xy"):
+        bodies[axis][rows] += moves[:, column]
+        bodies[f"center_{axis}"][rows] += moves[:, column]
+    bodies["fraction"][rows] = fractions
 
 
 def _tell(state, met):

@@ -16,11 +16,18 @@ BIAS = 0.1  # of the slop: how much nearer another face must be to take over fro
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Manifolds at the present poses, with how fast their sides approach."""
+    """Manifolds at the present poses, with how fast their sides approach; state.manifolds: those before."""
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
     manifolds = narrow.collide(
-        state.library.tables, state.bodies, state.shapes, state.pairs.rows, slop, state.work, bias=BIAS * slop
+        state.library.tables,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows,
+        slop,
+        state.work,
+        bias=BIAS * slop,
+        previous=state.manifolds,
     )
     measure_approach(state.bodies, manifolds)
     return manifolds
@@ -28,7 +35,7 @@ def detect(state: StepState) -> np.ndarray:
 
 @stage(
     "narrow_phase",
-    reads=("tolerances", "bodies", "shapes", "library", "pairs", "workspace"),
+    reads=("tolerances", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
     writes=("manifolds", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
@@ -57,7 +64,8 @@ def detect_piles(state: StepState) -> None:
         state.work,
         which=SOLIDS,
         bias=BIAS * tolerances.slop,
-        memory=(previous, state.anchors),
+        previous=previous,
+        anchors=state.anchors,
         recycle=tolerances.recycle,
     )
     anchors = state.workspace.anchors_for(len(manifolds))

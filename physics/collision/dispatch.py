@@ -141,14 +141,15 @@ class NarrowPhase:
         work: np.ndarray,
         which: int = ALL,
         bias: float = 0.0,
-        memory: tuple[np.ndarray, np.ndarray] | None = None,
+        previous: np.ndarray | None = None,
+        anchors: np.ndarray | None = None,
         recycle: float = 0.0,
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
         candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
-        which: see classify; bias [px]: see hulls.collide_hulls. memory: (manifolds, anchors) of the step before, used
-        again where nothing moved by more than `recycle` [px].
+        which: see classify; bias [px]: see hulls.collide_hulls. previous: manifolds of the step before, which tell who
+        stood on one-way tiles; with their anchors they are used again where nothing moved by more than `recycle` [px].
         """
         count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw
@@ -161,10 +162,11 @@ class NarrowPhase:
             return self.raw[:found]
         classify(bodies, shapes, candidates, count, margin, which, self.kinds, self.counts, work)
         again, workspace = 0, self.workspace
-        if memory is not None and len(memory[0]):
-            again = self._recycle(batch, memory, recycle)
+        if previous is not None and len(previous):
+            if anchors is not None:
+                again = self._recycle(batch, previous, anchors, recycle)
             if self.one_way and self.counts[GRID_ANY]:
-                workspace = self._remember(batch, memory[0])
+                workspace = self._remember(batch, previous)
         used = [run for kinds, run in self.passes if any(self.counts[kind] for kind in kinds)]
 
         def run_all():
@@ -181,9 +183,8 @@ class NarrowPhase:
         place_in_order(self.raw, found, count, self.kinds, self.ordered)
         return self.ordered[:found]
 
-    def _recycle(self, batch, memory, distance) -> int:
+    def _recycle(self, batch, previous, anchors, distance) -> int:
         """Use manifolds of the step before again, at the beginning of `raw`. Returns their number."""
-        previous, anchors = memory
         if len(previous) > len(self.raw):
             self.raw = np.zeros(2 * len(previous), MANIFOLD)
         return recycle_manifolds(batch, previous, anchors, distance, self.kinds, self.counts, self.raw)

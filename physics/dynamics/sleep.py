@@ -18,7 +18,7 @@ from physics.dynamics.sleepers import Island, order_of
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.settings import SLEEP_TIME
-from physics.tables.body import DYNAMIC
+from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import EVENT
 from physics.tables.counters import ISLANDS
 from physics.tables.manifold import ANCHOR
@@ -156,6 +156,34 @@ def find_disturbed(
     return found
 
 
+@kernel
+def find_run_over(
+    # read
+    bodies,
+    shapes,
+    pairs,
+    dt,
+    # write
+    rows_out,
+):
+    """List the sleeping bodies that a kinematic one may jump over within dt [s]. Returns their number. O(pairs).
+
+    pairs (n, 2) int64: shape rows whose motion rectangles meet; rows_out (n,) int64; one may be named twice.
+    """
+    found = 0
+    for i in range(len(pairs)):
+        for side in range(2):
+            k = shapes[pairs[i, side]].body_row
+            b = bodies[k]
+            row = shapes[pairs[i, 1 - side]].body_row
+            if b.kind != KINEMATIC or not b.active or bodies[row].kind != DYNAMIC or bodies[row].awake:
+                continue
+            if dt * (length_of(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.smallest_half:
+                rows_out[found] = row
+                found += 1
+    return found
+
+
 @stage(
     "wake",
     reads=("bodies", "shapes", "manifolds", "anchors", "awake", "sleepers", "pairs", "touching", "sensing", "dt"),
@@ -189,6 +217,11 @@ def wake_disturbed(state: StepState) -> None:
     near = np.empty(2 * len(state.manifolds), np.int64)
     near = near[: find_disturbed(bodies, state.manifolds, state.dt, near)]
     keys |= set(bodies["island"][near].tolist())
+    if len(fixed):
+        pairs = state.pairs.rows
+        near = np.empty(len(pairs), np.int64)
+        near = near[: find_run_over(bodies, state.shapes, pairs, state.dt, near)]
+        keys |= set(bodies["island"][near].tolist())
     wake(state, keys)
 
 

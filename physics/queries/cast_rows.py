@@ -2,9 +2,9 @@
 
 import math
 
-from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN
+from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, advance
 from physics.ccd.closed_form import MISS
-from physics.ccd.rotational import sweep_at
+from physics.ccd.rotational import place_mover
 from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
 from physics.jit import kernel
 from physics.proximity.gjk import BX, BY, NX, NY, ROUNDS
@@ -101,10 +101,11 @@ def cast_hull_at_rows(
         if s.kind == TILES:
             fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, workspace)
         elif s.kind == CHAIN:
-            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, 0.0, workspace)
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
-            fraction, _ = sweep_at(count, radius, n, rounding(shapes, rows[k]), 0.0, 0.0, workspace)
+            place_mover(count, workspace)
+            fraction = advance(count, radius, n, rounding(shapes, rows[k]), workspace.advance)
             nx = -r.gap.gap[NX]
             ny = -r.gap.gap[NY]
         work_inout[GJK_ITERATIONS] += int(r.totals[0])

@@ -1,21 +1,26 @@
 """The plain loop of a first game: no overlap, move; else stay where you were.
 
-Differs from `projection` in that nothing is pushed: a mover that would overlap keeps its old pose and loses the speed
-towards what is in its way. Every body that stays may be in the way of another, so the test is repeated until nobody
-new has to stay: at most once per body, usually two or three rounds.
+Differs from `projection` in that nothing is pushed but by what is kinematic, which waits for nobody: a mover that
+would overlap keeps its old pose and loses the speed towards what is in its way. Every body that stays may be in the
+way of another, so the test is repeated until nobody new has to stay: at most once per body, usually two or three
+rounds.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
+from physics.ccd.impacts import list_paths
+from physics.ccd.sweep import push_stopped
 from physics.collision.approach import closing_speed
 from physics.collision.detect import detect
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
+from physics.math2d import turned
 from physics.solver.pushes import PushSet
-from physics.tables.body import DYNAMIC
+from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.counters import SOLVER_ROWS
 from physics.tables.step_state import StepState, stage
 
@@ -48,11 +53,12 @@ def stay_behind(
         for side in range(2):
             b = bodies_inout[m.body_row_a if side == 0 else m.body_row_b]
             if b.kind == DYNAMIC and (b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle):
-                b.center_x += b.previous_x - b.x
-                b.center_y += b.previous_y - b.y
                 b.x = b.previous_x
                 b.y = b.previous_y
                 b.angle = b.previous_angle
+                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                b.center_x = b.x + u
+                b.center_y = b.y + v
                 m.swept = True
                 put_back += 1
     return put_back
@@ -96,6 +102,28 @@ def _advance(bodies, manifolds, anchors):
         manifolds[f"separation_{k}"] += manifolds["normal_x"] * moved_x + manifolds["normal_y"] * moved_y
 
 
+def _make_way(state, stayed):
+    """Have kinematic bodies push ahead of them what stayed behind, and what they are in, from where it was before.
+
+    stayed: MANIFOLD rows that stopped somebody.
+    """
+    bodies, manifolds, sweeper = state.bodies, state.manifolds, state.workspace.sweep
+    overlaps = (manifolds["separation_1"] < 0.0) | ((manifolds["count"] == 2) & (manifolds["separation_2"] < 0.0))
+    met = np.concatenate([manifolds[overlaps & ~manifolds["sensor"]], stayed])
+    rows = np.union1d(met["body_row_a"], met["body_row_b"])
+    rows = rows[bodies["kind"][rows] == DYNAMIC]
+    moving = state.awake.bodies
+    if not len(rows) or not (bodies["kind"][moving] == KINEMATIC).any():
+        return
+    sweeper.grow(state)
+    list_paths(moving, bodies, sweeper.paths)
+    bodies["fraction"][rows] = 0.0
+    if push_stopped(state, rows):
+        place_shapes(state)
+        state.manifolds = detect(state)
+    bodies["fraction"][rows] = 1.0
+
+
 def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     """Put back whoever would overlap, until nobody does. Returns the step [s]. It needs no rows but the manifolds."""
     bodies, stopped, anchors = state.bodies, [], []
@@ -110,6 +138,7 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
         anchors.append(seen[met])
         place_shapes(state)
         state.manifolds = detect(state)
+    _make_way(state, np.concatenate([state.manifolds[:0], *stopped]))
     stop_approach(bodies, state.manifolds)
     if stopped:
         met = np.concatenate(stopped)
@@ -128,7 +157,7 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
         "library",
         "work",
         "workspace",
-        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "vx", "vy")),
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "vx", "vy", "fraction")),
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
