@@ -104,6 +104,8 @@ def carry_one(me, row, along_x, box, walk_inout):
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
     c.carried = 0
+    if walk_inout.bodies[c.body_row].quarantined:
+        return
     way = box[4] if c.riding == s.body else way_clear(me, row, along_x, box, walk_inout)
     if way == 0:
         return
@@ -212,10 +214,8 @@ def carry_characters(state: StepState) -> None:
     if len(moved):
         # All boxes, also those of what carries them: feet stand on boxes.
         refresh_aabbs(state.awake.shapes, state.library.tables, bodies, shapes)
-        rows = np.flatnonzero(np.isin(shapes["body_row"], moved))
-        rows = rows[shapes["proxy"][rows] >= 0]
-        state.pairs.widen(shapes[rows], state.tolerances.slop)
-        state.pairs.update(state.broadphase, shapes, len(rows), state.work)
+        widened = state.pairs.widen(shapes[np.isin(shapes["body_row"], moved)], state.tolerances.slop)
+        state.pairs.update(state.broadphase, shapes, widened, state.work)
 
 
 @stage(

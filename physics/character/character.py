@@ -131,7 +131,8 @@ class Character:
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
 
-        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope.
+        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope. While its
+        body is quarantined it stays and touches nothing.
         """
         world = self.world
         world._unlocked()
@@ -139,6 +140,8 @@ class Character:
         drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
+        if self.body._row["quarantined"]:
+            return Moved(0, 0, False, 0, 0.0, None, False)
         rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])

@@ -44,7 +44,8 @@ def take_back(characters_inout, bodies_inout):
     """Put the bodies of characters, which the solver has moved along, back where their boxes are. O(characters)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
-        place_body(c, bodies_inout[c.body_row])
+        if not bodies_inout[c.body_row].quarantined:
+            place_body(c, bodies_inout[c.body_row])
         c.push_vx = 0.0
         c.push_vy = 0.0
 
@@ -110,6 +111,8 @@ def ride_bodies(walk_inout):
         for me in range(len(walk_inout.characters)):
             c = walk_inout.characters[me]
             c.carried = 0
+            if walk_inout.bodies[c.body_row].quarantined:
+                continue
             row = loose_under(walk_inout, me)
             way = pixels_carried(me, row, along_x, walk_inout)
             if way != 0:
@@ -118,7 +121,7 @@ def ride_bodies(walk_inout):
                 c.carried = carried_by(way, stopped)
         carry_riders(along_x, walk_inout)
     for me in range(len(walk_inout.characters)):
-        if loose_under(walk_inout, me) >= 0:
+        if loose_under(walk_inout, me) >= 0 and not walk_inout.bodies[walk_inout.characters[me].body_row].quarantined:
             step_down(me, walk_inout)
 
 
@@ -171,6 +174,8 @@ def give_way(walk_inout):
         c.wedged = False
         before = c.deep
         c.deep = 0.0
+        if walk_inout.bodies[c.body_row].quarantined:
+            continue
         gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
         for k in range(1, walk_inout.found[0] + 1):
             if walk_inout.found[k] < 0:
