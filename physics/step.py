@@ -46,40 +46,45 @@ def sound_rectangles(state: StepState) -> None:
     motion_rectangles(state)
 
 
-def plan(effects: Effects, solver: str) -> tuple[Stage, ...]:
-    """The stages that these effects call for, in order."""
+def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage, ...]:
+    """The stages that these effects call for, in order; characters: whether there are any."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
         stages = (
             (list_awake, e.sleeping),
             (quarantine, True),
-            (bear_characters, True),
+            (bear_characters, characters),
             (motion_rectangles, True),
             (broad_phase, True),
             (detect_piles, True),
             (wake_disturbed, e.sleeping),
             (STACKING[solver], True),
             (sweep_piles, e.continuous),
-            (carry_characters, True),
+            (carry_characters, characters),
             (sense, e.sensors),
             (rest, e.sleeping),
             (events.tell, True),
         )
     else:
         stages = (
-            (bear_characters, e.stacking),  # under another solver for the moment
+            (bear_characters, e.stacking and characters),  # under another solver for the moment
             (integrate_velocities, forces),
             (sound_rectangles, True),
             (broad_phase, True),
             (foresee_impacts, e.continuous),
             (integrate_positions, True),
-            (carry_characters, e.response),
+            (carry_characters, e.response and characters),
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
             (events.tell, True),
         )
     return tuple(each for each, wanted in stages if wanted)
+
+
+def plans(effects: Effects, solver: str) -> tuple[tuple[Stage, ...], tuple[Stage, ...]]:
+    """The stages of a world while it has no character, and while it has some."""
+    return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:

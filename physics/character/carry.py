@@ -180,6 +180,7 @@ def carry_all(
     writes=(
         "characters",
         "manifolds",
+        "awake",  # its room for the shapes of what has moved
         "pairs",
         "broadphase",
         "library",
@@ -191,13 +192,8 @@ def carry_all(
     ),
 )
 def carry_characters(state: StepState) -> None:
-    """Moving solids take characters along, and push them; nothing in a world without any.
-
-    Those that were moved meet others in this very step.
-    """
+    """Moving solids take characters along, and push them. Those that were moved meet others in this very step."""
     characters = state.characters
-    if not len(characters):
-        return
     bodies, shapes = state.bodies, state.shapes
     find_own_rows(bodies, shapes, characters)
     own = characters["body_row"]
@@ -251,8 +247,6 @@ def carry_characters(state: StepState) -> None:
 def bear_characters(state: StepState) -> None:
     """Before a step: characters weigh on what they ride, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies
-    if not len(characters):
-        return
     if state.effects.sleeping:
         own = bodies[characters["body_row"]]
         new = characters["riding"] != characters["pressed"]

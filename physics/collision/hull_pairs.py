@@ -12,7 +12,7 @@ from physics.collision.hulls import collide_hull_circle, collide_hulls, passes_b
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, add_point, add_points, circle_at, corners_of
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, polygon_at, rounding
-from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
+from physics.tables.counters import SENSOR_TESTS
 from physics.tables.shape import BOUNDS, CIRCLE
 
 
@@ -180,7 +180,6 @@ def collide_boxes(
         b = shapes[candidates[i, 1]]
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        work_inout[NARROW_TESTS] += 1
         if a.sensor or b.sensor:
             work_inout[SENSOR_TESTS] += 1
         a_left, a_top, a_right, a_bottom = aabb_at(geometry, shapes, candidates[i, 0], p.x, p.y, p.angle)
