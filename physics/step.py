@@ -15,6 +15,7 @@ from physics.character.carry import bear_characters, carry_characters
 from physics.character.workspace import new_scratch
 from physics.collision.detect import detect_ended, detect_piles, sense
 from physics.collision.dispatch import NarrowPhase
+from physics.collision.final_poses import settle_contacts
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
 from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
@@ -62,6 +63,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage,
             (STACKING[solver], True),
             (sweep_piles, e.continuous),
             (carry_characters, characters),
+            (settle_contacts, True),
             (sense, e.sensors),
             (rest, e.sleeping),
             (events.tell, True),

@@ -208,9 +208,9 @@ def carry_characters(state: StepState) -> None:
     carry_all(np.unique(near), walk_for(state, characters, near, spans, state.dt))
     moved = own[before != bodies[own][["x", "y"]]]
     if len(moved):
-        # All boxes, also those of what carries them: feet stand on boxes.
-        refresh_aabbs(state.awake.shapes, state.library.tables, bodies, shapes)
-        widened = state.pairs.widen(shapes[np.isin(shapes["body_row"], moved)], state.tolerances.slop)
+        rows = np.flatnonzero(np.isin(shapes["body_row"], moved))
+        refresh_aabbs(rows, state.library.tables, bodies, shapes)
+        widened = state.pairs.widen(shapes[rows], state.tolerances.slop)
         state.pairs.update(state.broadphase, shapes, widened, state.work)
 
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import refresh_centers
 from physics.jit import kernel
 from physics.math2d import turned
@@ -228,11 +227,10 @@ class Motions:
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
     def scatter(self, state: StepState) -> None:
-        """Write the bodies back, and carry their manifolds along."""
+        """Write the bodies back."""
         rows, bodies = state.awake.bodies, state.bodies
         scatter_motions(rows, self.used, self.motion_of, bodies)
         refresh_centers(rows, bodies)
-        follow_bodies(bodies, state.anchors, state.manifolds)
         # Who was pushed round stands at an angle that was not foreseen.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 

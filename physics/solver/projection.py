@@ -7,6 +7,7 @@ starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the con
 from collections.abc import Callable, Sequence
 
 from physics.collision.approach import closing_speed
+from physics.collision.final_poses import recount
 from physics.dynamics.integrate import place_shapes
 from physics.jit import kernel, subkernel
 from physics.settings import PROJECTION_PASSES
@@ -153,3 +154,4 @@ def projection(state: StepState) -> None:
     if state.dt > 0.0:
         solve(state, state.workspace.sets)
         place_shapes(state)
+        recount(state)
