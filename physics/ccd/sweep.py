@@ -18,8 +18,8 @@ from physics.ccd.impacts import (
 )
 from physics.ccd.linear import find_impacts_by_mode, stop_at_impacts
 from physics.ccd.rotational import new_rotational_workspace
-from physics.collision.approach import measure_approach
 from physics.collision.anchors import anchors_of
+from physics.collision.approach import measure_approach
 from physics.collision.detect import detect, touch_where_they_are
 from physics.collision.manifold import new_workspace
 from physics.dynamics.integrate import place_shapes
