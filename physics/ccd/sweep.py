@@ -133,7 +133,8 @@ def detect_moved(state: StepState) -> None:
     apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
     seen = np.isin(manifolds["candidate"], met["candidate"])
     manifolds["swept"][seen & nears] = True
-    manifolds = manifolds[~(seen & ~nears & apart)]
+    # Where nothing responds it may have ended inside, nearer to the far side.
+    manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
     state.manifolds = in_order(np.concatenate([manifolds, met]))
 
