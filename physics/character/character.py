@@ -27,7 +27,7 @@ class Moved(NamedTuple):
     grounded: on ground that it walks, or that holds it; wall: -1 solid at its left, 1 at its right; slope: rise of the
     ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides down;
     riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
-    move, and left no room.
+    move and left no room, in every move until that is out of it.
     """
 
     x: int
@@ -145,7 +145,6 @@ class Character:
         rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])
-        rows["squeezed"][me] = False
         walk(me, dx, dy, self._walk(me, dx, dy), world.workspace.walked)
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None

@@ -2,10 +2,9 @@
 
 import math
 
-from physics.character.chains_and_masks import deepest_link
 from physics.character.climb import drop_onto
+from physics.character.crush import depth_in, is_crushed
 from physics.character.ground import FEET, is_walkable
-from physics.character.meet import meet, place_outline
 from physics.character.push import foot_of
 from physics.character.shift import GIVE, carried_by, carry_riders, shift
 from physics.character.solids import gather, is_loose
@@ -15,7 +14,6 @@ from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.tables.body import DYNAMIC
 from physics.tables.rows import row_of
-from physics.tables.shape import CHAIN
 
 
 @subkernel
@@ -126,17 +124,6 @@ def ride_bodies(walk_inout):
 
 
 @subkernel
-def depth_in(me, row, walk_inout):
-    """(depth [px], normal from the character) of a character where it is, in a loose shape."""
-    c = walk_inout.characters[me]
-    if walk_inout.shapes[row].kind == CHAIN:
-        return deepest_link(walk_inout, me, row, c.left, c.top)
-    count, radius = place_outline(walk_inout, me, c.left, c.top)
-    depth, nx, ny, x, y = meet(walk_inout, row, count, radius)
-    return depth, nx, ny
-
-
-@subkernel
 def move_out(me, row, walk_inout):
     """Move a character out of one loose shape, as far as nothing keeps it, and note how deep it stays."""
     c = walk_inout.characters[me]
@@ -164,10 +151,10 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of the loose bodies that came into them; squeezed are those in deep, and not less so.
+    """Move characters out of the loose bodies that came into them; squeezed are those in which something stays.
 
     walk_inout: a Walk for the step. What has just fallen into one is deep for a moment, until the solver has pushed it
-    out. O(characters · solids near).
+    out: it squeezes when it is no less deep after that. O(characters · solids near).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -180,5 +167,5 @@ def give_way(walk_inout):
         for k in range(1, walk_inout.found[0] + 1):
             if walk_inout.found[k] < 0:
                 move_out(me, -1 - walk_inout.found[k], walk_inout)
-        if before > GIVE and c.deep >= before:
+        if (before > GIVE and c.deep >= before) or is_crushed(me, False, walk_inout):
             c.squeezed = True
