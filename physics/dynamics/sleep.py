@@ -15,7 +15,7 @@ import numpy as np
 from physics.dynamics.awake import is_active, list_active
 from physics.dynamics.graph import join, root_of
 from physics.dynamics.sleepers import Island, order_of
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.math2d import length_of
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC
@@ -220,6 +220,15 @@ def list_edges(
     return found
 
 
+@subkernel
+def is_pressed(manifold):
+    """Whether two sides touch or push each other: near ones have not met yet."""
+    m = manifold
+    if m.separation_1 <= 0.0 or m.normal_impulse_1 > 0.0:
+        return True
+    return m.count == 2 and (m.separation_2 <= 0.0 or m.normal_impulse_2 > 0.0)
+
+
 @kernel
 def start_islands(rows, parents_out):
     """Each of the rows an island of its own. O(rows)."""
@@ -232,9 +241,11 @@ def fall_asleep(
     # read
     rows,
     manifolds,
+    anchors,
     dt,
     slow,
     patience,
+    conveyor,
     # write
     parents_inout,
     least_out,
@@ -243,7 +254,8 @@ def fall_asleep(
     """Put the islands to sleep of which every body has been slow [px/s] for `patience` [s]. Returns (islands of dynamic
     bodies that were awake, bodies that fell asleep).
 
-    What touches a kinematic body on its way stays awake. rows: the awake ones; parents_inout: see graph.join; least_out
+    What touches a kinematic body on its way stays awake, and so does what is on a surface that runs, with conveyor 1,
+    however slowly. rows: the awake ones; parents_inout: see graph.join; least_out
     (bodies): scratch. O(rows + manifolds).
     """
     islands = 0
@@ -272,6 +284,9 @@ def fall_asleep(
             b.sleep_time = 0.0
         if b.kind != DYNAMIC and is_active(b):
             a.sleep_time = 0.0
+        if conveyor == 1 and anchors[i].surface_speed != 0.0 and is_pressed(m):
+            a.sleep_time = 0.0
+            b.sleep_time = 0.0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         root = parents_inout[rows[k]]
@@ -309,7 +324,19 @@ class IslandWorkspace:
 
 @stage(
     "islands",
-    reads=("bodies", "shapes", "manifolds", "anchors", "awake", "sleepers", "pairs", "tolerances", "dt", "workspace"),
+    reads=(
+        "effects",
+        "bodies",
+        "shapes",
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+        "pairs",
+        "tolerances",
+        "dt",
+        "workspace",
+    ),
     writes=(
         "manifolds",
         "anchors",
@@ -341,7 +368,16 @@ def rest(state: StepState) -> None:
     start_islands(rows, search.parents)
     join(search.edges, list_edges(bodies, manifolds, state.anchors, search.edges), search.parents)
     state.work[ISLANDS], slept = fall_asleep(
-        rows, manifolds, state.dt, state.tolerances.sleep_speed, SLEEP_TIME, search.parents, search.least, bodies
+        rows,
+        manifolds,
+        state.anchors,
+        state.dt,
+        state.tolerances.sleep_speed,
+        SLEEP_TIME,
+        int(state.effects.conveyor),
+        search.parents,
+        search.least,
+        bodies,
     )
     if not slept:
         return
