@@ -126,11 +126,15 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
             )
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
+            r.calm = m.speed_1 <= 0.0 and (m.count == 1 or m.speed_2 <= 0.0)
+            r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
             r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
             r.rolling_limit = c.rolling_resistance if friction else 0.0
             turning = a.inverse_inertia + b.inverse_inertia
             r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
             r.rolling_impulse = h * c.rolling_force
+            r.push_impulse_1 = 0.0
+            r.push_impulse_2 = 0.0
             r.normal_impulse_2 = 0.0  # the rows are used again: a manifold of one point has no second
             r.tangent_impulse_2 = 0.0
             r.normal_total_2 = 0.0

@@ -1,7 +1,8 @@
 """Small substeps with soft contacts: each substep is solved once with a spring that pushes overlaps out, then relaxed.
 
-Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that the speed which
-lets an overlap out is taken away again before it can do harm (relaxation). Cost per substep: three passes over the
+Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a contact gives way
+as a spring does. What lets an overlap out moves the bodies, no faster than the push-out speed, and is none of their
+velocity. Cost per substep: three passes over the
 constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
 Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
 """
@@ -11,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, PUSH_SHARE, STILL_STIFFNESS
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
@@ -52,6 +53,14 @@ def normal_change(
         return max(impulse - mass * speed, 0.0)
     bias = max(mass_scale * bias_rate * separation, -push_speed)
     return max(impulse - mass * (mass_scale * speed + bias) - impulse_scale * impulse, 0.0)
+
+
+@subkernel
+def let_out(speed, separation, mass, inverse_h, push_speed):
+    """Impulse that lets an overlap out, at push_speed [px/s] at most: PUSH_SHARE of it in a substep."""
+    if separation > 0.0:
+        return max(-mass * (speed + separation * inverse_h), 0.0)
+    return max(mass * (min(PUSH_SHARE * inverse_h * -separation, push_speed) - speed), 0.0)
 
 
 @subkernel
@@ -109,10 +118,14 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if rotation:
                 speed_1 += wb * b_1 - wa * a_1
                 speed_2 += wb * b_2 - wa * a_2
+            real_1 = speed_1
+            real_2 = speed_2
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
             soft_now = biased and (old_1 + old_2 > 0.0 or (speed_1 >= 0.0 and (r.count == 1 or speed_2 >= 0.0)))
+            # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
+            free = soft_now and r.calm and old_1 + old_2 == 0.0
             impulse_1 = normal_change(
                 speed_1,
                 gap_1,
@@ -126,6 +139,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 push_speed * r.push_share,
             )
             impulse_2 = old_2
+            gap_2 = gap_1
+            k_12 = 0.0
             if r.count == 2:
                 gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
                 k_12 = masses
@@ -160,6 +175,30 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                         impulse_scale,
                         push_speed * r.push_share,
                     )
+            if free:
+                impulse_1 = 0.0
+                impulse_2 = 0.0
+                pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
+                total = real_1 + pushed
+                if rotation:
+                    total += b.push_w * b_1 - a.push_w * a_1
+                push_1 = let_out(total, gap_1, r.normal_mass_1, inverse_h, push_speed)
+                push_2 = 0.0
+                if r.count == 2:
+                    total = real_2 + pushed + k_12 * push_1
+                    if rotation:
+                        total += b.push_w * b_2 - a.push_w * a_2
+                    push_2 = let_out(total, gap_2, r.normal_mass_2, inverse_h, push_speed)
+                if push_1 + push_2 > 0.0:
+                    x = (push_1 + push_2) * nx
+                    y = (push_1 + push_2) * ny
+                    a.push_vx -= a.inverse_mass * x
+                    a.push_vy -= a.inverse_mass * y
+                    b.push_vx += b.inverse_mass * x
+                    b.push_vy += b.inverse_mass * y
+                    if rotation:
+                        a.push_w -= a.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
+                        b.push_w += b.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if not biased:
@@ -244,7 +283,7 @@ def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
             each.warm_start(motions, rotation)
         for each in sets:
             each.solve(motions, BIASED[each.name][rotation], 1.0 / h, push_speed, soft, soft_still)
-        positions(h, motions.used)
+        positions(h, push_speed, motions.used)
         for each in sets:
             each.solve(motions, RELAXING[each.name][rotation, friction], 1.0 / h, push_speed, soft, soft_still)
     for each in sets:
