@@ -15,8 +15,8 @@ class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
     `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be
-    awake; pairs of which neither side is awake are not kept. Slots are handed in as shapes have them: -1 of a shape that
-    is in no broad phase, because its body is quarantined, is passed over.
+    awake; pairs of which neither side is awake are not kept. Slots are handed in as shapes have them: the -1 of a shape
+    whose body is quarantined is passed over.
     """
 
     def __init__(self, sleeping: bool = False) -> None:

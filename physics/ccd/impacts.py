@@ -334,7 +334,8 @@ def write_impacts(
     """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
     impacts (n, 5): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the
-    two boxes, or where a ray met the other. With response 1 the separation is that at the final poses: what a side went on by after the impact.
+    two boxes, or where a ray met the other. With response 1 the separation is that at the final poses: what a side went
+    on by after the impact.
     """
     found = 0
     for i in range(count):

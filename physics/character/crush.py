@@ -38,8 +38,10 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Whether something that moves stands in a character by more than what is loose may; all_kinds: also what the solver
-    pushes on, else only what goes its way by itself. O(solids near)."""
+    """Whether something that moves stands in a character by more than what is loose may. O(solids near).
+
+    all_kinds: also what the solver pushes on, else only what goes its way by itself.
+    """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
         loose = walk_inout.found[k] < 0

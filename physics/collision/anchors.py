@@ -1,4 +1,4 @@
-"""What the points of a manifold are fastened to: places in the body spaces of its sides, and what its normal turns with.
+"""What a manifold is fastened to: places of its points in the body spaces of its sides, and what its normal turns with.
 
 From the anchors, points, normal and separations follow at any pose (persist.follow), without detecting again. They are
 right to second order in the motion: a normal turns with the side whose face it is, and a point stays with the corner
@@ -65,7 +65,7 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(geometry, body, shape, corner, local_x, local_y):
-    """Whether a point [px] in a body's space is a corner, by its number, of a hull's core; the last is before the first."""
+    """Whether a point [px] in a body's space is a corner, by its number, of a hull's core; after the last the first."""
     span = geometry.polygons[shape.geometry]
     c = geometry.corners[span.offset + (corner if corner < span.count else 0)]
     return length_of(c.x - local_x, c.y - local_y) <= SAME * body.extent

@@ -27,7 +27,7 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
-    """Write points, normals and separations to manifolds that a sweep found, of pairs that it has put where they touch."""
+    """Write points, normals and separations to manifolds that a sweep found, where it has put their bodies."""
     found = state.workspace.narrow.collide(
         state.library.tables,
         state.bodies,

@@ -60,6 +60,27 @@ def prepare_pushes(
 
 
 @kernel
+def allow_pushes(pushes, push_speed, dt, pushed_out):
+    """Write how far each body may be pushed in this step: pushed_out (bodies, 3) moved so far x, y, at most [px].
+
+    At push_speed [px/s], however many push it; and as much further as what it meets comes nearer within dt [s], for that
+    is no old overlap. O(pushes).
+    """
+    for i in range(len(pushes)):
+        r = pushes[i]
+        for side in range(2):
+            row = r.body_row_a if side == 0 else r.body_row_b
+            pushed_out[row, 0] = 0.0
+            pushed_out[row, 1] = 0.0
+            pushed_out[row, 2] = push_speed * dt
+    for i in range(len(pushes)):
+        r = pushes[i]
+        for side in range(2):
+            row = r.body_row_a if side == 0 else r.body_row_b
+            pushed_out[row, 2] = max(pushed_out[row, 2], (push_speed + max(r.speed, 0.0)) * dt)
+
+
+@kernel
 def store_pushes(pushes, manifolds_inout):
     """Write the impulses back to the manifolds. O(pushes)."""
     for i in range(len(pushes)):
@@ -81,6 +102,7 @@ class PushSet:
     def __init__(self) -> None:
         self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
         self.rows = self.data[:0]
+        self.pushed = np.zeros((16, 3))  # see allow_pushes
 
     def prepare(self, state: StepState) -> None:
         """Fill the rows, and anchor the manifolds where they were detected."""
@@ -90,11 +112,14 @@ class PushSet:
         tables, conveyor = state.library.tables, int(state.effects.conveyor)
         found = prepare_pushes(tables, state.bodies, state.shapes, state.manifolds, conveyor, self.data)
         self.rows = self.data[:found]
+        if len(self.pushed) < len(state.bodies):
+            self.pushed = np.zeros((2 * len(state.bodies), 3))
+        allow_pushes(self.rows, state.tolerances.push_speed, state.dt, self.pushed)
         write_anchors(tables, state.bodies, state.shapes, state.manifolds, self.anchors)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
         """One pass of a solver over the rows."""
-        run(*settings, state.bodies, self.rows, state.work)
+        run(*settings, state.bodies, self.pushed, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
         """Write what was found back to the manifolds, and carry these to the final poses."""

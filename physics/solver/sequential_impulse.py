@@ -1,10 +1,9 @@
 """Sequential impulses: one step, several passes, contacts that remember, overlaps pushed out by a share per step.
 
-Differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: piles are livelier
-and sink by the slop. What lets an overlap out moves the bodies and is none of their velocity (split impulses): what has
-met without bounce stays together. Cost: ITERATIONS_PER_SUBSTEP passes over the constraints
-for each substep that soft_step would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and
-Box2D-Lite, 2006.
+Differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: piles are
+livelier and sink by the slop. What bears nothing is let out of an overlap by speeds of its own, which are none of its
+velocity (split impulses). Cost: ITERATIONS_PER_SUBSTEP passes over the constraints for each substep that soft_step
+would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
 import math

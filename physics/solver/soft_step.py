@@ -1,10 +1,10 @@
 """Small substeps with soft contacts: each substep is solved once with a spring that pushes overlaps out, then relaxed.
 
-Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a contact gives way
-as a spring does. What lets an overlap out moves the bodies, no faster than the push-out speed, and is none of their
-velocity. Cost per substep: three passes over the
-constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
-Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
+Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a loaded contact
+gives way as a spring does. What bears nothing is let out of an overlap by speeds of its own, which are none of its
+velocity. Cost per substep: three passes over the constraints, two over the bodies. Sources: Macklin et al., Small Steps
+in Physics Simulation, SCA 2019; Catto, Soft Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs,
+friction in the relaxing pass alone.
 """
 
 import math
