@@ -18,7 +18,8 @@ from physics.collision.dispatch import NarrowPhase
 from physics.collision.final_poses import settle_contacts
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
-from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
+from physics.dynamics.rest import IslandWorkspace, rest
+from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet

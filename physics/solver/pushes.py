@@ -63,8 +63,8 @@ def prepare_pushes(
 def allow_pushes(pushes, push_speed, dt, pushed_out):
     """Write how far each body may be pushed in this step: pushed_out (bodies, 3) moved so far x, y, at most [px].
 
-    At push_speed [px/s], however many push it; and as much further as what it meets comes nearer within dt [s], for that
-    is no old overlap. O(pushes).
+    At push_speed [px/s], however many push it; and as much further as what it meets comes nearer within dt [s]: that is
+    no old overlap. O(pushes).
     """
     for i in range(len(pushes)):
         r = pushes[i]

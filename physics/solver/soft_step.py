@@ -64,6 +64,41 @@ def let_out(speed, separation, mass, inverse_h, push_speed):
 
 
 @subkernel
+def let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a_inout, b_inout):
+    """Push two bodies apart at the points of a constraint row that bears nothing, by the speeds that only move them.
+
+    speeds [px/s] of their own and gaps [px] at both points; k_12: speed of one point per impulse on the other.
+    """
+    nx = r.normal_x
+    ny = r.normal_y
+    pushed = (b_inout.push_vx - a_inout.push_vx) * nx + (b_inout.push_vy - a_inout.push_vy) * ny
+    a_1 = r.ax_1 * ny - r.ay_1 * nx
+    b_1 = r.bx_1 * ny - r.by_1 * nx
+    a_2 = r.ax_2 * ny - r.ay_2 * nx
+    b_2 = r.bx_2 * ny - r.by_2 * nx
+    total = speed_1 + pushed
+    if rotation:
+        total += b_inout.push_w * b_1 - a_inout.push_w * a_1
+    push_1 = let_out(total, gap_1, r.normal_mass_1, inverse_h, push_speed)
+    push_2 = 0.0
+    if r.count == 2:
+        total = speed_2 + pushed + k_12 * push_1
+        if rotation:
+            total += b_inout.push_w * b_2 - a_inout.push_w * a_2
+        push_2 = let_out(total, gap_2, r.normal_mass_2, inverse_h, push_speed)
+    if push_1 + push_2 > 0.0:
+        x = (push_1 + push_2) * nx
+        y = (push_1 + push_2) * ny
+        a_inout.push_vx -= a_inout.inverse_mass * x
+        a_inout.push_vy -= a_inout.inverse_mass * y
+        b_inout.push_vx += b_inout.inverse_mass * x
+        b_inout.push_vy += b_inout.inverse_mass * y
+        if rotation:
+            a_inout.push_w -= a_inout.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
+            b_inout.push_w += b_inout.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
+
+
+@subkernel
 def turned_along(a, b, ax, ay, bx, by, nx, ny):
     """How far apart [px] along the normal the two arms reach, turned as their bodies since the step began."""
     x = (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay)
@@ -178,27 +213,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if free:
                 impulse_1 = 0.0
                 impulse_2 = 0.0
-                pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
-                total = real_1 + pushed
-                if rotation:
-                    total += b.push_w * b_1 - a.push_w * a_1
-                push_1 = let_out(total, gap_1, r.normal_mass_1, inverse_h, push_speed)
-                push_2 = 0.0
-                if r.count == 2:
-                    total = real_2 + pushed + k_12 * push_1
-                    if rotation:
-                        total += b.push_w * b_2 - a.push_w * a_2
-                    push_2 = let_out(total, gap_2, r.normal_mass_2, inverse_h, push_speed)
-                if push_1 + push_2 > 0.0:
-                    x = (push_1 + push_2) * nx
-                    y = (push_1 + push_2) * ny
-                    a.push_vx -= a.inverse_mass * x
-                    a.push_vy -= a.inverse_mass * y
-                    b.push_vx += b.inverse_mass * x
-                    b.push_vy += b.inverse_mass * y
-                    if rotation:
-                        a.push_w -= a.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
-                        b.push_w += b.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
+                let_out_both(r, real_1, real_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if not biased:

@@ -20,7 +20,7 @@ TOUCHES = 3.0  # [px] in a body that is no box, a character may be by its feet a
 
 
 def crushed(effects, hero, crusher, speed, down, stop, up, times=1):
-    """Per step: (told squeezed in all moves of it, in none, depth in the crusher [px], its lower side above the middle)."""
+    """Per step: (told squeezed in all moves, in none, depth in the crusher [px], its lower side above the middle)."""
     world = World(effects)
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     who = Character(world, HEROES[hero], (0, -10))
