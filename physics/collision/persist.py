@@ -58,11 +58,12 @@ def cut_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny):
 
 
 @subkernel
-def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
+def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
     """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other
     [px], by how much a separation differs from that at its detection [px]).
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
+    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; cut: whether what a
+    face's end cuts off wanders along the edge, which counts only where much has moved.
     """
     m = manifold_inout
     slid = 0.0
@@ -97,7 +98,11 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
         m.normal_y = ny + 0.0
         apart = dx * nx + dy * ny
         gap = apart
-        if m.count == 2 and ((anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0)):
+        if (
+            cut
+            and m.count == 2
+            and ((anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0))
+        ):
             sign = 1.0 if k == 0 else -1.0
             gap = cut_gap(
                 apart,
@@ -180,7 +185,7 @@ def recycle_manifolds(
                 m.previous = last
                 m.persisted_1 = True
                 m.persisted_2 = True
-                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, anchors[last], m)
+                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, anchors[last], False, m)
                 # What is round on both sides, or on one against a face, may turn as it likes.
                 turn = 0.0
                 if a.kind != CIRCLE and b.kind != CIRCLE:
@@ -321,4 +326,4 @@ def follow_bodies(
             row_b = m.body_row_b
             b_cosine = math.cos(b.angle)
             b_sine = math.sin(b.angle)
-        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], m)
+        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)
