@@ -8,7 +8,7 @@ from physics.checks import Pair
 from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
 from physics.profile import Profile
-from physics.step import SOLVERS, STACKING, Workspace, plan
+from physics.step import SOLVERS, STACKING, Workspace, plans
 from physics.tables.body import DYNAMIC
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.vec2 import Vec2
@@ -62,7 +62,7 @@ class Environment(WorldState):
         self._plan()
 
     def _plan(self):
-        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
+        self.workspace, self._plans = Workspace(self._effects, self._solver), plans(self._effects, self._solver)
         if (self.sensed is not None) != self.stacks:
             # The two kinds of worlds keep other facts of their contacts.
             self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)

@@ -14,11 +14,10 @@ class Profile:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.stages = dict.fromkeys(stages, 0.0)
 
-    def begin(self) -> None:
-        """Start a step: all to zero."""
+    def begin(self, stages: Iterable[str]) -> None:
+        """Start a step with these stages: all to zero."""
         self.work[:] = 0
-        for name in self.stages:
-            self.stages[name] = 0.0
+        self.stages = dict.fromkeys(stages, 0.0)
 
     @property
     def counters(self) -> dict[str, int]:

@@ -15,9 +15,11 @@ from physics.character.carry import bear_characters, carry_characters
 from physics.character.workspace import new_scratch
 from physics.collision.detect import detect_ended, detect_piles, sense
 from physics.collision.dispatch import NarrowPhase
+from physics.collision.final_poses import settle_contacts
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
-from physics.dynamics.sleep import IslandWorkspace, rest, wake_disturbed
+from physics.dynamics.rest import IslandWorkspace, rest
+from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
@@ -48,40 +50,46 @@ def sound_rectangles(state: StepState) -> None:
     motion_rectangles(state)
 
 
-def plan(effects: Effects, solver: str) -> tuple[Stage, ...]:
-    """The stages that these effects call for, in order."""
+def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage, ...]:
+    """The stages that these effects call for, in order; characters: whether there are any."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
         stages = (
             (list_awake, e.sleeping),
             (quarantine, True),
-            (bear_characters, True),
+            (bear_characters, characters),
             (motion_rectangles, True),
             (broad_phase, True),
             (detect_piles, True),
             (wake_disturbed, e.sleeping),
             (STACKING[solver], True),
             (sweep_piles, e.continuous),
-            (carry_characters, True),
+            (carry_characters, characters),
+            (settle_contacts, True),
             (sense, e.sensors),
             (rest, e.sleeping),
             (events.tell, True),
         )
     else:
         stages = (
-            (bear_characters, e.stacking),  # under another solver for the moment
+            (bear_characters, e.stacking and characters),  # under another solver for the moment
             (integrate_velocities, forces),
             (sound_rectangles, True),
             (broad_phase, True),
             (foresee_impacts, e.continuous),
             (integrate_positions, True),
-            (carry_characters, e.response),
+            (carry_characters, e.response and characters),
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
             (events.tell, True),
         )
     return tuple(each for each, wanted in stages if wanted)
+
+
+def plans(effects: Effects, solver: str) -> tuple[tuple[Stage, ...], tuple[Stage, ...]]:
+    """The stages of a world while it has no character, and while it has some."""
+    return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:
@@ -92,7 +100,7 @@ class Workspace:
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(effects.response, one_way, boxes_only)
         self.sensing = NarrowPhase(False, one_way, boxes_only) if stacks and effects.sensors else None
-        self.sweep = Sweeper() if effects.continuous else None
+        self.sweep = Sweeper() if effects.continuous or effects.response else None
         self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None
         self.sets = [ContactSet()] if stacks else [PushSet()]

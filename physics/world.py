@@ -27,7 +27,7 @@ from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.material import Material
 from physics.snapshot import Snapshot
-from physics.step import Workspace, begin, finish, plan
+from physics.step import Workspace, begin, finish, plans
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
 from physics.tables.manifold import ANCHOR, MANIFOLD
@@ -95,11 +95,11 @@ class World(Environment, Questions):
         self._plan()
 
     def __getstate__(self):
-        return {name: value for name, value in vars(self).items() if name not in ("workspace", "_stages")}
+        return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans")}
 
     def __setstate__(self, state):
         vars(self).update(state)
-        self.workspace, self._stages = Workspace(self._effects, self._solver), plan(self._effects, self._solver)
+        self.workspace, self._plans = Workspace(self._effects, self._solver), plans(self._effects, self._solver)
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -109,7 +109,7 @@ class World(Environment, Questions):
         Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
-        self.profile.begin()
+        self.profile.begin(self.stages)
         self._stepping = True
         try:
             state = begin(self, dt)

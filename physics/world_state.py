@@ -83,7 +83,7 @@ class WorldState:
     sleeps: bool
 
     _effects: Effects
-    _stages: tuple[Stage, ...]
+    _plans: tuple[tuple[Stage, ...], tuple[Stage, ...]]  # without characters, and with
     _stepping: bool
     _bodies: Table
     _given: Table  # GIVEN, beside the bodies
@@ -172,8 +172,13 @@ class WorldState:
         return self._effects
 
     @property
+    def _stages(self) -> tuple[Stage, ...]:
+        return self._plans[len(self.characters.rows) > 0]
+
+    @property
     def stages(self) -> list[str]:
-        """Names of the stages that the effects call for, in the order in which they run."""
+        """Names of the stages that the effects call for, in the order in which they run; those for characters are there
+        while there is one."""
         return [stage.stage for stage in self._stages]
 
     # --- what World, Body and editing ask for ------------------------------------------------------------------------

@@ -15,7 +15,8 @@ class PairList:
     """Proxies for the shapes of a world, and the sorted list of their pairs.
 
     `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be
-    awake; pairs of which neither side is awake are not kept.
+    awake; pairs of which neither side is awake are not kept. Slots are handed in as shapes have them: the -1 of a shape
+    whose body is quarantined is passed over.
     """
 
     def __init__(self, sleeping: bool = False) -> None:
@@ -83,6 +84,7 @@ class PairList:
 
     def set_awake(self, slots: np.ndarray, awake: bool) -> None:
         """Say whether slots are awake: the pairs of what wakes are found again, those of two that sleep are dropped."""
+        slots = slots[slots >= 0]
         self.proxies["awake"][slots] = awake
         if awake:
             known = slots[self.proxies["row"][slots] >= 0]  # what is new is listed by its rectangle
@@ -104,8 +106,9 @@ class PairList:
         self.proxies["row"][slots[there]] = there
         self.moved = True
 
-    def widen(self, shapes: np.ndarray, margin: float) -> None:
-        """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed."""
+    def widen(self, shapes: np.ndarray, margin: float) -> int:
+        """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed. Returns how many."""
+        shapes = shapes[shapes["proxy"] >= 0]  # what is quarantined has none
         slots = shapes["proxy"]
         for low, high, axis in (
             ("lower_x", "min_x", -1.0),
@@ -117,14 +120,17 @@ class PairList:
             self.proxies[low][slots] = pick(self.proxies[low][slots], shapes[high] + axis * margin)
         self.proxies["changed"][slots] = True
         self.room_for(len(slots))[: len(slots)] = slots
+        return len(slots)
 
     def set_filter(self, slots: np.ndarray, value: Filter) -> None:
         """Change the filter of slots."""
+        slots = slots[slots >= 0]
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
         self.touch(slots)
 
     def set_still(self, slots: np.ndarray, still: bool) -> None:
         """Change whether slots are static."""
+        slots = slots[slots >= 0]
         self.proxies["still"][slots] = still
         self.touch(slots)
 

@@ -13,7 +13,7 @@ from physics.ccd.rotational_pairs import stands_deep, sweep_rotational
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
-from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT
+from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT, TOI
 from physics.tables.counters import TOI_CALLS
 from physics.tables.shape import CHAIN, MASK, TILES
 
@@ -333,6 +333,28 @@ def move_back(
             b.y = b.center_y - v
 
 
+@subkernel
+def is_ray(body, other):
+    """Whether a body meets another with the ray from its middle: the other is not swept with its outline."""
+    return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
+
+
+@subkernel
+def impact_point(body, shape, side, nx, ny, fraction, flew_on):
+    """Where [px] a shape met another, towards side times the normal: the edge of its box, or the middle of a ray's.
+
+    Its box is that of the end of the step; flew_on: put back from there, where nothing has kept it.
+    """
+    reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
+    x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
+    y = 0.5 * (shape.min_y + shape.max_y) + reach * ny * 0.5 * (shape.max_y - shape.min_y)
+    if flew_on and body.fraction > fraction:
+        after = 1.0 - fraction / body.fraction
+        x -= after * (body.x - body.previous_x)
+        y -= after * (body.y - body.previous_y)
+    return x, y
+
+
 @kernel
 def write_impacts(
     # read
@@ -348,8 +370,9 @@ def write_impacts(
 ):
     """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
-    impacts (n, 6): candidate, fraction, normal, stops. The point is the edge, along the normal, of the smaller of the
-    two boxes. With response 1 the separation is that at the final poses: what a side went on by after the impact.
+    impacts (n, 6): candidate, fraction, normal, stops, feature. The point is the edge, along the normal, of the smaller
+    of the two boxes, or where a ray met the other. With response 1 the separation is that at the final poses: what a
+    side went on by after the impact.
     """
     found = 0
     for i in range(count):
@@ -364,10 +387,11 @@ def write_impacts(
         nx = impacts[i, 2]
         ny = impacts[i, 3]
         small_a = (a.max_x - a.min_x) + (a.max_y - a.min_y) <= (b.max_x - b.min_x) + (b.max_y - b.min_y)
+        if is_ray(p, q) or is_ray(q, p):
+            small_a = is_ray(p, q)
         s = a if small_a else b
-        side = 1.0 if small_a else -1.0
-        x = 0.5 * (s.min_x + s.max_x) + side * nx * 0.5 * (s.max_x - s.min_x)
-        y = 0.5 * (s.min_y + s.max_y) + side * ny * 0.5 * (s.max_y - s.min_y)
+        flew_on = response == 0 or a.sensor or b.sensor
+        x, y = impact_point(p if small_a else q, s, 1.0 if small_a else -1.0, nx, ny, impacts[i, 1], flew_on)
         separation = 0.0
         if response == 1:
             after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)

@@ -19,15 +19,15 @@ from physics.ccd.impacts import (
 from physics.ccd.linear import find_impacts, stop_at_impacts
 from physics.ccd.push_ahead import push_ahead
 from physics.ccd.rotational import new_rotational_workspace
+from physics.collision.anchors import anchors_of
 from physics.collision.approach import measure_approach
-from physics.collision.detect import detect
+from physics.collision.detect import detect, touch_where_they_are
 from physics.collision.manifold import new_workspace
-from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
-from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.manifold import MANIFOLD
 from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
@@ -148,7 +148,8 @@ def detect_moved(state: StepState) -> None:
     apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
     seen = np.isin(manifolds["candidate"], met["candidate"])
     manifolds["swept"][seen & nears] = True
-    manifolds = manifolds[~(seen & ~nears & apart)]
+    # Where nothing responds it may have ended inside, nearer to the far side.
+    manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
     state.manifolds = in_order(np.concatenate([manifolds, met]))
 
@@ -201,7 +202,6 @@ def sweep_piles(state: StepState) -> None:
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
         move_back(stopped, paths, bodies)
         push_stopped(state, stopped)
-        follow_bodies(bodies, state.anchors, state.manifolds)
         place_shapes(state)
     _tell(state, met)
 
@@ -322,8 +322,9 @@ def _tell(state, met):
     new = solid[~np.isin(keys, known)]
     if len(new):
         # The impact is told, with its impulse, by the contact of the next step.
-        new["speed_1"] = 0.0
+        touch_where_they_are(state, new)
+        new["speed_1"] = new["speed_2"] = 0.0
         both = np.concatenate([state.manifolds, new])
         order = order_of(both)
         state.manifolds = both[order]
-        state.anchors = np.concatenate([state.anchors, np.zeros(len(new), ANCHOR)])[order]
+        state.anchors = np.concatenate([state.anchors, anchors_of(state, new)])[order]

@@ -104,6 +104,8 @@ def carry_one(me, row, along_x, box, walk_inout):
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
     c.carried = 0
+    if walk_inout.bodies[c.body_row].quarantined:
+        return
     way = box[4] if c.riding == s.body else way_clear(me, row, along_x, box, walk_inout)
     if way == 0:
         return
@@ -178,6 +180,7 @@ def carry_all(
     writes=(
         "characters",
         "manifolds",
+        "awake",  # its room for the shapes of what has moved
         "pairs",
         "broadphase",
         "library",
@@ -189,13 +192,8 @@ def carry_all(
     ),
 )
 def carry_characters(state: StepState) -> None:
-    """Moving solids take characters along, and push them; nothing in a world without any.
-
-    Those that were moved meet others in this very step.
-    """
+    """Moving solids take characters along, and push them. Those that were moved meet others in this very step."""
     characters = state.characters
-    if not len(characters):
-        return
     bodies, shapes = state.bodies, state.shapes
     find_own_rows(bodies, shapes, characters)
     own = characters["body_row"]
@@ -210,12 +208,10 @@ def carry_characters(state: StepState) -> None:
     carry_all(np.unique(near), walk_for(state, characters, near, spans, state.dt))
     moved = own[before != bodies[own][["x", "y"]]]
     if len(moved):
-        # All boxes, also those of what carries them: feet stand on boxes.
-        refresh_aabbs(state.awake.shapes, state.library.tables, bodies, shapes)
         rows = np.flatnonzero(np.isin(shapes["body_row"], moved))
-        rows = rows[shapes["proxy"][rows] >= 0]
-        state.pairs.widen(shapes[rows], state.tolerances.slop)
-        state.pairs.update(state.broadphase, shapes, len(rows), state.work)
+        refresh_aabbs(rows, state.library.tables, bodies, shapes)
+        widened = state.pairs.widen(shapes[rows], state.tolerances.slop)
+        state.pairs.update(state.broadphase, shapes, widened, state.work)
 
 
 @stage(
@@ -251,8 +247,6 @@ def carry_characters(state: StepState) -> None:
 def bear_characters(state: StepState) -> None:
     """Before a step: characters weigh on what they ride, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies
-    if not len(characters):
-        return
     if state.effects.sleeping:
         own = bodies[characters["body_row"]]
         new = characters["riding"] != characters["pressed"]

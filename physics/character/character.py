@@ -27,7 +27,7 @@ class Moved(NamedTuple):
     grounded: on ground that it walks, or that holds it; wall: -1 solid at its left, 1 at its right; slope: rise of the
     ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides down;
     riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
-    move, and left no room.
+    move and left no room, in every move until that is out of it.
     """
 
     x: int
@@ -131,7 +131,8 @@ class Character:
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
 
-        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope.
+        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope. While its
+        body is quarantined it stays and touches nothing.
         """
         world = self.world
         world._unlocked()
@@ -139,10 +140,11 @@ class Character:
         drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
+        if self.body._row["quarantined"]:
+            return Moved(0, 0, False, 0, 0.0, None, False)
         rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])
-        rows["squeezed"][me] = False
         walk(me, dx, dy, self._walk(me, dx, dy), world.workspace.walked)
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None

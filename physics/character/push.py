@@ -102,6 +102,8 @@ def press(
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         b = bodies_inout[c.body_row]
+        if b.quarantined:
+            continue
         b.vx = c.push_vx
         b.vy = c.push_vy
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1

@@ -2,10 +2,9 @@
 
 import math
 
-from physics.character.chains_and_masks import deepest_link
 from physics.character.climb import drop_onto
+from physics.character.crush import depth_in, is_crushed
 from physics.character.ground import FEET, is_walkable
-from physics.character.meet import meet, place_outline
 from physics.character.push import foot_of
 from physics.character.shift import GIVE, carried_by, carry_riders, shift
 from physics.character.solids import gather, is_loose
@@ -15,7 +14,6 @@ from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.tables.body import DYNAMIC
 from physics.tables.rows import row_of
-from physics.tables.shape import CHAIN
 
 
 @subkernel
@@ -44,7 +42,8 @@ def take_back(characters_inout, bodies_inout):
     """Put the bodies of characters, which the solver has moved along, back where their boxes are. O(characters)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
-        place_body(c, bodies_inout[c.body_row])
+        if not bodies_inout[c.body_row].quarantined:
+            place_body(c, bodies_inout[c.body_row])
         c.push_vx = 0.0
         c.push_vy = 0.0
 
@@ -110,6 +109,8 @@ def ride_bodies(walk_inout):
         for me in range(len(walk_inout.characters)):
             c = walk_inout.characters[me]
             c.carried = 0
+            if walk_inout.bodies[c.body_row].quarantined:
+                continue
             row = loose_under(walk_inout, me)
             way = pixels_carried(me, row, along_x, walk_inout)
             if way != 0:
@@ -118,19 +119,8 @@ def ride_bodies(walk_inout):
                 c.carried = carried_by(way, stopped)
         carry_riders(along_x, walk_inout)
     for me in range(len(walk_inout.characters)):
-        if loose_under(walk_inout, me) >= 0:
+        if loose_under(walk_inout, me) >= 0 and not walk_inout.bodies[walk_inout.characters[me].body_row].quarantined:
             step_down(me, walk_inout)
-
-
-@subkernel
-def depth_in(me, row, walk_inout):
-    """(depth [px], normal from the character) of a character where it is, in a loose shape."""
-    c = walk_inout.characters[me]
-    if walk_inout.shapes[row].kind == CHAIN:
-        return deepest_link(walk_inout, me, row, c.left, c.top)
-    count, radius = place_outline(walk_inout, me, c.left, c.top)
-    depth, nx, ny, x, y = meet(walk_inout, row, count, radius)
-    return depth, nx, ny
 
 
 @subkernel
@@ -161,19 +151,21 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of the loose bodies that came into them; squeezed are those in deep, and not less so.
+    """Move characters out of the loose bodies that came into them; squeezed are those in which something stays.
 
     walk_inout: a Walk for the step. What has just fallen into one is deep for a moment, until the solver has pushed it
-    out. O(characters · solids near).
+    out: it squeezes when it is no less deep after that. O(characters · solids near).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
         c.wedged = False
         before = c.deep
         c.deep = 0.0
+        if walk_inout.bodies[c.body_row].quarantined:
+            continue
         gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
         for k in range(1, walk_inout.found[0] + 1):
             if walk_inout.found[k] < 0:
                 move_out(me, -1 - walk_inout.found[k], walk_inout)
-        if before > GIVE and c.deep >= before:
+        if (before > GIVE and c.deep >= before) or is_crushed(me, False, walk_inout):
             c.squeezed = True

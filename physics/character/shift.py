@@ -77,7 +77,7 @@ def carry_riders(along_x, walk_inout):
         for me in range(len(characters)):
             c = characters[me]
             under = character_of(characters, c.riding) if c.riding >= 0 and c.carried == 0 else -1
-            if under < 0 or characters[under].carried == 0:
+            if under < 0 or characters[under].carried == 0 or walk_inout.bodies[c.body_row].quarantined:
                 continue
             u = characters[under]
             stopped = shift(me, u.body_row, u.carried, along_x, walk_inout, walk_inout.found)

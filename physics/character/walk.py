@@ -8,6 +8,7 @@ impulses that it gives to the bodies it runs into and lands on.
 import math
 
 from physics.character.climb import drop_onto, is_wedged, slide_gently, slide_of, steep_below, way_aside
+from physics.character.crush import is_crushed
 from physics.character.feel import feel
 from physics.character.ground import FREE, STEEP, STEEPEST_CLIMB
 from physics.character.push import knock, shove
@@ -170,6 +171,9 @@ def walk(
     fall_or_rise(me, dy, walk_inout, moved_out)
     settle(me, walk_inout)
     feel(me, walk_inout)
+    if c.squeezed:
+        # Told; from now on for as long as what crushes it is in it.
+        c.squeezed = is_crushed(me, True, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
 

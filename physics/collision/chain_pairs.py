@@ -7,12 +7,13 @@ from physics.collision.chains import collide_link_circle, collide_link_hull, in_
 from physics.collision.features import part_feature
 from physics.collision.manifold import CHAIN_ANY, add_point, add_points
 from physics.collision.mask_hulls import collide_mask_polygon, thick_line
+from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
-from physics.shapes.placement import aabb_at, hull_at, polygon_aabb, polygon_at, rounding
+from physics.shapes.placement import hull_at, polygon_at, rounding
 from physics.tables.counters import MASK_TESTS
 from physics.tables.geometry import BLOCK_LINKS
-from physics.tables.shape import CHAIN, MASK, POLYGON
+from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON
 
 BACKING = 2.0  # [px] how thick a link is for masks, behind its front: a line has no area to share
 
@@ -71,14 +72,17 @@ def collide_chain_pairs(
         span = geometry.chains[shapes[row].geometry]
         cosine = math.cos(p.angle)
         sine = math.sin(p.angle)
+        min_x = o.min_x
+        min_y = o.min_y
+        max_x = o.max_x
+        max_y = o.max_y
+        n = 0
         if o.kind == POLYGON:
-            turn_x = math.cos(q.angle)
-            turn_y = math.sin(q.angle)
-            min_x, min_y, max_x, max_y = polygon_aabb(polygons, table, o.geometry, o.radius, q.x, q.y, turn_x, turn_y)
-            n = polygon_at(polygons, table, o.geometry, q.x, q.y, turn_x, turn_y, workspace.b)
-        else:
-            min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
-            n = 0 if o.kind == MASK else hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
+            n = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b)
+        elif o.kind == BOUNDS:
+            n = upright_corners(o, workspace.b)
+        elif o.kind != MASK:
+            n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
         # Some digits more than the margin: turning the box must not lose what touches.
         rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
         min_x, min_y, max_x, max_y = box_in_body(

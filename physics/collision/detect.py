@@ -7,11 +7,11 @@ from physics.collision.dispatch import SENSORS, SOLIDS
 from physics.collision.materials import mix_materials
 from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import in_order
-from physics.shapes.placement import refresh_aabbs
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
 
 NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
 BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
 
 
@@ -31,6 +31,27 @@ def detect(state: StepState) -> np.ndarray:
     )
     measure_approach(state.bodies, manifolds)
     return manifolds
+
+
+def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
+    """Write points, normals and separations to manifolds that a sweep found, where it has put their bodies."""
+    found = state.workspace.narrow.collide(
+        state.library.tables,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows[met["candidate"]],
+        state.tolerances.slop,
+        state.work,
+        bias=BIAS * state.tolerances.slop,
+    )
+    pair = found["candidate"]
+    alike = met["normal_x"][pair] * found["normal_x"] + met["normal_y"][pair] * found["normal_y"]
+    # Where a pair touches in several places, what the sweep met is that with its normal.
+    best = np.lexsort((-alike, pair))
+    best = best[np.unique(pair[best], return_index=True)[1]]
+    best = best[alike[best] > 0.0]
+    for name in PLACE:
+        met[name][pair[best]] = found[name][best]
 
 
 @stage(
@@ -69,7 +90,7 @@ def detect_piles(state: StepState) -> None:
         recycle=tolerances.recycle,
     )
     anchors = state.workspace.anchors_for(len(manifolds))
-    carry_over(bodies, state.shapes, previous, state.anchors, manifolds, anchors)
+    carry_over(tables, bodies, state.shapes, previous, state.anchors, manifolds, anchors)
     mix_materials(tables, state.shapes, manifolds, anchors)
     measure_approach(bodies, manifolds)
     state.manifolds, state.anchors = manifolds, anchors
@@ -78,18 +99,11 @@ def detect_piles(state: StepState) -> None:
 @stage(
     "sensors",
     reads=("awake", "bodies", "shapes", "library", "pairs", "swept_sensors", "workspace"),
-    writes=(
-        "sensed",
-        "swept_sensors",
-        "work",
-        "workspace",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("sensed", "swept_sensors", "work", "workspace"),
 )
 def sense(state: StepState) -> None:
     """Sensors see the final poses, and what a sweep met on the way."""
     tables, bodies, shapes = state.library.tables, state.bodies, state.shapes
-    refresh_aabbs(state.awake.shapes, tables, bodies, shapes)
     narrow = state.workspace.sensing
     sensed = narrow.collide(tables, bodies, shapes, state.pairs.rows, 0.0, state.work, which=SENSORS)
     swept = state.swept_sensors

@@ -10,9 +10,10 @@ from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import CIRCLE_CORNER, CORNERS
 from physics.collision.hulls import collide_hull_circle, collide_hulls, passes_by
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, add_point, add_points, circle_at, corners_of
+from physics.collision.upright import collide_upright, upright_corners
 from physics.jit import kernel, subkernel
-from physics.shapes.placement import aabb_at, polygon_at, rounding
-from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
+from physics.shapes.placement import polygon_at, rounding
+from physics.tables.counters import SENSOR_TESTS
 from physics.tables.shape import BOUNDS, CIRCLE
 
 
@@ -139,6 +140,14 @@ def collide_polygon_pairs(
         o = shapes[candidates[i, 1]]
         p = bodies[s.body_row]
         q = bodies[o.body_row]
+        if s.kind == BOUNDS and o.kind == BOUNDS:
+            points = collide_upright(s, o, margin, manifold)
+            if points == 1 and manifold[5] > 0.0:
+                vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
+                if passes_by(a, upright_corners(s, a), b, upright_corners(o, b), 0.0, vx, vy):
+                    continue
+            found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
+            continue
         if s.kind == BOUNDS or o.kind == BOUNDS:
             na = corners_of(geometry, bodies, shapes, candidates[i, 0], a)
             nb = corners_of(geometry, bodies, shapes, candidates[i, 1], b)
@@ -170,25 +179,18 @@ def collide_boxes(
 
     Returns the number of contacts. O(candidates).
     """
-    geometry = batch.geometry
-    bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
     found = 0
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        work_inout[NARROW_TESTS] += 1
         if a.sensor or b.sensor:
             work_inout[SENSOR_TESTS] += 1
-        a_left, a_top, a_right, a_bottom = aabb_at(geometry, shapes, candidates[i, 0], p.x, p.y, p.angle)
-        b_left, b_top, b_right, b_bottom = aabb_at(geometry, shapes, candidates[i, 1], q.x, q.y, q.angle)
-        right = a_right - b_left
-        left = b_right - a_left
-        down = a_bottom - b_top
-        up = b_bottom - a_top
+        right = a.max_x - b.min_x
+        left = b.max_x - a.min_x
+        down = a.max_y - b.min_y
+        up = b.max_y - a.min_y
         least = min(min(right, left), min(down, up))
         if least < 0.0:
             continue
@@ -202,7 +204,7 @@ def collide_boxes(
             ny = 0.0
         elif least == down:
             ny = 1.0
-        x = 0.5 * (max(a_left, b_left) + min(a_right, b_right))
-        y = 0.5 * (max(a_top, b_top) + min(a_bottom, b_bottom))
+        x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
+        y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
         found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
     return found

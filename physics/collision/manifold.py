@@ -5,12 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.shapes.placement import corners_at
 from physics.tables.contact import CONTACT
 from physics.tables.geometry import Geometry
 from physics.tables.manifold import MANIFOLD
+from physics.tables.shape import BOUNDS
 
 # Kinds of pairs, by which the candidates are dealt to the passes.
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, CHAIN_ANY, NOTHING = range(9)
@@ -149,8 +151,10 @@ def circle_at(bodies, shapes, row):
 
 @subkernel
 def corners_of(geometry, bodies, shapes, row, corners_out):
-    """World corners of a hull of two or more at its body's pose. Returns their number."""
+    """World corners of a hull of two or more at its body's pose, of a BOUNDS from its AABB. Returns their number."""
     b = bodies[shapes[row].body_row]
+    if shapes[row].kind == BOUNDS:
+        return upright_corners(shapes[row], corners_out)
     return corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_out)
 
 

@@ -6,12 +6,12 @@ pose, without detecting again (Catto, Box2D v3: contact recycling; Coumans, Bull
 
 import math
 
+from physics.collision.anchors import anchor_manifold, copy_anchor, rest_anchor
 from physics.collision.manifold import GRID_ANY, NOTHING, copy_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
-from physics.shapes.placement import is_hull
 from physics.tables.manifold import CORES, WITH_A, WITH_B
-from physics.tables.shape import BOUNDS, CIRCLE, MASK
+from physics.tables.shape import CIRCLE, MASK
 
 
 @subkernel
@@ -41,35 +41,85 @@ def follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k):
 
 
 @subkernel
-def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
+def cut_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny):
+    """The gap [px] of cores at a point that the end of a face cuts from the edge over it.
+
+    The edge runs through the other side's cores of both points: as they slide along the face, the cut wanders on it.
+    gap: from core to core of the point; dx, dy: B's core of the point seen from A's, other_dx, other_dy those of the
+    other point, apart_x, apart_y: the other point's core of A seen from this one's; with_a: the face is A's.
+    """
+    edge_x = apart_x + (other_dx - dx if with_a else 0.0)
+    edge_y = apart_y + (other_dy - dy if with_a else 0.0)
+    along = edge_y * nx - edge_x * ny
+    across = edge_x * nx + edge_y * ny
+    if abs(across) >= abs(along) or along == 0.0:
+        return gap  # too steep to be the edge that lies along the face
+    return gap - (dy * nx - dx * ny) * across / along
+
+
+@subkernel
+def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
     """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other
     [px], by how much a separation differs from that at its detection [px]).
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
+    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; cut: whether what a
+    face's end cuts off wanders along the edge, which counts only where much has moved.
     """
     m = manifold_inout
     slid = 0.0
     changed = 0.0
     old_x = m.normal_x
     old_y = m.normal_y
+    ax_1, ay_1, dx_1, dy_1 = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, 0)
+    ax_2 = ax_1
+    ay_2 = ay_1
+    dx_2 = dx_1
+    dy_2 = dy_1
+    if m.count == 2:
+        ax_2, ay_2, dx_2, dy_2 = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, 1)
     for k in range(m.count):
-        ax, ay, dx, dy = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k)
+        ax = ax_1 if k == 0 else ax_2
+        ay = ay_1 if k == 0 else ay_2
+        dx = dx_1 if k == 0 else dx_2
+        dy = dy_1 if k == 0 else dy_2
+        share = anchor.share_1 if k == 0 else anchor.share_2
         if anchor.frame == CORES:
             nx, ny = unit(dx, dy, old_x, old_y)
             slid = max(slid, length_of(nx - old_x, ny - old_y) * max(anchor.radius_a, anchor.radius_b))
         else:
-            with_a = anchor.frame == WITH_A
-            cosine = a_cosine if with_a else b_cosine
-            sine = a_sine if with_a else b_sine
-            nx, ny = turned(anchor.local_nx, anchor.local_ny, cosine, sine)
+            nx = anchor.local_nx
+            ny = anchor.local_ny
+            if anchor.frame == WITH_A:
+                nx, ny = turned(nx, ny, a_cosine, a_sine)
+            elif anchor.frame == WITH_B:
+                nx, ny = turned(nx, ny, b_cosine, b_sine)
             slid = max(slid, abs(dy * nx - dx * ny))
         m.normal_x = nx + 0.0
         m.normal_y = ny + 0.0
-        gap = dx * nx + dy * ny
+        apart = dx * nx + dy * ny
+        gap = apart
+        if (
+            cut
+            and m.count == 2
+            and ((anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0))
+        ):
+            sign = 1.0 if k == 0 else -1.0
+            gap = cut_gap(
+                apart,
+                dx,
+                dy,
+                dx_2 if k == 0 else dx_1,
+                dy_2 if k == 0 else dy_1,
+                sign * (ax_2 - ax_1),
+                sign * (ay_2 - ay_1),
+                anchor.frame == WITH_A,
+                nx,
+                ny,
+            )
         separation = gap - anchor.radius_a - anchor.radius_b
-        middle = 0.5 * (anchor.radius_a + (gap - anchor.radius_b))
-        x = ax + 0.5 * (dx - gap * nx) + middle * nx
-        y = ay + 0.5 * (dy - gap * ny) + middle * ny
+        middle = 0.5 * (anchor.radius_a + (gap - anchor.radius_b)) + share * (apart - gap)
+        x = ax + share * (dx - apart * nx) + middle * nx
+        y = ay + share * (dy - apart * ny) + middle * ny
         if k == 0:
             m.x_1, m.y_1, m.separation_1 = x, y, separation
             changed = max(changed, abs(separation - anchor.base_1))
@@ -77,54 +127,6 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, manifold_inout):
             m.x_2, m.y_2, m.separation_2 = x, y, separation
             changed = max(changed, abs(separation - anchor.base_2))
     return slid, changed
-
-
-@subkernel
-def core_in_body(body, cosine, sine, x, y, nx, ny, inside):
-    """A point, moved by `inside` [px] along the normal, in a body's space."""
-    return turned(x + inside * nx - body.x, y + inside * ny - body.y, cosine, -sine)
-
-
-@subkernel
-def anchor_manifold(bodies, shapes, manifold, anchor_out):
-    """Remember a manifold that was detected at the present poses in the body spaces of its sides.
-
-    A round side keeps its core, or the point would wander off with its spin; the normal turns with the side that is
-    not.
-    """
-    m = manifold
-    c = anchor_out
-    a = bodies[m.body_row_a]
-    b = bodies[m.body_row_b]
-    s = shapes[m.row_a]
-    o = shapes[m.row_b]
-    c.radius_a = s.radius if is_hull(s.kind) and s.kind != BOUNDS else 0.0
-    c.radius_b = o.radius if is_hull(o.kind) and o.kind != BOUNDS else 0.0
-    c.frame = WITH_A
-    if s.kind == CIRCLE:
-        c.frame = CORES if o.kind == CIRCLE else WITH_B
-    a_cosine = math.cos(a.angle)
-    a_sine = math.sin(a.angle)
-    b_cosine = math.cos(b.angle)
-    b_sine = math.sin(b.angle)
-    c.local_nx = 0.0
-    c.local_ny = 0.0
-    if c.frame == WITH_A:
-        c.local_nx, c.local_ny = turned(m.normal_x, m.normal_y, a_cosine, -a_sine)
-    elif c.frame == WITH_B:
-        c.local_nx, c.local_ny = turned(m.normal_x, m.normal_y, b_cosine, -b_sine)
-    c.turn = b.angle - a.angle
-    nx = m.normal_x
-    ny = m.normal_y
-    half = 0.5 * m.separation_1
-    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a))
-    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b)
-    c.base_1 = m.separation_1
-    if m.count == 2:
-        half = 0.5 * m.separation_2
-        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a))
-        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b)
-        c.base_2 = m.separation_2
 
 
 @kernel
@@ -183,7 +185,7 @@ def recycle_manifolds(
                 m.previous = last
                 m.persisted_1 = True
                 m.persisted_2 = True
-                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, anchors[last], m)
+                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, anchors[last], False, m)
                 # What is round on both sides, or on one against a face, may turn as it likes.
                 turn = 0.0
                 if a.kind != CIRCLE and b.kind != CIRCLE:
@@ -231,39 +233,6 @@ def remember_grids(
 
 
 @subkernel
-def copy_anchor(source, anchor_out):
-    """Copy one row field by field."""
-    s = source
-    d = anchor_out
-    d.frame = s.frame
-    d.local_nx = s.local_nx
-    d.local_ny = s.local_ny
-    d.turn = s.turn
-    d.radius_a = s.radius_a
-    d.radius_b = s.radius_b
-    d.friction = s.friction
-    d.restitution = s.restitution
-    d.rolling_resistance = s.rolling_resistance
-    d.surface_speed = s.surface_speed
-    d.rolling_force = s.rolling_force
-    d.color = s.color
-    d.local_ax_1 = s.local_ax_1
-    d.local_ay_1 = s.local_ay_1
-    d.local_bx_1 = s.local_bx_1
-    d.local_by_1 = s.local_by_1
-    d.base_1 = s.base_1
-    d.normal_force_1 = s.normal_force_1
-    d.tangent_force_1 = s.tangent_force_1
-    d.local_ax_2 = s.local_ax_2
-    d.local_ay_2 = s.local_ay_2
-    d.local_bx_2 = s.local_bx_2
-    d.local_by_2 = s.local_by_2
-    d.base_2 = s.base_2
-    d.normal_force_2 = s.normal_force_2
-    d.tangent_force_2 = s.tangent_force_2
-
-
-@subkernel
 def take_over(previous, anchors, first, manifold_inout, anchor_inout):
     """Give the points of a new manifold the forces of the points with their features, among the previous manifolds of
     its pair, which begin at `first`."""
@@ -296,6 +265,7 @@ def take_over(previous, anchors, first, manifold_inout, anchor_inout):
 @kernel
 def carry_over(
     # read
+    geometry,
     bodies,
     shapes,
     previous,
@@ -321,13 +291,8 @@ def carry_over(
             copy_anchor(previous_anchors[m.previous], c)
             c.color = -1
             continue
-        c.color = -1
-        c.rolling_force = 0.0
-        c.normal_force_1 = 0.0
-        c.tangent_force_1 = 0.0
-        c.normal_force_2 = 0.0
-        c.tangent_force_2 = 0.0
-        anchor_manifold(bodies, shapes, m, c)
+        rest_anchor(c)
+        anchor_manifold(geometry, bodies, shapes, m, c)
         while j < len(previous) and is_before(previous[j], m.shape_a, m.shape_b):
             j += 1
         take_over(previous, previous_anchors, j, m, c)
@@ -361,4 +326,4 @@ def follow_bodies(
             row_b = m.body_row_b
             b_cosine = math.cos(b.angle)
             b_sine = math.sin(b.angle)
-        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], m)
+        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)

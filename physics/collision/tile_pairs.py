@@ -10,10 +10,10 @@ from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_a
 from physics.collision.mask_hulls import collide_mask_polygon
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import kernel, subkernel
-from physics.shapes.placement import aabb_at, polygon_aabb, polygon_at, rounding
+from physics.shapes.placement import polygon_at, rounding
 from physics.tables.counters import MASK_TESTS
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE
-from physics.tables.shape import BOUNDS, CIRCLE, MASK, POLYGON, TILES
+from physics.tables.shape import BOUNDS, CIRCLE, MASK, TILES
 
 
 @subkernel
@@ -66,12 +66,10 @@ def make_grid_pass(one_way: bool) -> Callable:
             p = bodies[s.body_row]
             q = bodies[o.body_row]
             g = grids[s.geometry]
-            cosine = math.cos(q.angle)
-            sine = math.sin(q.angle)
-            if o.kind == POLYGON:
-                min_x, min_y, max_x, max_y = polygon_aabb(polygons, table, o.geometry, o.radius, q.x, q.y, cosine, sine)
-            else:
-                min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, other, q.x, q.y, q.angle)
+            min_x = o.min_x
+            min_y = o.min_y
+            max_x = o.max_x
+            max_y = o.max_y
             first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
             last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
             first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
@@ -94,7 +92,9 @@ def make_grid_pass(one_way: bool) -> Callable:
                 if o.kind == BOUNDS:
                     n = corners_of(geometry, bodies, shapes, other, workspace.b)
                 else:
-                    n = polygon_at(polygons, table, o.geometry, q.x, q.y, cosine, sine, workspace.b)
+                    n = polygon_at(
+                        polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b
+                    )
                 radius = rounding(shapes, other)
             # Columns that it overlaps, not only touches.
             low = math.floor((min_x - p.x) / g.tile_size)

@@ -172,8 +172,7 @@ class Awake:
 
     def _set_active(self, tables, rows, active):
         tables.bodies["active"][rows] = active
-        slots = tables.shapes["proxy"][self.shapes_of(rows)]
-        tables.pairs.set_awake(slots[slots >= 0], active)
+        tables.pairs.set_awake(tables.shapes["proxy"][self.shapes_of(rows)], active)
 
 
 @stage(

@@ -13,8 +13,11 @@ import numpy as np
 
 from physics.ccd.impacts import list_paths
 from physics.ccd.sweep import push_stopped
+from physics.collision.anchors import anchors_of
 from physics.collision.approach import closing_speed
 from physics.collision.detect import detect
+from physics.collision.final_poses import recount
+from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
@@ -92,16 +95,6 @@ def stop_approach(bodies_inout, manifolds_inout):
             m.normal_impulse_2 = stop_at_point(m.x_2, m.y_2, m.normal_x, m.normal_y, a, b)
 
 
-def _advance(bodies, manifolds, anchors):
-    """Carry the separations of manifolds to the present poses;
-    anchors (n, 2): B's centre seen from A's when they were found."""
-    a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
-    moved_x = b["center_x"] - a["center_x"] - anchors[:, 0]
-    moved_y = b["center_y"] - a["center_y"] - anchors[:, 1]
-    for k in (1, 2):
-        manifolds[f"separation_{k}"] += manifolds["normal_x"] * moved_x + manifolds["normal_y"] * moved_y
-
-
 def _make_way(state, stayed):
     """Have kinematic bodies push ahead of them what stayed behind, and what they are in, from where it was before.
 
@@ -129,8 +122,7 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     bodies, stopped, anchors = state.bodies, [], []
     while True:
         manifolds = state.manifolds
-        a, b = bodies[manifolds["body_row_a"]], bodies[manifolds["body_row_b"]]
-        seen = np.column_stack([b["center_x"] - a["center_x"], b["center_y"] - a["center_y"]])
+        seen = anchors_of(state, manifolds)
         if not stay_behind(bodies, manifolds, state.work):
             break
         met = manifolds["swept"] & ~manifolds["sensor"]
@@ -143,9 +135,10 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     if stopped:
         met = np.concatenate(stopped)
         stop_approach(bodies, met)
-        _advance(bodies, met, np.concatenate(anchors))
+        follow_bodies(bodies, np.concatenate(anchors), met)
         others = state.manifolds[~np.isin(state.manifolds["candidate"], met["candidate"])]
         state.manifolds = in_order(np.concatenate([others, met]))
+        recount(state)
     return state.dt
 
 

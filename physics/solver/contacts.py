@@ -126,11 +126,15 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
             )
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
+            r.calm = m.speed_1 <= 0.0 and (m.count == 1 or m.speed_2 <= 0.0)
+            r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
             r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
             r.rolling_limit = c.rolling_resistance if friction else 0.0
             turning = a.inverse_inertia + b.inverse_inertia
             r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
             r.rolling_impulse = h * c.rolling_force
+            r.push_impulse_1 = 0.0
+            r.push_impulse_2 = 0.0
             r.normal_impulse_2 = 0.0  # the rows are used again: a manifold of one point has no second
             r.tangent_impulse_2 = 0.0
             r.normal_total_2 = 0.0
@@ -235,6 +239,52 @@ def store_impulses(
             c.tangent_force_2 = inverse_h * r.tangent_impulse_2
 
 
+def make_friction_limit(rotation: bool) -> Callable:
+    """The pass that ends with friction what other impulses have left."""
+
+    @kernel
+    def limit_friction(
+        # read
+        count,
+        # write
+        motions_inout,
+        constraints_inout,
+    ):
+        """Take back what friction is more than its share of the final normal impulse, over the step. O(count)."""
+        for i in range(count):
+            r = constraints_inout[i]
+            for k in range(r.count):
+                total = r.tangent_total_1 if k == 0 else r.tangent_total_2
+                limit = r.friction * (r.normal_total_1 if k == 0 else r.normal_total_2)
+                if abs(total) <= limit:
+                    continue
+                change = max(-limit, min(limit, total)) - total
+                a = motions_inout[r.motion_a]
+                b = motions_inout[r.motion_b]
+                x = -change * r.normal_y
+                y = change * r.normal_x
+                a.vx -= a.inverse_mass * x
+                a.vy -= a.inverse_mass * y
+                b.vx += b.inverse_mass * x
+                b.vy += b.inverse_mass * y
+                if k == 0:
+                    r.tangent_total_1 = total + change
+                    r.tangent_impulse_1 += change
+                else:
+                    r.tangent_total_2 = total + change
+                    r.tangent_impulse_2 += change
+                if rotation:
+                    ax = r.ax_1 if k == 0 else r.ax_2
+                    ay = r.ay_1 if k == 0 else r.ay_2
+                    bx = r.bx_1 if k == 0 else r.bx_2
+                    by = r.by_1 if k == 0 else r.by_2
+                    a.angular_velocity -= a.inverse_inertia * (ax * y - ay * x)
+                    b.angular_velocity += b.inverse_inertia * (bx * y - by * x)
+
+    return limit_friction
+
+
+FRICTION_LIMIT = {r: make_friction_limit(rotation=r) for r in BOTH}
 PREPARE = {(f, c): make_prepare(friction=f, conveyor=c) for f in BOTH for c in BOTH}
 WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
 
@@ -281,7 +331,7 @@ class ContactSet:
         run(self.count, *settings, motions.used, self.constraints)
 
     def store(self, state: StepState, motions: Motions, h: float) -> None:
-        """Bounce what has met, and write the impulses back."""
+        """Bounce what has met, end friction where less presses, and write the impulses back."""
         if state.effects.restitution:
             restore_bounces(
                 state.manifolds,
@@ -292,4 +342,6 @@ class ContactSet:
                 self.constraints,
                 state.work,
             )
+        if state.effects.friction:
+            FRICTION_LIMIT[state.effects.rotation](self.count, motions.used, self.constraints)
         store_impulses(self.constraints, self.count, 1.0 / h, state.manifolds, state.anchors)

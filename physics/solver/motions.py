@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import refresh_centers
 from physics.jit import kernel
-from physics.math2d import turned
+from physics.math2d import length_of, turned
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.constraint import MOTION
@@ -29,6 +28,9 @@ def stand_still(motions_out, pushable_out):
     m.vx = 0.0
     m.vy = 0.0
     m.angular_velocity = 0.0
+    m.push_vx = 0.0
+    m.push_vy = 0.0
+    m.push_w = 0.0
     m.dx = 0.0
     m.dy = 0.0
     m.cosine = 1.0
@@ -73,6 +75,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.vx = b.vx
             m.vy = b.vy
             m.angular_velocity = b.angular_velocity if rotation else 0.0
+            m.push_vx = 0.0
+            m.push_vy = 0.0
+            m.push_w = 0.0
             m.dx = 0.0
             m.dy = 0.0
             m.cosine = 1.0
@@ -143,18 +148,30 @@ def make_substep_positions(rotation: bool) -> Callable:
     def integrate_substep_positions(
         # read, scalars
         h,
+        push_speed,
         # write
         motions_inout,
     ):
-        """Move every body by one substep h [s]. O(bodies)."""
+        """Move every body by one substep h [s], and by what lets it out of overlaps, at push_speed [px/s] at most,
+        however many push it: that is spent then. O(bodies)."""
         for i in range(len(motions_inout)):
             m = motions_inout[i]
             if not m.moves:
                 continue
             m.dx += h * m.vx
             m.dy += h * m.vy
-            if rotation and m.angular_velocity != 0.0:
-                m.turn += h * m.angular_velocity
+            turn = m.angular_velocity
+            if m.push_vx != 0.0 or m.push_vy != 0.0 or m.push_w != 0.0:
+                fast = length_of(m.push_vx, m.push_vy)
+                share = push_speed / fast if fast > push_speed else 1.0
+                m.dx += h * share * m.push_vx
+                m.dy += h * share * m.push_vy
+                turn += share * m.push_w
+                m.push_vx = 0.0
+                m.push_vy = 0.0
+                m.push_w = 0.0
+            if rotation and turn != 0.0:
+                m.turn += h * turn
                 m.cosine = math.cos(m.turn)
                 m.sine = math.sin(m.turn)
 
@@ -228,11 +245,10 @@ class Motions:
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
     def scatter(self, state: StepState) -> None:
-        """Write the bodies back, and carry their manifolds along."""
+        """Write the bodies back."""
         rows, bodies = state.awake.bodies, state.bodies
         scatter_motions(rows, self.used, self.motion_of, bodies)
         refresh_centers(rows, bodies)
-        follow_bodies(bodies, state.anchors, state.manifolds)
         # Who was pushed round stands at an angle that was not foreseen.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 

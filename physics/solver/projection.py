@@ -11,8 +11,10 @@ import numpy as np
 from physics.ccd.rotational import CORE
 from physics.ccd.sweep import shift_freely
 from physics.collision.approach import closing_speed
+from physics.collision.final_poses import recount
 from physics.dynamics.integrate import place_shapes
 from physics.jit import kernel, subkernel
+from physics.math2d import length_of
 from physics.settings import PROJECTION_PASSES
 from physics.solver.pushes import PushSet
 from physics.tables.body import DYNAMIC, OFF
@@ -29,6 +31,27 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
         body_inout.angular_velocity += body_inout.inverse_inertia * (anchor_x * y - anchor_y * x)
 
 
+@subkernel
+def push_out(x, y, row, pushed_inout, body_inout):
+    """Move a body by (x, y) [px], as far as it may be pushed in this step; pushed_inout: see pushes.allow_pushes."""
+    b = body_inout
+    to_x = pushed_inout[row, 0] + x
+    to_y = pushed_inout[row, 1] + y
+    length = length_of(to_x, to_y)
+    most = pushed_inout[row, 2]
+    if length > most:
+        to_x = to_x * most / length
+        to_y = to_y * most / length
+        x = to_x - pushed_inout[row, 0]
+        y = to_y - pushed_inout[row, 1]
+    pushed_inout[row, 0] = to_x
+    pushed_inout[row, 1] = to_y
+    b.x += x
+    b.y += y
+    b.center_x += x
+    b.center_y += y
+
+
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
     """One pass over the contacts of a world with these effects."""
 
@@ -39,12 +62,14 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
         first,
         # write
         bodies_inout,
+        pushed_inout,
         pushes_inout,
         work_inout,
     ):
         """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
 
-        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step. Impulses add up in
+        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step; pushed_inout: see
+        pushes.allow_pushes. Impulses add up in
         the contacts. O(contacts).
         """
         for i in range(len(pushes_inout)):
@@ -107,14 +132,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
                 share = -separation / inverse_masses
                 x = share * nx
                 y = share * ny
-                a.x -= a.inverse_mass * x
-                a.y -= a.inverse_mass * y
-                a.center_x -= a.inverse_mass * x
-                a.center_y -= a.inverse_mass * y
-                b.x += b.inverse_mass * x
-                b.y += b.inverse_mass * y
-                b.center_x += b.inverse_mass * x
-                b.center_y += b.inverse_mass * y
+                push_out(-a.inverse_mass * x, -a.inverse_mass * y, c.body_row_a, pushed_inout, a)
+                push_out(b.inverse_mass * x, b.inverse_mass * y, c.body_row_b, pushed_inout, b)
 
     return project
 
@@ -177,3 +196,4 @@ def projection(state: StepState) -> None:
     if state.dt > 0.0:
         solve(state, state.workspace.sets)
         place_shapes(state)
+        recount(state)

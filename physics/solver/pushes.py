@@ -5,9 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from physics.collision.anchors import write_anchors
 from physics.collision.materials import mixed
+from physics.collision.persist import follow_bodies
 from physics.jit import kernel
 from physics.tables.constraint import PUSH
+from physics.tables.manifold import ANCHOR
 from physics.tables.step_state import StepState
 
 
@@ -57,31 +60,36 @@ def prepare_pushes(
 
 
 @kernel
-def store_pushes(
-    # read
-    bodies,
-    pushes,
-    # write
-    manifolds_inout,
-):
-    """Write impulses, and separations at the final poses, back to the manifolds; nothing is detected. O(pushes).
+def allow_pushes(pushes, push_speed, dt, pushed_out):
+    """Write how far each body may be pushed in this step: pushed_out (bodies, 3) moved so far x, y, at most [px].
 
-    The displacement of B against A along the normal changes the separation.
+    At push_speed [px/s], however many push it; and as much further as what it meets comes nearer within dt [s]: that is
+    no old overlap. O(pushes).
     """
     for i in range(len(pushes)):
         r = pushes[i]
-        a = bodies[r.body_row_a]
-        b = bodies[r.body_row_b]
-        moved_x = (b.center_x - a.center_x) - r.anchor_x
-        moved_y = (b.center_y - a.center_y) - r.anchor_y
-        separation = r.separation + (r.normal_x * moved_x + r.normal_y * moved_y)
+        for side in range(2):
+            row = r.body_row_a if side == 0 else r.body_row_b
+            pushed_out[row, 0] = 0.0
+            pushed_out[row, 1] = 0.0
+            pushed_out[row, 2] = push_speed * dt
+    for i in range(len(pushes)):
+        r = pushes[i]
+        for side in range(2):
+            row = r.body_row_a if side == 0 else r.body_row_b
+            pushed_out[row, 2] = max(pushed_out[row, 2], (push_speed + max(r.speed, 0.0)) * dt)
+
+
+@kernel
+def store_pushes(pushes, manifolds_inout):
+    """Write the impulses back to the manifolds. O(pushes)."""
+    for i in range(len(pushes)):
+        r = pushes[i]
         m = manifolds_inout[r.manifold]
         if r.second:
-            m.separation_2 = separation
             m.normal_impulse_2 = r.normal_impulse
             m.tangent_impulse_2 = r.tangent_impulse
         else:
-            m.separation_1 = separation
             m.normal_impulse_1 = r.normal_impulse
             m.tangent_impulse_1 = r.tangent_impulse
 
@@ -92,22 +100,28 @@ class PushSet:
     name = "contacts"
 
     def __init__(self) -> None:
-        self.data = np.zeros(16, PUSH)
+        self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
         self.rows = self.data[:0]
+        self.pushed = np.zeros((16, 3))  # see allow_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the rows."""
+        """Fill the rows, and anchor the manifolds where they were detected."""
         points = 2 * len(state.manifolds)
         if len(self.data) < points:
-            self.data = np.zeros(2 * points, PUSH)
+            self.data, self.anchors = np.zeros(2 * points, PUSH), np.zeros(points, ANCHOR)
         tables, conveyor = state.library.tables, int(state.effects.conveyor)
         found = prepare_pushes(tables, state.bodies, state.shapes, state.manifolds, conveyor, self.data)
         self.rows = self.data[:found]
+        if len(self.pushed) < len(state.bodies):
+            self.pushed = np.zeros((2 * len(state.bodies), 3))
+        allow_pushes(self.rows, state.tolerances.push_speed, state.dt, self.pushed)
+        write_anchors(tables, state.bodies, state.shapes, state.manifolds, self.anchors)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
         """One pass of a solver over the rows."""
-        run(*settings, state.bodies, self.rows, state.work)
+        run(*settings, state.bodies, self.pushed, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write what was found back to the manifolds."""
-        store_pushes(state.bodies, self.rows, state.manifolds)
+        """Write what was found back to the manifolds, and carry these to the final poses."""
+        store_pushes(self.rows, state.manifolds)
+        follow_bodies(state.bodies, self.anchors, state.manifolds)

@@ -1,16 +1,16 @@
-"""Sequential impulses: one step, several passes, contacts that remember, overlaps pushed out by Baumgarte's bias.
+"""Sequential impulses: one step, several passes, contacts that remember, overlaps pushed out by a share per step.
 
-Differs from `soft_step` in that positions move once, after all passes, and in that the speed which lets an overlap out
-stays in the bodies: piles are livelier and sink by the slop. Cost: ITERATIONS_PER_SUBSTEP passes over the constraints
-for each substep that soft_step would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and
-Box2D-Lite, 2006.
+Differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: piles are
+livelier and sink by the slop. What bears nothing is let out of an overlap by speeds of its own, which are none of its
+velocity (split impulses). Cost: ITERATIONS_PER_SUBSTEP passes over the constraints for each substep that soft_step
+would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
 import math
 from collections.abc import Callable, Sequence
 
 from physics.jit import kernel, subkernel
-from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP
+from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
@@ -20,11 +20,11 @@ BOTH = (False, True)
 
 
 @subkernel
-def bias_of(separation, inverse_h, slop, baumgarte, push_speed):
-    """Speed [px/s] that a point may still close a gap with, or, negative, has to let an overlap out with."""
+def push_wanted(separation, inverse_h, slop, baumgarte, push_speed):
+    """Speed [px/s] that a point has to let an overlap out with, or, negative, may still close a gap with."""
     if separation > 0.0:
-        return separation * inverse_h
-    return max(baumgarte * inverse_h * min(separation + slop, 0.0), -push_speed)
+        return -separation * inverse_h
+    return min(baumgarte * inverse_h * max(-separation - slop, 0.0), push_speed)
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
@@ -35,7 +35,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         # read, scalars
         count,
         inverse_h,
-        push_speed,
+        slow,
         slop,
         baumgarte,
         # write
@@ -44,8 +44,8 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every constraint once, friction first, in the order of the rows. O(count).
 
-        slop [px]: overlap that is left in; baumgarte: share of the rest that is taken out per step, at push_speed
-        [px/s] at most.
+        What bears something lets its overlap out as in push_overlaps, as far as that takes a speed of no more than slow
+        [px/s]: through all passes, and with the memory of contacts, or columns would sink.
         """
         for i in range(count):
             r = constraints_inout[i]
@@ -99,14 +99,15 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
                 speed_2 += (wa * r.ay_2 - wb * r.by_2) * nx + (wb * r.bx_2 - wa * r.ax_2) * ny
             core = r.radius_a + r.radius_b
             gap = core + r.base_1 + (r.bx_1 - r.ax_1) * nx + (r.by_1 - r.ay_1) * ny
-            wanted_1 = -speed_1 - bias_of(gap, inverse_h, slop, baumgarte, push_speed * r.push_share)
+            most = slow if r.loaded else 0.0
+            wanted_1 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_1
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
             impulse_2 = old_2
             if r.count == 2:
                 gap = core + r.base_2 + (r.bx_2 - r.ax_2) * nx + (r.by_2 - r.ay_2) * ny
-                wanted_2 = -speed_2 - bias_of(gap, inverse_h, slop, baumgarte, push_speed * r.push_share)
+                wanted_2 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_2
                 k_12 = masses
                 if rotation:
                     k_12 += a.inverse_inertia * (r.ax_1 * ny - r.ay_1 * nx) * (
@@ -148,6 +149,70 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     return solve_sequential
 
 
+def make_push_pass(rotation: bool) -> Callable:
+    """One pass that lets overlaps out, over the constraints of a world with this effect."""
+
+    @kernel
+    def push_overlaps(
+        # read, scalars
+        count,
+        inverse_h,
+        push_speed,
+        slop,
+        share,
+        # write
+        motions_inout,
+        constraints_inout,
+    ):
+        """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(count).
+
+        Only where nothing was borne in the step before. slop [px]: overlap that is left in; share: of the rest, taken
+        out per step, at push_speed [px/s] at most. Impulses of these speeds add up apart from the contacts'.
+        """
+        for i in range(count):
+            r = constraints_inout[i]
+            a = motions_inout[r.motion_a]
+            b = motions_inout[r.motion_b]
+            nx = r.normal_x
+            ny = r.normal_y
+            if r.loaded:
+                continue
+            core = r.radius_a + r.radius_b
+            for k in range(r.count):
+                ax = r.ax_1 if k == 0 else r.ax_2
+                ay = r.ay_1 if k == 0 else r.ay_2
+                bx = r.bx_1 if k == 0 else r.bx_2
+                by = r.by_1 if k == 0 else r.by_2
+                gap = core + (r.base_1 if k == 0 else r.base_2) + (bx - ax) * nx + (by - ay) * ny
+                old = r.push_impulse_1 if k == 0 else r.push_impulse_2
+                a_arm = ax * ny - ay * nx
+                b_arm = bx * ny - by * nx
+                pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
+                if rotation:
+                    pushed += b.push_w * b_arm - a.push_w * a_arm
+                if old == 0.0 and pushed >= 0.0 and gap >= -slop:
+                    continue
+                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+                if rotation:
+                    speed += b.angular_velocity * b_arm - a.angular_velocity * a_arm
+                wanted = push_wanted(gap, inverse_h, slop, share, push_speed) - speed - pushed
+                impulse = max(old + (r.normal_mass_1 if k == 0 else r.normal_mass_2) * wanted, 0.0)
+                change = impulse - old
+                if k == 0:
+                    r.push_impulse_1 = impulse
+                else:
+                    r.push_impulse_2 = impulse
+                a.push_vx -= a.inverse_mass * change * nx
+                a.push_vy -= a.inverse_mass * change * ny
+                b.push_vx += b.inverse_mass * change * nx
+                b.push_vy += b.inverse_mass * change * ny
+                if rotation:
+                    a.push_w -= a.inverse_inertia * change * a_arm
+                    b.push_w += b.inverse_inertia * change * b_arm
+
+    return push_overlaps
+
+
 @kernel
 def sum_up(count, constraints_inout):
     """The impulses of the one substep are those of the step. O(count)."""
@@ -162,6 +227,8 @@ def sum_up(count, constraints_inout):
 # The passes of this solver over the constraint sets, by their names.
 PASSES = {"contacts": {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}}
 
+PUSHES = {"contacts": {r: make_push_pass(rotation=r) for r in BOTH}}
+
 
 def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
     """Advance the motions by a step under the constraints of all sets. Returns the step [s] that impulses belong to."""
@@ -169,16 +236,22 @@ def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
     rotation, friction = effects.rotation, effects.friction
     for each in sets:
         each.prepare(state, motions, dt)
+    # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
+    slop, spring = tolerances.slop, tolerances.speculative
     SUBSTEP_VELOCITIES[effects.drag, rotation](dt, state.drag, motions.used)
     for each in sets:
         each.warm_start(motions, rotation)
     for _ in range(math.ceil(ITERATIONS_PER_SUBSTEP * state.substeps)):
         for each in sets:
             run = PASSES[each.name][rotation, friction]
-            each.solve(motions, run, 1.0 / dt, tolerances.push_speed, tolerances.slop, BAUMGARTE)
+            each.solve(motions, run, 1.0 / dt, BAUMGARTE / dt * spring, slop, BAUMGARTE)
+    for _ in range(PUSH_PASSES):
+        for each in sets:
+            run = PUSHES[each.name][rotation]
+            each.solve(motions, run, 1.0 / dt, tolerances.push_speed, 0.5 * slop, PUSH_SHARE)
     for each in sets:
         sum_up(each.count, each.constraints)
-    SUBSTEP_POSITIONS[rotation](dt, motions.used)
+    SUBSTEP_POSITIONS[rotation](dt, tolerances.push_speed, motions.used)
     for each in sets:
         each.store(state, motions, dt)
     return dt

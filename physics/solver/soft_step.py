@@ -1,9 +1,10 @@
 """Small substeps with soft contacts: each substep is solved once with a spring that pushes overlaps out, then relaxed.
 
-Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that the speed which
-lets an overlap out is taken away again before it can do harm (relaxation). Cost per substep: three passes over the
-constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
-Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
+Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a loaded contact
+gives way as a spring does. What bears nothing is let out of an overlap by speeds of its own, which are none of its
+velocity. Cost per substep: three passes over the constraints, two over the bodies. Sources: Macklin et al., Small Steps
+in Physics Simulation, SCA 2019; Catto, Soft Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs,
+friction in the relaxing pass alone.
 """
 
 import math
@@ -11,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, STILL_STIFFNESS
+from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, PUSH_SHARE, STILL_STIFFNESS
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
@@ -52,6 +53,49 @@ def normal_change(
         return max(impulse - mass * speed, 0.0)
     bias = max(mass_scale * bias_rate * separation, -push_speed)
     return max(impulse - mass * (mass_scale * speed + bias) - impulse_scale * impulse, 0.0)
+
+
+@subkernel
+def let_out(speed, separation, mass, inverse_h, push_speed):
+    """Impulse that lets an overlap out, at push_speed [px/s] at most: PUSH_SHARE of it in a substep."""
+    if separation > 0.0:
+        return max(-mass * (speed + separation * inverse_h), 0.0)
+    return max(mass * (min(PUSH_SHARE * inverse_h * -separation, push_speed) - speed), 0.0)
+
+
+@subkernel
+def let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a_inout, b_inout):
+    """Push two bodies apart at the points of a constraint row that bears nothing, by the speeds that only move them.
+
+    speeds [px/s] of their own and gaps [px] at both points; k_12: speed of one point per impulse on the other.
+    """
+    nx = r.normal_x
+    ny = r.normal_y
+    pushed = (b_inout.push_vx - a_inout.push_vx) * nx + (b_inout.push_vy - a_inout.push_vy) * ny
+    a_1 = r.ax_1 * ny - r.ay_1 * nx
+    b_1 = r.bx_1 * ny - r.by_1 * nx
+    a_2 = r.ax_2 * ny - r.ay_2 * nx
+    b_2 = r.bx_2 * ny - r.by_2 * nx
+    total = speed_1 + pushed
+    if rotation:
+        total += b_inout.push_w * b_1 - a_inout.push_w * a_1
+    push_1 = let_out(total, gap_1, r.normal_mass_1, inverse_h, push_speed)
+    push_2 = 0.0
+    if r.count == 2:
+        total = speed_2 + pushed + k_12 * push_1
+        if rotation:
+            total += b_inout.push_w * b_2 - a_inout.push_w * a_2
+        push_2 = let_out(total, gap_2, r.normal_mass_2, inverse_h, push_speed)
+    if push_1 + push_2 > 0.0:
+        x = (push_1 + push_2) * nx
+        y = (push_1 + push_2) * ny
+        a_inout.push_vx -= a_inout.inverse_mass * x
+        a_inout.push_vy -= a_inout.inverse_mass * y
+        b_inout.push_vx += b_inout.inverse_mass * x
+        b_inout.push_vy += b_inout.inverse_mass * y
+        if rotation:
+            a_inout.push_w -= a_inout.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
+            b_inout.push_w += b_inout.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
 
 
 @subkernel
@@ -109,10 +153,14 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if rotation:
                 speed_1 += wb * b_1 - wa * a_1
                 speed_2 += wb * b_2 - wa * a_2
+            real_1 = speed_1
+            real_2 = speed_2
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
             soft_now = biased and (old_1 + old_2 > 0.0 or (speed_1 >= 0.0 and (r.count == 1 or speed_2 >= 0.0)))
+            # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
+            free = soft_now and r.calm and old_1 + old_2 == 0.0
             impulse_1 = normal_change(
                 speed_1,
                 gap_1,
@@ -126,6 +174,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 push_speed * r.push_share,
             )
             impulse_2 = old_2
+            gap_2 = gap_1
+            k_12 = 0.0
             if r.count == 2:
                 gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
                 k_12 = masses
@@ -160,6 +210,10 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                         impulse_scale,
                         push_speed * r.push_share,
                     )
+            if free:
+                impulse_1 = 0.0
+                impulse_2 = 0.0
+                let_out_both(r, real_1, real_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if not biased:
@@ -244,7 +298,7 @@ def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
             each.warm_start(motions, rotation)
         for each in sets:
             each.solve(motions, BIASED[each.name][rotation], 1.0 / h, push_speed, soft, soft_still)
-        positions(h, motions.used)
+        positions(h, push_speed, motions.used)
         for each in sets:
             each.solve(motions, RELAXING[each.name][rotation, friction], 1.0 / h, push_speed, soft, soft_still)
     for each in sets:

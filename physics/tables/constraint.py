@@ -7,6 +7,9 @@ MOTION = np.dtype(
         ("vx", np.float64),
         ("vy", np.float64),
         ("angular_velocity", np.float64),
+        ("push_vx", np.float64),  # that lets overlaps out: it moves a body in this substep, and is none of its velocity
+        ("push_vy", np.float64),
+        ("push_w", np.float64),
         ("dx", np.float64),
         ("dy", np.float64),  # [px] of the centre of mass since the step began
         ("cosine", np.float64),
@@ -40,6 +43,8 @@ CONSTRAINT = np.dtype(
         ("radius_a", np.float64),
         ("radius_b", np.float64),  # [px] the separation is measured from core to core
         ("push_share", np.float64),  # of the push-out speed
+        ("loaded", np.bool_),  # it bore something in the step before
+        ("calm", np.bool_),  # nothing approached before the step
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
         ("ax_1", np.float64),
         ("ay_1", np.float64),
@@ -50,6 +55,7 @@ CONSTRAINT = np.dtype(
         ("tangent_mass_1", np.float64),
         ("normal_impulse_1", np.float64),
         ("tangent_impulse_1", np.float64),  # of this substep
+        ("push_impulse_1", np.float64),
         ("normal_total_1", np.float64),
         ("tangent_total_1", np.float64),  # of the step
         ("ax_2", np.float64),
@@ -61,6 +67,7 @@ CONSTRAINT = np.dtype(
         ("tangent_mass_2", np.float64),
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
+        ("push_impulse_2", np.float64),
         ("normal_total_2", np.float64),
         ("tangent_total_2", np.float64),
     ],

@@ -45,11 +45,11 @@ MANIFOLD = np.dtype(
     align=True,
 )
 
-WITH_A, WITH_B, CORES = 0, 1, 2  # what a manifold's normal turns with: a side, or from core to core
+WITH_A, WITH_B, CORES, UPRIGHT = 0, 1, 2, 3  # what a normal turns with: a side, from core to core, or nothing
 
 ANCHOR = np.dtype(
     [
-        ("frame", np.int64),  # WITH_A WITH_B CORES
+        ("frame", np.int64),  # WITH_A WITH_B CORES UPRIGHT
         ("local_nx", np.float64),  # the normal in the body space of `frame`
         ("local_ny", np.float64),
         ("turn", np.float64),  # [rad] of B against A when it was detected
@@ -65,6 +65,7 @@ ANCHOR = np.dtype(
         ("local_ay_1", np.float64),  # rounded the corner or edge inside
         ("local_bx_1", np.float64),
         ("local_by_1", np.float64),
+        ("share_1", np.float64),  # where along the face the point is: 0 at A's core, 1 at B's, between them 0.5
         ("base_1", np.float64),  # [px] separation when it was detected
         ("normal_force_1", np.float64),  # impulse per second that the next step starts from
         ("tangent_force_1", np.float64),
@@ -72,6 +73,7 @@ ANCHOR = np.dtype(
         ("local_ay_2", np.float64),
         ("local_bx_2", np.float64),
         ("local_by_2", np.float64),
+        ("share_2", np.float64),
         ("base_2", np.float64),
         ("normal_force_2", np.float64),
         ("tangent_force_2", np.float64),

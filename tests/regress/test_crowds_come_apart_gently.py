@@ -1,0 +1,72 @@
+"""What starts in one place is let out at the push-out speed, per body, whatever the number of contacts."""
+
+import numpy as np
+import pytest
+
+from physics import JIT, Circle, Effects, Material, Polygon, World
+
+SOLVERS = ("projection", "sequential_impulse", "soft_step")
+CROWDS = {
+    "one point": lambda k, rng: (0.0, 0.0),
+    "a line": lambda k, rng: (2.0 * k, 0.0),
+    "a loose line": lambda k, rng: (8.0 * k, 0.0),
+    "a heap": lambda k, rng: tuple(rng.normal(0.0, 4.0, 2)),
+}
+
+
+def still_world(solver, **effects):
+    stacking = solver in SOLVERS[1:]
+    chosen = Effects(response=True, rotation=True, friction=True, restitution=True).with_(stacking=stacking, **effects)
+    return World(chosen, solver=solver, gravity=(0, 0))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("crowd", CROWDS)
+@pytest.mark.parametrize("shape", [Circle(5.0), Polygon.box(10, 10)], ids=["discs", "boxes"])
+def test_nobody_is_moved_faster_than_a_push_out(solver, crowd, shape):
+    world, rng = still_world(solver), np.random.default_rng(3)
+    for k in range(128 if JIT else 24):
+        world.add_body(shape, position=CROWDS[crowd](k, rng), material=Material(restitution=0.5))
+    cap = world.tolerances.push_speed
+    moved = 0.0
+    for _ in range(40 if JIT else 8):
+        world.step()
+        b = world.bodies
+        way = np.hypot(b["center_x"] - b["previous_x"], b["center_y"] - b["previous_y"]).max()
+        moved = max(moved, way)
+        assert way <= cap * world.dt * (1.0 + 1e-9)
+        assert np.hypot(b["vx"], b["vy"]).max() <= cap * (1.0 + 1e-9)
+    assert moved > 0.0
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_crowd_gets_apart(solver):
+    world = still_world(solver)
+    rng = np.random.default_rng(5)
+    for _ in range(12):
+        world.add_body(Circle(5.0), position=tuple(rng.normal(0.0, 1.0, 2)))
+    for _ in range(600 if JIT else 300):
+        world.step()
+    assert min(world.contacts["separation"], default=0.0) >= -world.tolerances.slop
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("speed", [60.0, 200.0, 845.0, 1500.0])
+def test_discs_without_bounce_stay_together(solver, speed):
+    """Parting at no more than one hundredth of the speed, or at four slops in the time of ten steps."""
+    world = still_world(solver)
+    a = world.add_body(Circle(8.0), position=(-40.0, 0.0), velocity=(0.5 * speed, 0.0))
+    b = world.add_body(Circle(8.0), position=(40.0, 0.0), velocity=(-0.5 * speed, 0.0))
+    for _ in range(120):
+        world.step()
+    slow = 4.0 * world.tolerances.slop / (10.0 * world.dt)
+    assert b.velocity[0] - a.velocity[0] <= max(0.01 * speed, slow) + 1e-9
+
+
+def test_what_comes_fast_is_pushed_out_at_once_by_projection():
+    """The cap is for old overlap: a fast fall is taken back in the step in which it went in."""
+    world = World(Effects(response=True, gravity=True), gravity=(0, 0))
+    world.add_body(Polygon.box(400, 100), position=(0, 50), kind="static")
+    box = world.add_body(Polygon.box(20, 20), position=(0, -12), velocity=(0.0, 900.0), continuous="off")
+    world.step()
+    assert box.position[1] == pytest.approx(-10.0, abs=1e-9)
