@@ -6,7 +6,7 @@ the step is swept once more, piece by piece: wherever the scripted surface would
 
 import math
 
-from physics.ccd.impacts import cut_path
+from physics.ccd.paths import cut_path
 from physics.ccd.rotational_pairs import sweep_rotational
 from physics.jit import kernel
 from physics.math2d import turned

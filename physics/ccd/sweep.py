@@ -7,16 +7,9 @@ met something, and keeps its velocity: the contact of the next step takes the im
 
 import numpy as np
 
-from physics.ccd.impacts import (
-    find_fast,
-    find_outgrown,
-    find_rotational_impacts,
-    foresee_paths,
-    list_paths,
-    move_back,
-    write_impacts,
-)
+from physics.ccd.impacts import find_rotational_impacts, move_back, write_impacts
 from physics.ccd.linear import find_impacts, stop_at_impacts
+from physics.ccd.paths import find_fast, find_outgrown, foresee_paths, list_paths
 from physics.ccd.push_ahead import push_ahead
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.anchors import anchors_of

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physics.ccd.impacts import list_paths
+from physics.ccd.paths import list_paths
 from physics.ccd.sweep import push_stopped
 from physics.collision.anchors import anchors_of
 from physics.collision.approach import closing_speed
