@@ -143,6 +143,8 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
     stands in the whole that the piece belongs to; slack [px]: how much deeper it may get, 0: by no more than rounding.
     """
     reach = place_mover(count, workspace)
+    if count == 1 and radius == 0.0:  # a ray's point has no depth: it meets what it touches
+        return advance(1, 0.0, other_count, other_radius, workspace.advance), False
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     size = reach + radius + reach_of(workspace.advance.local_b, other_count) + other_radius

@@ -201,7 +201,9 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, w
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
-            if fraction < best and is_before(link, local_x, local_y, count, fraction, core, workspace):
+            # The point of a ray is on the link when it meets it: what counts is where it comes from.
+            when = 0.0 if count == 1 and radius == 0.0 else fraction
+            if fraction < best and is_before(link, local_x, local_y, count, when, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]

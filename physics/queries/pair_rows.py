@@ -20,7 +20,7 @@ from physics.shapes.rows import place, rounding_of
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.geometry import CORNER, SPAN, Geometry
-from physics.tables.shape import BOUNDS, CIRCLE, SHAPE
+from physics.tables.shape import CIRCLE, SHAPE
 
 Pose = tuple[float, float, float]
 
@@ -51,21 +51,20 @@ def _kept(shape, name, make) -> Any:
 
 
 def hull_row(shape: Shape) -> HullRow | None:
-    """The row of a convex shape, but for its place; None for one that is a mask, tiles or a chain inside."""
+    """The row of a convex shape, but for its place; None for a mask, tiles, a chain, and a Bounds, which is its box."""
     return _kept(shape, "_hull_row", _make_hull_row)
 
 
 def _make_hull_row(shape) -> HullRow | None:
-    inner = shape.shape if isinstance(shape, Bounds) else shape
-    if not isinstance(inner, (Circle, Capsule, Polygon, Segment)):
+    if not isinstance(shape, (Circle, Capsule, Polygon, Segment)):
         return None
     rows = np.zeros(2, SHAPE)
     rows["id"] = rows["body"] = rows["body_row"] = 0, 1
-    kind = CIRCLE if isinstance(inner, Circle) else KIND_OF[type(inner)]
-    rows["kind"], rows["wrapped"] = (BOUNDS, kind) if isinstance(shape, Bounds) else (kind, -1)
+    kind = CIRCLE if isinstance(shape, Circle) else KIND_OF[type(shape)]
+    rows["kind"], rows["wrapped"] = kind, -1
     rows["geometry"] = (-1, -1) if kind == CIRCLE else (0, 1)
     rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
-    points = np.array([] if isinstance(inner, Circle) else list(inner.points), CORNER)
+    points = np.array([] if isinstance(shape, Circle) else list(shape.points), CORNER)
     return HullRow(rows[:1].tobytes(), rows[1:].tobytes(), points.tobytes(), len(points))
 
 

@@ -4,16 +4,17 @@ copied has another workspace, and must go on to the same bit."""
 import numpy as np
 import pytest
 
-from physics.ccd.rotational import new_rotational_workspace, sweep_at
+from physics.ccd.rotational import new_rotational_workspace
+from physics.ccd.rotational_pairs import sweep_hull
 from physics.jit import JIT, kernel
 
 SLACK = 0.16  # [px]
 
 
 @kernel
-def sweep(count, other_count, core, slack, workspace):
+def sweep(count, other_count, half, slack, workspace):
     """The sweep of sharp hulls that stand in the workspace."""
-    return sweep_at(count, 0.0, other_count, 0.0, core, slack, workspace)
+    return sweep_hull(count, 0.0, half, 0.0, other_count, 0.0, slack, workspace)
 
 
 def hull(rng, count):
@@ -21,8 +22,8 @@ def hull(rng, count):
     return np.stack([10 * np.cos(turns), 7 * np.sin(turns)], axis=1)
 
 
-@pytest.mark.parametrize("core", [0.0, 1.0])
-def test_a_used_workspace_finds_what_a_new_one_finds(core):
+@pytest.mark.parametrize("half", [0.0, 4.0])
+def test_a_used_workspace_finds_what_a_new_one_finds(half):
     rng = np.random.default_rng(3)
     for _ in range(300 if JIT else 100):
         count, other_count = (int(n) for n in rng.integers(3, 17, 2))
@@ -37,7 +38,7 @@ def test_a_used_workspace_finds_what_a_new_one_finds(core):
                     array[:] = rng.uniform(0, 15, array.shape)
             workspace.mover[:count], workspace.advance.local_b[:other_count] = mover, other
             workspace.advance.motion_a[:], workspace.advance.motion_b[:] = motion, still
-            fraction, by_core = sweep(count, other_count, core, SLACK, workspace)
+            fraction, nx, ny = sweep(count, other_count, half, SLACK, workspace)
             gap = workspace.advance.gap.gap.tobytes() if fraction <= 1.0 else b""
-            found.append((fraction, by_core, gap, workspace.advance.totals.tobytes()))
+            found.append((fraction, nx, ny, gap, workspace.advance.totals.tobytes()))
         assert found[0] == found[1] == found[2]
