@@ -36,6 +36,7 @@ from physics.proximity.gjk import FIRST_A, FIRST_B, NX, NY
 from physics.shapes.placement import hull_at
 from physics.tables.shape import BOUNDS
 
+BEFORE = 2.0**-20  # of the way
 BACKWARDS = 6  # rounds of Newton's method: two or three do
 CORE = 0.25  # of a body's smallest half extent
 
@@ -144,7 +145,10 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
     """
     reach = place_mover(count, workspace)
     if count == 1 and radius == 0.0:  # a ray's point has no depth: it meets what it touches
-        return advance(1, 0.0, other_count, other_radius, workspace.advance), False
+        fraction = advance(1, 0.0, other_count, other_radius, workspace.advance)
+        if fraction <= 1.0:  # where it touches it has no normal: that of just before
+            separate_at(1, 0.0, other_count, other_radius, max(0.0, fraction - BEFORE), workspace.advance)
+        return fraction, False
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     size = reach + radius + reach_of(workspace.advance.local_b, other_count) + other_radius

@@ -9,7 +9,7 @@ from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import part_feature
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
-from physics.math2d import turned, unit
+from physics.math2d import turned
 from physics.proximity.gjk import NX, NY
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
 
@@ -202,15 +202,10 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, w
             place_link(link, local_x, local_y, workspace)
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
             # The point of a ray is on the link when it meets it: what counts is where it comes from.
-            is_point = count == 1 and radius == 0.0
-            when = 0.0 if is_point else fraction
+            when = 0.0 if count == 1 and radius == 0.0 else fraction
             if fraction < best and is_before(link, local_x, local_y, count, when, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
-                if is_point:
-                    angle = other[ANGLE] + fraction * other[TURN]
-                    u, v = unit(link.by - link.ay, link.ax - link.bx, 0.0, -1.0)
-                    best_x, best_y = turned(u, v, math.cos(angle), math.sin(angle))
                 feature = part_feature(k - span.offset, 0)
     return best, best_x, best_y, feature
