@@ -34,8 +34,7 @@ def update_rectangles(
 
     rasters: those of the geometry. motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates,
     spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it needs.
-    Returns the number of slots.
-    O(rows).
+    Returns the number of slots. O(rows).
     """
     gravity_x = motion[0]
     gravity_y = motion[1]

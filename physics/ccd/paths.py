@@ -36,6 +36,12 @@ def list_paths(
 
 
 @subkernel
+def asks_straight(body):
+    """Whether a body asks for a sweep without turning, whether it moves or not."""
+    return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
+
+
+@subkernel
 def way_of(bodies, paths, row):
     """How far [px] any point of a body moves at most."""
     moved = length_of(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
@@ -68,7 +74,7 @@ def find_fast(
         i = rows[k]
         b = bodies[i]
         fast_out[i] = False
-        if b.kind == DYNAMIC and (b.continuous == RAY or b.continuous == SWEPT):
+        if asks_straight(b):
             straight += 1
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
@@ -117,7 +123,7 @@ def find_outgrown(
         if s.proxy < 0:
             continue
         b = bodies[s.body_row]
-        if not (fast[s.body_row] or (b.kind == DYNAMIC and (b.continuous == RAY or b.continuous == SWEPT))):
+        if not (fast[s.body_row] or asks_straight(b)):
             continue
         p = proxies[s.proxy]
         if s.min_x < p.lower_x or s.max_x > p.upper_x or s.min_y < p.lower_y or s.max_y > p.upper_y:

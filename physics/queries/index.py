@@ -123,6 +123,13 @@ def rows_meeting(
     return found
 
 
+def is_same(now: tuple, before: tuple) -> bool:
+    """Whether two tuples hold the same objects, and equal ints."""
+    return len(now) == len(before) and all(
+        a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
+    )
+
+
 class IndexedWorld(WorldTables, Protocol):
     """A world, or the StepState of its step, whose shapes can be looked up."""
 
@@ -178,9 +185,7 @@ class QueryIndex:
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
         seen = (pairs, world.broadphase, len(bodies), len(shapes), newest, len(pairs.free), pairs.everything)
-        known = len(seen) == len(self.seen) and all(
-            a is b or (type(a) is int and a == b) for a, b in zip(seen, self.seen, strict=True)
-        )
+        known = is_same(seen, self.seen)
         some = known and awake.sleeping and awake.is_known(bodies, shapes) and world.steps - self.step <= 1
         rows = self._watched(awake, bodies) if some else np.arange(len(bodies))
         if not known:
@@ -205,8 +210,7 @@ class QueryIndex:
     def _watched(self, awake, bodies):
         """Body rows that may have moved; the same until the lists of what is awake are others."""
         lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
-        same = len(self.lists) == len(lists) and all(a is b for a, b in zip(lists, self.lists, strict=True))
-        if not same or awake.stirred:
+        if awake.stirred or not is_same(lists, self.lists):
             self.lists, self.watched = lists, awake.may_move(bodies, self.awake)
         return self.watched
 
