@@ -32,6 +32,7 @@ BAUMGARTE = (
     0.1  # share of an overlap that sequential impulses take out per step (Chipmunk). 0.2 rocks a column of 15 down
 )
 PUSH_SHARE = 0.2  # of an overlap that bears nothing, taken out per step of the solver. Larger: crowds jostle
+CALM_SHARE = 1e-5  # of the push-out speed: who approaches no faster is still, however its speed was rounded
 PUSH_PASSES = 3  # of sequential impulses that let overlaps out; what they leave is left to the next step
 ITERATIONS_PER_SUBSTEP = 2.5  # passes of sequential impulses that cost what one substep of the soft step costs: 4 -> 10
 COLORS = 62  # bits of an int64 that are safe to shift; what fits in none is solved first, in order

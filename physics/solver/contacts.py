@@ -13,7 +13,7 @@ import numpy as np
 
 from physics.dynamics.graph import color_edges, order_edges
 from physics.jit import kernel, subkernel
-from physics.settings import COLORS, CROWD
+from physics.settings import CALM_SHARE, COLORS, CROWD
 from physics.solver.bounce import restore_bounces
 from physics.solver.motions import Motions
 from physics.tables.constraint import CONSTRAINT
@@ -90,6 +90,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         manifolds,
         plan,
         h,
+        calm_speed,
         # write
         anchors_inout,
         constraints_out,
@@ -98,7 +99,8 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
         substep of h [s].
 
-        plan: see Plan. Arms go from the centres of mass to the contact point. O(constraints).
+        plan: see Plan. calm_speed [px/s]: what approaches no faster counts as still. Arms go from the centres of mass
+        to the contact point. O(constraints).
         """
         for i in range(plan.count):
             edge = plan.ordered[i]
@@ -126,7 +128,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
             )
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
-            r.calm = m.speed_1 <= 0.0 and (m.count == 1 or m.speed_2 <= 0.0)
+            r.calm = m.speed_1 <= calm_speed and (m.count == 1 or m.speed_2 <= calm_speed)
             r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
             r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
             r.rolling_limit = c.rolling_resistance if friction else 0.0
@@ -320,7 +322,8 @@ class ContactSet:
         order_edges(self.count, self.colors, self.starts, self.cursors, self.ordered)
         plan = Plan(self.count, self.selected, self.edges, self.colors, degrees, self.ordered)
         prepare = PREPARE[state.effects.friction, state.effects.conveyor]
-        prepare(state.bodies, rows, manifolds, plan, h, state.anchors, self.constraints, state.work)
+        calm_speed = CALM_SHARE * state.tolerances.push_speed
+        prepare(state.bodies, rows, manifolds, plan, h, calm_speed, state.anchors, self.constraints, state.work)
 
     def warm_start(self, motions: Motions, rotation: bool) -> None:
         """Apply the impulses that the rows hold already."""

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import CONTACT_DAMPING, CONTACT_HERTZ, PUSH_SHARE, STILL_STIFFNESS
+from physics.settings import CALM_SHARE, CONTACT_DAMPING, CONTACT_HERTZ, PUSH_SHARE, STILL_STIFFNESS
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
@@ -125,6 +125,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
 
         soft, soft_still: Softness of a contact between bodies and of one with what cannot be pushed.
         """
+        calm_speed = CALM_SHARE * push_speed
         for i in range(count):
             r = constraints_inout[i]
             a = motions_inout[r.motion_a]
@@ -158,9 +159,11 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
-            soft_now = biased and (old_1 + old_2 > 0.0 or (speed_1 >= 0.0 and (r.count == 1 or speed_2 >= 0.0)))
+            still = speed_1 >= -calm_speed and (r.count == 1 or speed_2 >= -calm_speed)
+            bears = old_1 > calm_speed * r.normal_mass_1 or old_2 > calm_speed * r.normal_mass_2
+            soft_now = biased and (still or bears)
             # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
-            free = soft_now and r.calm and old_1 + old_2 == 0.0
+            free = soft_now and r.calm and not bears
             impulse_1 = normal_change(
                 speed_1,
                 gap_1,

@@ -43,8 +43,8 @@ CONSTRAINT = np.dtype(
         ("radius_a", np.float64),
         ("radius_b", np.float64),  # [px] the separation is measured from core to core
         ("push_share", np.float64),  # of the push-out speed
-        ("loaded", np.bool_),  # it bore something in the step before
         ("calm", np.bool_),  # nothing approached before the step
+        ("loaded", np.bool_),  # it bore something in the step before
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
         ("ax_1", np.float64),
         ("ay_1", np.float64),
