@@ -11,6 +11,8 @@ from physics.jit import subkernel
 from physics.tables.body import KINEMATIC
 from physics.tables.geometry import BLOCK_LINKS
 
+ROUNDED = 1e-9  # of its size: by how much a character that touches pixels may seem to be in them
+
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
@@ -93,10 +95,23 @@ def deepest_link(walk, me, row, left, top):
 
 
 @subkernel
+def depth_in_mask(walk, me, row, left, top):
+    """As meet_mask, for a character, its box at a pixel. What it merely touches is not met, however it was rounded."""
+    count, radius = place_outline(walk, me, left, top)
+    c = walk.characters[me]
+    if not c.is_box:
+        corners = walk.scratch.mine
+        for k in range(count):
+            corners[k, 0] -= ROUNDED * (corners[k, 0] - (left + 0.5 * c.width))
+            corners[k, 1] -= ROUNDED * (corners[k, 1] - (top + 0.5 * c.height))
+        radius -= ROUNDED * radius
+    return meet_mask(walk, row, count, radius)
+
+
+@subkernel
 def is_in_mask(walk, me, row, left, top):
     """Whether a character, its box at a pixel, shares pixels with a mask, as drawn."""
-    count, radius = place_outline(walk, me, left, top)
-    depth, nx, ny, x, y = meet_mask(walk, row, count, radius)
+    depth, nx, ny, x, y = depth_in_mask(walk, me, row, left, top)
     return depth > 0.0
 
 
@@ -107,8 +122,7 @@ def in_mask(walk, me, row, left, top, way_x, way_y):
     A step of its staircase is ground where it is no higher than the slope rises on one pixel; else it is a wall.
     """
     c = walk.characters[me]
-    count, radius = place_outline(walk, me, left, top)
-    depth, nx, ny, x, y = meet_mask(walk, row, count, radius)
+    depth, nx, ny, x, y = depth_in_mask(walk, me, row, left, top)
     if depth <= 0.0:
         return FREE, 0.0
     slope, is_ground = mask_slope(walk, row, x, y)
