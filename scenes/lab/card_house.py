@@ -32,6 +32,8 @@ FLOOR = 238  # [canvas px]
 HOUSE_X = 140.0
 PAIRS = ((328.0, LESS, SKY), (436.0, MORE, GREEN))  # x, friction, colour of the cloth
 CLOTH = 62.0  # [px] wide
+WOOD, EDGE = (126, 78, 52), (190, 130, 88)
+RAIL = (280.0, 5.0, 20.0)  # [canvas px] x, width and height of what keeps a fallen house off the pairs
 COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0  # [px] radius, [px/s], times a card's
 JUDGED_AT = 600  # step: ten seconds
 SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and the friction it then chooses [1/100]
@@ -75,6 +77,8 @@ class CardHouse(Scene):
             self.pairs.append(self._pair(x, FLOOR, material))
         self._table(PAIRS[0][0] + CLOTH / 2, PAIRS[1][0] - CLOTH / 2, friction)
         self._table(PAIRS[1][0] + CLOTH / 2, 800.0, friction)
+        x, width, height = RAIL
+        self.world.add_body(Polygon.box(width, height), position=(x, FLOOR - height / 2), kind="static")
         self.start = {card.id: card.center for card in (*self.cards, *self.pairs[0], *self.pairs[1])}
         self.coins = []
         self.since = 0
@@ -167,6 +171,11 @@ class CardHouse(Scene):
             left = round(x - CLOTH / 2)
             canvas.surface.fill(color, (left + 1, FLOOR, round(CLOTH) - 2, 2))
             canvas.surface.fill((20, 16, 32), (left + 1, FLOOR + 2, round(CLOTH) - 2, 1))
+        x, width, height = (round(size) for size in RAIL)
+        rail = pygame.Rect(x - width // 2 - 1, FLOOR - height, width, height)
+        canvas.surface.fill(WOOD, rail)
+        canvas.surface.fill(EDGE, (rail.x, rail.y, rail.w, 1))
+        canvas.surface.fill(EDGE, (rail.x, rail.y, 1, rail.h))
         self.cast.draw(canvas, self.camera, self.world, alpha)
         for (x, friction, color), cards in zip(PAIRS, self.pairs, strict=True):
             self._draw_pair_words(canvas, x, friction, color, self.stands(cards))
