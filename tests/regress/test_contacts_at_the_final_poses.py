@@ -84,7 +84,7 @@ def test_they_are_what_a_look_at_the_final_poses_finds(solver, shapes, ground):
                 math.dist(found.points[k], (contact["point_x"], contact["point_y"])),
                 10.0 * math.dist(found.normal, (contact["normal_x"], contact["normal_y"])),
             )
-            assert errors[0] <= 2.0 * moved
+            assert errors[0] <= 3.0 * moved
             near += max(errors) <= moved * moved / 100.0 + 1e-9
     assert same > 30 and near >= 0.9 * same
 
