@@ -73,6 +73,21 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
         paths_inout[row, k + 2] = b.angle
 
 
+@subkernel
+def goes_on(bodies, paths, mover, other, fraction, nx, ny):
+    """How far [px] two bodies that meet at a fraction of the step have still to go: into each other, along the unit
+    normal from other to mover, or by any point when they turn, whichever is more."""
+    left_m = max(0.0, bodies[mover].fraction - fraction)
+    left_o = max(0.0, bodies[other].fraction - fraction)
+    dx = left_m * (paths[mover, 3] - paths[mover, 0]) - left_o * (paths[other, 3] - paths[other, 0])
+    dy = left_m * (paths[mover, 4] - paths[mover, 1]) - left_o * (paths[other, 4] - paths[other, 1])
+    turns = (
+        abs(paths[mover, 5] - paths[mover, 2]) * bodies[mover].extent
+        + abs(paths[other, 5] - paths[other, 2]) * bodies[other].extent
+    )
+    return max(-(nx * dx + ny * dy), turns)
+
+
 @kernel
 def find_rotational_impacts(
     # read
@@ -142,17 +157,25 @@ def find_rotational_impacts(
             continue
         m = shapes[mover].body_row
         o = shapes[other].body_row
-        # What either has still to go when they meet.
-        left_m = max(0.0, bodies[m].fraction - fraction)
-        left_o = max(0.0, bodies[o].fraction - fraction)
-        dx = left_m * (paths_inout[m, 3] - paths_inout[m, 0]) - left_o * (paths_inout[o, 3] - paths_inout[o, 0])
-        dy = left_m * (paths_inout[m, 4] - paths_inout[m, 1]) - left_o * (paths_inout[o, 4] - paths_inout[o, 1])
         room_left = 0.25 * bodies[m].smallest_half
-        turns = (
-            abs(paths_inout[m, 5] - paths_inout[m, 2]) * bodies[m].extent
-            + abs(paths_inout[o, 5] - paths_inout[o, 2]) * bodies[o].extent
-        )
-        stops = stacking or -(nx * dx + ny * dy) > room_left or turns > room_left
+        stops = stacking or goes_on(bodies, paths_inout, m, o, fraction, nx, ny) > room_left
+        if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
+            # What lets it pass may not be all of the ground that it meets: a ball that runs down a wall has a floor.
+            later, u, v, part = first_meeting(
+                geometry,
+                bodies,
+                shapes,
+                paths_inout,
+                mover,
+                other,
+                slack + room_left,
+                one_way,
+                cuts_out,
+                workspace,
+                work_inout,
+            )
+            if later <= 1.0:
+                fraction, nx, ny, feature, stops = later, u, v, part, True
         found = write_impact(i, fraction, nx, ny, feature, from_a, stops, found, impacts_out)
     return found
 
