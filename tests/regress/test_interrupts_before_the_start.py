@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Ctrl-C comes when the named module is first looked for.
 WATCHED = """
 import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # also where what started this one ignores it
 class Interrupts:
     def find_spec(self, name, path=None, target=None):
         if name == {module!r}:
