@@ -14,7 +14,6 @@ from physics.collision.approach import closing_speed
 from physics.collision.final_poses import recount
 from physics.dynamics.integrate import place_shapes
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of
 from physics.settings import PROJECTION_PASSES
 from physics.solver.pushes import PushSet
 from physics.tables.body import DYNAMIC, OFF
@@ -31,27 +30,6 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
         body_inout.angular_velocity += body_inout.inverse_inertia * (anchor_x * y - anchor_y * x)
 
 
-@subkernel
-def push_out(x, y, row, pushed_inout, body_inout):
-    """Move a body by (x, y) [px], as far as it may be pushed in this step; pushed_inout: see pushes.allow_pushes."""
-    b = body_inout
-    to_x = pushed_inout[row, 0] + x
-    to_y = pushed_inout[row, 1] + y
-    length = length_of(to_x, to_y)
-    most = pushed_inout[row, 2]
-    if length > most:
-        to_x = to_x * most / length
-        to_y = to_y * most / length
-        x = to_x - pushed_inout[row, 0]
-        y = to_y - pushed_inout[row, 1]
-    pushed_inout[row, 0] = to_x
-    pushed_inout[row, 1] = to_y
-    b.x += x
-    b.y += y
-    b.center_x += x
-    b.center_y += y
-
-
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
     """One pass over the contacts of a world with these effects."""
 
@@ -62,14 +40,12 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
         first,
         # write
         bodies_inout,
-        pushed_inout,
         pushes_inout,
         work_inout,
     ):
         """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
 
-        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step; pushed_inout: see
-        pushes.allow_pushes. Impulses add up in
+        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step. Impulses add up in
         the contacts. O(contacts).
         """
         for i in range(len(pushes_inout)):
@@ -132,8 +108,14 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
                 share = -separation / inverse_masses
                 x = share * nx
                 y = share * ny
-                push_out(-a.inverse_mass * x, -a.inverse_mass * y, c.body_row_a, pushed_inout, a)
-                push_out(b.inverse_mass * x, b.inverse_mass * y, c.body_row_b, pushed_inout, b)
+                a.x -= a.inverse_mass * x
+                a.y -= a.inverse_mass * y
+                a.center_x -= a.inverse_mass * x
+                a.center_y -= a.inverse_mass * y
+                b.x += b.inverse_mass * x
+                b.y += b.inverse_mass * y
+                b.center_x += b.inverse_mass * x
+                b.center_y += b.inverse_mass * y
 
     return project
 
@@ -157,6 +139,8 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     for number in range(PROJECTION_PASSES):
         for each in sets:
             each.solve(state, run, state.tolerances.restitution_speed, int(number == 0))
+    for each in sets:
+        _slow_down(bodies, rows, before, each.reach[rows])
     if effects.continuous:
         _hold_back(state, rows, before)
     for each in sets:
@@ -164,11 +148,32 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
     return state.dt
 
 
+def _moves(bodies, rows, before):
+    """(n, 2) [px] from where the bodies of these rows were, and how far that is."""
+    moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
+    return moves, np.hypot(moves[:, 0], moves[:, 1])
+
+
+def _slow_down(bodies, rows, before, reach):
+    """Let nobody be pushed further in this step than its reach [px], however many push it.
+
+    In the end only: what is lifted by one contact and pressed down by the next has hardly moved.
+    """
+    moves, ways = _moves(bodies, rows, before)
+    far = ways > reach
+    if not far.any():
+        return
+    rows, back = rows[far], moves[far] * (reach[far] / ways[far] - 1.0)[:, None]
+    for column, axis in enumerate("xy"):
+        bodies[axis][rows] += back[:, column]
+        bodies[f"center_{axis}"][rows] += back[:, column]
+
+
 def _hold_back(state, rows, before):
     """Let nobody be pushed through a wall by somebody else. before (n, 2) [px]: where the bodies of these rows were."""
     bodies = state.bodies
-    moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
-    far = np.hypot(moves[:, 0], moves[:, 1]) > CORE * bodies["smallest_half"][rows]
+    moves, ways = _moves(bodies, rows, before)
+    far = ways > CORE * bodies["smallest_half"][rows]
     far &= (bodies["kind"][rows] == DYNAMIC) & (bodies["continuous"][rows] != OFF)
     if not far.any():
         return

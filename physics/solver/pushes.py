@@ -9,6 +9,7 @@ from physics.collision.anchors import write_anchors
 from physics.collision.materials import mixed
 from physics.collision.persist import follow_bodies
 from physics.jit import kernel
+from physics.math2d import length_of
 from physics.tables.constraint import PUSH
 from physics.tables.manifold import ANCHOR
 from physics.tables.step_state import StepState
@@ -60,24 +61,28 @@ def prepare_pushes(
 
 
 @kernel
-def allow_pushes(pushes, push_speed, dt, pushed_out):
-    """Write how far each body may be pushed in this step: pushed_out (bodies, 3) moved so far x, y, at most [px].
-
-    At push_speed [px/s], however many push it; and as much further as what it meets comes nearer within dt [s]: that is
-    no old overlap. O(pushes).
+def limit_pushes(
+    # read
+    pushes,
+    bodies,
+    push_speed,
+    dt,
+    # write
+    reach_out,
+):
+    """Write how far [px] each body that is pushed may be moved in this step: at push_speed [px/s], and as much further
+    as it moves itself, or what it meets comes nearer, within dt [s]: that is no old overlap. O(pushes).
     """
     for i in range(len(pushes)):
         r = pushes[i]
         for side in range(2):
             row = r.body_row_a if side == 0 else r.body_row_b
-            pushed_out[row, 0] = 0.0
-            pushed_out[row, 1] = 0.0
-            pushed_out[row, 2] = push_speed * dt
+            reach_out[row] = (push_speed + length_of(bodies[row].vx, bodies[row].vy)) * dt
     for i in range(len(pushes)):
         r = pushes[i]
         for side in range(2):
             row = r.body_row_a if side == 0 else r.body_row_b
-            pushed_out[row, 2] = max(pushed_out[row, 2], (push_speed + max(r.speed, 0.0)) * dt)
+            reach_out[row] = max(reach_out[row], (push_speed + max(r.speed, 0.0)) * dt)
 
 
 @kernel
@@ -102,7 +107,7 @@ class PushSet:
     def __init__(self) -> None:
         self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
         self.rows = self.data[:0]
-        self.pushed = np.zeros((16, 3))  # see allow_pushes
+        self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
         """Fill the rows, and anchor the manifolds where they were detected."""
@@ -112,14 +117,14 @@ class PushSet:
         tables, conveyor = state.library.tables, int(state.effects.conveyor)
         found = prepare_pushes(tables, state.bodies, state.shapes, state.manifolds, conveyor, self.data)
         self.rows = self.data[:found]
-        if len(self.pushed) < len(state.bodies):
-            self.pushed = np.zeros((2 * len(state.bodies), 3))
-        allow_pushes(self.rows, state.tolerances.push_speed, state.dt, self.pushed)
+        if len(self.reach) < len(state.bodies):
+            self.reach = np.zeros(2 * len(state.bodies))
+        limit_pushes(self.rows, state.bodies, state.tolerances.push_speed, state.dt, self.reach)
         write_anchors(tables, state.bodies, state.shapes, state.manifolds, self.anchors)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
         """One pass of a solver over the rows."""
-        run(*settings, state.bodies, self.pushed, self.rows, state.work)
+        run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
         """Write what was found back to the manifolds, and carry these to the final poses."""

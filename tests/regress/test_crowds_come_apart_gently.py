@@ -70,3 +70,17 @@ def test_what_comes_fast_is_pushed_out_at_once_by_projection():
     box = world.add_body(Polygon.box(20, 20), position=(0, -12), velocity=(0.0, 900.0), continuous="off")
     world.step()
     assert box.position[1] == pytest.approx(-10.0, abs=1e-9)
+
+
+def test_a_column_under_projection_sinks_and_then_no_more():
+    """Capping each push by itself let the lowest crates sink into the ground and into each other without end."""
+    world = World(Effects(response=True, gravity=True), solver="projection")
+    world.add_body(Polygon.box(400, 40), position=(0, 20), kind="static")
+    column = [world.add_body(Polygon.box(16, 16), position=(0, -8 - 16 * k)) for k in range(10)]
+    heights = []
+    for _ in range(3):
+        for _ in range(120):
+            world.step()
+        heights.append([each.position[1] for each in column])
+    assert heights[2] == pytest.approx(heights[1], abs=0.05)
+    assert min(world.contacts["separation"]) > -2.0
