@@ -7,6 +7,9 @@ import numpy as np
 from physics.world_state import WorldState
 
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
+GIVEN = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")  # may be changed by hand
+SHAPE = ("id", "friction", "restitution", "rolling_resistance", "surface_speed", "membership", "mask", "sensor")
+NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
 WALK = (
     "body",
@@ -32,13 +35,21 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """blake2b-128 over ids, poses, velocities, flags, characters, contacts and impulses in id order, and over targets
-    and forces that wait for the next step; −0.0 as 0.0."""
+    """blake2b-128 over the settings of the step, ids, poses, velocities, flags, masses, materials, filters, characters,
+    contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
-    for rows, names in ((world.bodies, STATE), (world.characters.rows, WALK), (world.contacts, KEYS)):
+    numbers = (world.dt, world.substeps, world.tolerances.pixels_per_meter, world.drag, *world.gravity, *world.wind)
+    found.update(world.solver.encode() + (np.array(numbers, np.float64) + 0.0).tobytes())
+    tables = (
+        (world.bodies, (*STATE, *GIVEN)),
+        (world.shapes, SHAPE),
+        (world.characters.rows, WALK),
+        (world.contacts, KEYS),
+    )
+    for rows, names in tables:
         found.update(len(rows).to_bytes(8, "little"))
         for name in names:
-            column = np.ascontiguousarray(rows[name])
+            column = rows[name].astype(NARROW.get(name, rows.dtype[name]))
             found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
     # What waits for the next step only; where nothing waits, nothing is added.
     targets = world._targets
