@@ -57,7 +57,7 @@ class GhostBumps(Scene):
     draggable = True
     filter_names = {1: "floor"} | {2 << number: kind for number, kind in enumerate(KINDS)}
     head = HEAD
-    legend_at = (318, 220)
+    legend_at = (6, 34)
 
     def build(self):
         """Three floors with three sliders each."""
