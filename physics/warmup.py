@@ -120,6 +120,7 @@ def _rest(effects, solver):
     for _ in range(int(2.0 * SLEEP_TIME / world.dt) if effects.sleeping else 0):
         world.step()
     world.remove_body(world.add_body(Circle(4), position=(8.3, 8.3)))
+    world.add_body(Circle(4), position=(40.0, 0.0), kind="kinematic", velocity=(9.0, 0.0))
     world.add_body(Circle(4), position=(7.0, 7.0), velocity=(-99.0, -99.0))
     world.step()
 
