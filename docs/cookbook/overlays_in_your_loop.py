@@ -21,7 +21,7 @@ for _ in range(90):  # while running: events, then
         pygame.draw.line(screen, "red", (x, y), (x + 8 * contact["normal_x"], y + 8 * contact["normal_y"]))
     pygame.display.flip()
 
-red = pygame.mask.from_threshold(screen, "red", (1, 1, 1)).count()
+red = pygame.mask.from_threshold(screen, pygame.Color("red"), (1, 1, 1)).count()
 print(len(world.contacts), "contacts drawn in", red, "pixels")
 pygame.quit()
 assert red > 0

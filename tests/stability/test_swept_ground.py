@@ -9,10 +9,11 @@ import math
 
 import numpy as np
 import pytest
-import shapely
 
 from physics import JIT, Capsule, Circle, Effects, Material, Polygon, World, time_of_impact
-from tests.oracles.enclosed import (
+
+shapely = pytest.importorskip("shapely")
+from tests.oracles.enclosed import (  # noqa: E402
     EMPTY,
     FALLS,
     FULL,
