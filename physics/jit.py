@@ -70,8 +70,8 @@ def _imports_of(path: Path) -> tuple[Path, ...]:
     """Files of this package that the file at `path` imports, from its import statements."""
     found = []
     for node in ast.walk(ast.parse(path.read_bytes())):
-        if isinstance(node, ast.ImportFrom) and node.level == 0 and (node.module or "").split(".")[0] == HERE.name:
-            module = HERE.parent.joinpath(*node.module.split("."))
+        if isinstance(node, ast.ImportFrom) and node.level == 0 and str(node.module).split(".")[0] == HERE.name:
+            module = HERE.parent.joinpath(*str(node.module).split("."))
             names = [module] + [module / alias.name for alias in node.names]
             found += [name.with_suffix(".py") for name in names if name.with_suffix(".py").is_file()]
     return tuple(sorted(set(found)))
