@@ -16,7 +16,7 @@ from physics.collision.anchors import anchors_of
 from physics.collision.approach import measure_approach
 from physics.collision.detect import detect, touch_where_they_are
 from physics.collision.manifold import new_workspace
-from physics.dynamics.integrate import place_shapes
+from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
@@ -290,10 +290,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
     bodies["fraction"][rows] = 1.0
     walls = _look(state, 0, strict=True)
     stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
-    moves = moves * bodies["fraction"][rows][:, None]
-    for column, axis in enumerate("xy"):
-        bodies[axis][rows] += moves[:, column]
-        bodies[f"center_{axis}"][rows] += moves[:, column]
+    shift_bodies(bodies, rows, moves * bodies["fraction"][rows][:, None])
     bodies["fraction"][rows] = fractions
 
 

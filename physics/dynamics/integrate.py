@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from physics.dynamics.sleep import disturb
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.settings import POSITION_LIMIT
 from physics.shapes.placement import refresh_aabbs
@@ -127,6 +127,23 @@ def refresh_centers(rows, bodies_inout):
             b.settled_angle = b.angle
 
 
+@subkernel
+def put_aside(body_inout):
+    """Quarantine a body where it is: at rest, pulled by nothing."""
+    b = body_inout
+    b.previous_x = b.x
+    b.previous_y = b.y
+    b.previous_angle = b.angle
+    b.vx = 0.0
+    b.vy = 0.0
+    b.angular_velocity = 0.0
+    b.force_x = 0.0
+    b.force_y = 0.0
+    b.torque = 0.0
+    b.awake = False
+    b.quarantined = True
+
+
 @kernel
 def find_broken(
     # read
@@ -163,17 +180,7 @@ def find_broken(
                 b.x = b.settled_x
                 b.y = b.settled_y
                 b.angle = b.settled_angle
-            b.previous_x = b.x
-            b.previous_y = b.y
-            b.previous_angle = b.angle
-            b.vx = 0.0
-            b.vy = 0.0
-            b.angular_velocity = 0.0
-            b.force_x = 0.0
-            b.force_y = 0.0
-            b.torque = 0.0
-            b.awake = False
-            b.quarantined = True
+            put_aside(b)
     return found
 
 
@@ -199,14 +206,7 @@ def find_turned_grids(
         broken_out[found] = s.body_row
         found += 1
         b.angle = 0.0
-        b.previous_x = b.x
-        b.previous_y = b.y
-        b.previous_angle = 0.0
-        b.vx = 0.0
-        b.vy = 0.0
-        b.angular_velocity = 0.0
-        b.awake = False
-        b.quarantined = True
+        put_aside(b)
     return found
 
 
@@ -315,3 +315,10 @@ def place_shapes(state: StepState) -> None:
     # What was stopped on its way, or pushed round, may stand at an angle that was not foreseen.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
     refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)
+
+
+def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> None:
+    """Move the bodies of these rows by (n, 2) [px]; they do not turn, and their shapes are not placed."""
+    for column, axis in enumerate("xy"):
+        bodies[axis][rows] += moves[:, column]
+        bodies[f"center_{axis}"][rows] += moves[:, column]

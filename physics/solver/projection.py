@@ -12,7 +12,7 @@ from physics.ccd.rotational import CORE
 from physics.ccd.sweep import shift_freely
 from physics.collision.approach import closing_speed
 from physics.collision.final_poses import recount
-from physics.dynamics.integrate import place_shapes
+from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
 from physics.settings import PROJECTION_PASSES
 from physics.solver.pushes import PushSet
@@ -163,10 +163,7 @@ def _slow_down(bodies, rows, before, reach):
     far = ways > reach
     if not far.any():
         return
-    rows, back = rows[far], moves[far] * (reach[far] / ways[far] - 1.0)[:, None]
-    for column, axis in enumerate("xy"):
-        bodies[axis][rows] += back[:, column]
-        bodies[f"center_{axis}"][rows] += back[:, column]
+    shift_bodies(bodies, rows[far], moves[far] * (reach[far] / ways[far] - 1.0)[:, None])
 
 
 def _hold_back(state, rows, before):
@@ -178,9 +175,7 @@ def _hold_back(state, rows, before):
     if not far.any():
         return
     rows, moves = rows[far], moves[far]
-    for column, axis in enumerate("xy"):
-        bodies[axis][rows] -= moves[:, column]
-        bodies[f"center_{axis}"][rows] -= moves[:, column]
+    shift_bodies(bodies, rows, -moves)
     shift_freely(state, rows, moves, arrived=True)
 
 
