@@ -16,7 +16,7 @@ from typing import Any
 
 import physics
 from game.run.kernel_work import Version, claim, listing
-from physics import jit
+from physics.jit import claims
 
 NICE = 10  # of the system's 0 to 19: whoever plays goes first
 POLL = 0.02  # [s]
@@ -102,7 +102,7 @@ def main() -> None:
     with contextlib.suppress(OSError, AttributeError):
         os.nice(NICE)
     work, known = Work(), {}
-    jit.claim = claim
+    claims.claim = claim
     threading.Thread(target=work.listen, daemon=True).start()
     while True:
         job = work.next()

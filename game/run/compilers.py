@@ -19,7 +19,7 @@ from game.errors import UsageError
 from game.registry import Registry
 from game.run.warmup import pieces_of, solvers_of, strategy_of
 from game.scene import Scene
-from physics.jit import cache_home, source_stamp
+from physics.jit.folders import cache_home, source_stamp
 
 ROOT = Path(__file__).resolve().parents[2]
 MOST = 8  # processes: each takes 150 MB, and no scene has kernels for more

@@ -50,7 +50,7 @@ def test_a_copy_elsewhere_finds_what_was_compiled(tmp_path):
     assert hits == 0 and misses > 5
     found, anew = hits_and_misses(second, cache)  # what a kernel calls comes with it: fewer are looked for
     assert found > 5 and anew == 0
-    changed = second / "physics" / "jit.py"
+    changed = second / "physics" / "jit" / "__init__.py"
     changed.write_text(changed.read_text() + "\n# another version\n")
     hits, again = hits_and_misses(second, cache)
     assert hits == 0 and again == misses
