@@ -141,11 +141,12 @@ class Polygon(EqualByValue):
 
     @property
     def smallest_half(self) -> float:
-        """Half of the least width, over the directions of the edges' normals, and the radius."""
+        """From its centre of mass to the nearest edge, and the radius: half of the least width where both ends are alike."""
         points = np.array(self.points)
         edges = np.roll(points, -1, axis=0) - points
-        normals = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
-        return float(np.ptp(points @ normals.T, axis=0).min() / 2.0) + self.radius
+        outward = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
+        from_center = points - np.array(self.mass_of(1.0).center)
+        return float((from_center * outward).sum(axis=1).min()) + self.radius
 
     def mass_of(self, density: float) -> Mass:
         if self.radius == 0.0:
