@@ -35,7 +35,7 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
         cut_path(paths, p, 0.0, both, cuts_out)
         cut_path(paths, q, 0.0, both, cuts_out)
         fraction, nx, ny, feature = sweep_rotational(
-            geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
+            geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, -1, workspace, work_inout
         )
         if fraction <= 1.0:
             return fraction * both, nx, ny, feature
@@ -45,7 +45,7 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
     cut_path(paths, p, min(both, far_p), far_p, cuts_out)
     cut_path(paths, q, min(both, far_q), far_q, cuts_out)
     fraction, nx, ny, feature = sweep_rotational(
-        geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
+        geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, -1, workspace, work_inout
     )
     if fraction <= 1.0:
         return both + fraction * (last - both), nx, ny, feature

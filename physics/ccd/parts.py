@@ -93,10 +93,12 @@ def advance_on_ground(
             r.motion_b[k] = motion_b[k]
         copy_part(a.corners, i, a.counts[i], workspace.mover)
         if is_chain == 1:
-            fraction, nx, ny, _ = sweep_chain(geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, workspace)
+            fraction, nx, ny, _ = sweep_chain(
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, -1, workspace
+            )
         else:
             fraction, nx, ny, _ = sweep_tiles(
-                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, True, workspace
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radius, 0.0, 0.0, True, -1, workspace
             )
         if fraction < impact_out[0]:
             impact_out[0] = fraction

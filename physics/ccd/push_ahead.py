@@ -7,11 +7,14 @@ the step is swept once more, piece by piece: wherever the scripted surface would
 import math
 
 from physics.ccd.paths import cut_path
+from physics.ccd.rotational import BEFORE
 from physics.ccd.rotational_pairs import sweep_rotational
 from physics.jit import kernel
 from physics.math2d import turned
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.shape import CHAIN, MASK, TILES
+
+MEETINGS = 2  # parts of one pusher that are looked at in a round: the two sides of a corner
 
 
 @kernel
@@ -56,24 +59,30 @@ def push_ahead(
                 cuts_out[row, k] = b.center_x + share * moves_inout[row, 0]
                 cuts_out[row, k + 1] = b.center_y + share * moves_inout[row, 1]
                 cuts_out[row, k + 2] = b.angle
-            fraction, nx, ny, feature = sweep_rotational(
-                geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, workspace, work_inout
-            )
-            if fraction >= 1.0:
-                continue
-            # Where the point of the pusher that is now at the body's centre of mass will be, beyond its own move.
-            left = 1.0 - fraction
-            x = cuts_out[row, 0] + fraction * moves_inout[row, 0]
-            y = cuts_out[row, 1] + fraction * moves_inout[row, 1]
-            u = x - (cuts_out[pusher, 3] - left * (cuts_out[pusher, 3] - cuts_out[pusher, 0]))
-            v = y - (cuts_out[pusher, 4] - left * (cuts_out[pusher, 4] - cuts_out[pusher, 1]))
-            turn = left * (cuts_out[pusher, 5] - cuts_out[pusher, 2])
-            w, z = turned(u, v, math.cos(turn), math.sin(turn))
-            dx = cuts_out[pusher, 3] + w - x - left * moves_inout[row, 0]
-            dy = cuts_out[pusher, 4] + z - y - left * moves_inout[row, 1]
-            ahead = nx * dx + ny * dy
-            if ahead > 0.0:
-                moves_inout[row, 0] += ahead * nx
-                moves_inout[row, 1] += ahead * ny
-                found += 1
+            but = -1
+            for _ in range(MEETINGS):
+                fraction, nx, ny, feature = sweep_rotational(
+                    geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, but, workspace, work_inout
+                )
+                if fraction >= 1.0:
+                    break
+                # Where the point of the pusher that is now at the body's centre of mass will be, beyond its own move.
+                left = 1.0 - fraction
+                x = cuts_out[row, 0] + fraction * moves_inout[row, 0]
+                y = cuts_out[row, 1] + fraction * moves_inout[row, 1]
+                u = x - (cuts_out[pusher, 3] - left * (cuts_out[pusher, 3] - cuts_out[pusher, 0]))
+                v = y - (cuts_out[pusher, 4] - left * (cuts_out[pusher, 4] - cuts_out[pusher, 1]))
+                turn = left * (cuts_out[pusher, 5] - cuts_out[pusher, 2])
+                w, z = turned(u, v, math.cos(turn), math.sin(turn))
+                dx = cuts_out[pusher, 3] + w - x - left * moves_inout[row, 0]
+                dy = cuts_out[pusher, 4] + z - y - left * moves_inout[row, 1]
+                ahead = nx * dx + ny * dy
+                if ahead > BEFORE * slack:
+                    moves_inout[row, 0] += ahead * nx
+                    moves_inout[row, 1] += ahead * ny
+                    found += 1
+                    break
+                if feature < 0:
+                    break
+                but = feature  # what pushes no further hides what is met after it: the other side of a corner
     return found

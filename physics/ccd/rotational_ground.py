@@ -44,11 +44,12 @@ def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
 
 
 @subkernel
-def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, workspace):
+def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, but, workspace):
     """(fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
 
     O(cells in it). local_x, local_y [px]: the grid's centre of mass in its body space; a grid does not turn. half,
-    slack: see sweep_part; one_way: whether tiles open from below take part; they stop what falls from above them.
+    slack: see sweep_part; one_way: whether tiles open from below take part; they stop what falls from above them; but:
+    the feature that does not count, or -1.
     """
     g = geometry.grids[grid]
     size = g.tile_size
@@ -80,15 +81,16 @@ def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, on
     for line in range(first_row, last_row + 1):
         for column in range(first_column, last_column + 1):
             corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
-            if corners == 0:
+            first = geometry.cells[g.offset + line * g.columns + column].first
+            part = part_feature(line * g.columns + first, 0)
+            if corners == 0 or part == but:
                 continue
             fraction, core = sweep_part(count, radius, corners, 0.0, half, depth, slack, workspace)
             if fraction < best:
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
-                first = geometry.cells[g.offset + line * g.columns + column].first
-                feature = part_feature(line * g.columns + first, 0)
+                feature = part
     return best, best_x, best_y, feature
 
 
@@ -179,9 +181,9 @@ def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
 
 
 @subkernel
-def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, workspace):
+def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, but, workspace):
     """(fraction or MISS, normal from the chain, feature) of the mover against the links of a chain within reach, from
-    their front. half, slack: see sweep_part. O(links near the way)."""
+    their front. half, slack: see sweep_part; but: the feature that does not count, or -1. O(links near the way)."""
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
     reach = reach_of(workspace.mover, count) + radius
@@ -198,6 +200,9 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, w
             continue
         first = span.offset + block * BLOCK_LINKS
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
+            part = part_feature(k - span.offset, 0)
+            if part == but:
+                continue
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
@@ -207,5 +212,5 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, w
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
-                feature = part_feature(k - span.offset, 0)
+                feature = part
     return best, best_x, best_y, feature

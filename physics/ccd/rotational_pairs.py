@@ -51,13 +51,13 @@ def stands_deep(geometry, bodies, shapes, motions, row, other, slack, workspace)
 
 
 @subkernel
-def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, workspace, work_inout):
+def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, but, workspace, work_inout):
     """Shape `row` against shape `other`, both on their way through a step:
     (fraction or MISS, normal from other to row, feature: which tiles or link, -1 of a hull).
 
     motions (bodies, 6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step.
     row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: see sweep_part;
-    one_way: whether such tiles take part.
+    one_way: whether such tiles take part; but: the feature, of tiles or links, that does not count, or -1.
     """
     s = shapes[row]
     o = shapes[other]
@@ -79,11 +79,21 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
     workspace.advance.totals[1] = 0.0
     if o.kind == TILES:
         fraction, nx, ny, feature = sweep_tiles(
-            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, one_way, workspace
+            geometry,
+            o.geometry,
+            b.local_center_x,
+            b.local_center_y,
+            count,
+            radius,
+            half,
+            slack,
+            one_way,
+            but,
+            workspace,
         )
     elif o.kind == CHAIN:
         fraction, nx, ny, feature = sweep_chain(
-            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, workspace
+            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, but, workspace
         )
     else:
         feature = -1

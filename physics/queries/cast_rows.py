@@ -99,9 +99,11 @@ def cast_hull_at_rows(
             workspace.mover[i, 0] = corners[i, 0]
             workspace.mover[i, 1] = corners[i, 1]
         if s.kind == TILES:
-            fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, workspace)
+            fraction, nx, ny, _ = sweep_tiles(
+                geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, -1, workspace
+            )
         elif s.kind == CHAIN:
-            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, workspace)
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, -1, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
             place_mover(count, workspace)

@@ -141,7 +141,7 @@ class Polygon(EqualByValue):
 
     @property
     def smallest_half(self) -> float:
-        """From its centre of mass to the nearest edge, and the radius: half of the least width where both ends are alike."""
+        """From its centre of mass to the nearest edge, and the radius: of a box, half of its shorter side."""
         points = np.array(self.points)
         edges = np.roll(points, -1, axis=0) - points
         outward = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
