@@ -3,7 +3,9 @@
 import hashlib
 import pickle
 import warnings
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from numba.core import caching
 
@@ -87,11 +89,11 @@ class KernelCache(caching.FunctionCache):
 
     _impl_class = _Results
 
-    def __init__(self, function):
+    def __init__(self, function: Callable) -> None:
         super().__init__(function)
         self._cache_file = _Files(self._cache_path, self._impl.filename_base, 0)
 
-    def load_overload(self, sig, target_context):
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
         found = self._load(sig, target_context)
         if found is None and claims.claim is not None:
             path = self.path_of(sig, target_context)
@@ -101,7 +103,7 @@ class KernelCache(caching.FunctionCache):
                 claims.claimed.pop(path)()
         return found
 
-    def path_of(self, sig, target_context):
+    def path_of(self, sig: Any, target_context: Any) -> str:
         """Where a version is kept, or will be."""
         return self._cache_file.path_of(self._index_key(sig, target_context.codegen()))
 
@@ -114,7 +116,7 @@ class KernelCache(caching.FunctionCache):
             )
             return None  # what is compiled now is written over it
 
-    def save_overload(self, sig, data):
+    def save_overload(self, sig: Any, data: Any) -> None:
         try:
             super().save_overload(sig, data)
         except OSError as error:

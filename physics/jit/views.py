@@ -55,7 +55,7 @@ def _row_class(dtype):
     return type("Row", (), members)
 
 
-def view_of(argument):
+def view_of(argument: Any) -> Any:
     if type(argument) is np.ndarray:
         if argument.dtype.names:
             return TableView(argument)

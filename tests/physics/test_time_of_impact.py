@@ -214,7 +214,7 @@ def test_bounds_that_grow_as_they_turn():
 @kernel
 def sweep(geometry, bodies, shapes, motions, slack, one_way, room, work_inout):
     """Row 0 against row 1."""
-    return sweep_rotational(geometry, bodies, shapes, motions, 0, 1, slack, one_way, room, work_inout)
+    return sweep_rotational(geometry, bodies, shapes, motions, 0, 1, slack, one_way, -1, room, work_inout)
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
