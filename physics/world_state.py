@@ -31,13 +31,23 @@ from physics.vec2 import Vec2
 class Handle:
     """What names a body: its world and its id."""
 
-    __slots__ = ("world", "id")
+    __slots__ = ("_world", "_id")
 
     def __init__(self, world: "WorldState", identity: int) -> None:
         if not isinstance(world, WorldState):
             raise TypeError(f"world must be a World (got {checks.shown(world)})")
-        self.world = world
-        self.id = world._identity("identity", identity)
+        self._world = world
+        self._id = world._identity("identity", identity)
+
+    @property
+    def world(self) -> "WorldState":
+        """The World it is in."""
+        return self._world
+
+    @property
+    def id(self) -> int:
+        """Given once, and never again in this world."""
+        return self._id
 
     def __eq__(self, other):
         return isinstance(other, Handle) and other.world is self.world and other.id == self.id

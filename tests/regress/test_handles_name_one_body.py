@@ -1,0 +1,18 @@
+"""A Body names the same body for good: writing its id or world made it another one, silently, wherever it was kept."""
+
+import copy
+
+import pytest
+
+from physics import Circle, World
+
+
+@pytest.mark.parametrize("name, value", [("id", 5), ("world", World())])
+def test_neither_id_nor_world_can_be_written(name, value):
+    world = World()
+    body = world.add_body(Circle(4))
+    kept = {body: "here"}
+    with pytest.raises(AttributeError, match=name):
+        setattr(body, name, value)
+    assert kept[world.body(body.id)] == "here"
+    assert copy.copy(body) == body
