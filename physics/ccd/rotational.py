@@ -38,6 +38,7 @@ from physics.tables.shape import BOUNDS
 
 BEFORE = 2.0**-20  # of the way
 BACKWARDS = 6  # rounds of Newton's method: two or three do
+CORE_LEFT = 0.9  # of the distance of a centre that is nearer than its core
 CORE = 0.25  # of a body's smallest half extent
 
 
@@ -101,7 +102,8 @@ def depth_at_start(count, radius, other_count, other_radius, workspace):
 def sweep_core(core_radius, other_count, other_radius, workspace):
     """Fraction, or MISS, of the core circle against workspace.advance.local_b; MISS when its centre is in it.
 
-    Where the circle touches already it shrinks to half the distance that is left: the centre never gets across.
+    Where the circle touches already it shrinks to most of the distance that is left: the centre never gets across.
+    Measured, moving rooms: with half of it three of 768 lost a body whose centre had come to the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -110,7 +112,7 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
     left = separate_at(1, 0.0, other_count, other_radius, 0.0, workspace.advance)
     if left <= 0.0:
         return MISS
-    return advance(1, min(core_radius, 0.5 * left), other_count, other_radius, workspace.advance)
+    return advance(1, min(core_radius, CORE_LEFT * left), other_count, other_radius, workspace.advance)
 
 
 @subkernel

@@ -90,7 +90,7 @@ def outside(body, room, middle, halves):
     return max(abs(u) - halves[0], abs(v) - halves[1], 0.0)
 
 
-def lost_in(rng, kind, solver, moves):
+def lost_in(rng, kind, solver, moves, steps=STEPS):
     """What of one random world is beyond its walls in the end."""
     stacking = solver in STACKING
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True)
@@ -102,7 +102,7 @@ def lost_in(rng, kind, solver, moves):
     )
     room, middle, halves = add_room(world, rng, kind, moves)
     inside = fill(world, rng, *halves)
-    for _ in range(STEPS):
+    for _ in range(steps):
         world.step()
     return [
         (each.id, outside(each, room, middle, halves)) for each in inside if outside(each, room, middle, halves) > 0.0
@@ -114,6 +114,23 @@ def test_nobody_gets_out_of_a_closed_room(kind, solver, moves):
     rng = np.random.default_rng(CASES.index((kind, solver, moves)))
     for number in range(ROUNDS):
         assert lost_in(rng, kind, solver, moves) == [], number
+
+
+@pytest.mark.parametrize(
+    "kind, solver, seed, number",
+    [
+        ("chain", "sequential_impulse", 0, 12),
+        ("chain", "soft_step", 1, 0),
+        ("chain", "soft_step", 2, 9),
+        ("segments", "sequential_impulse", 2, 9),
+    ],
+)
+def test_rooms_that_lost_somebody(kind, solver, seed, number):
+    """Small bodies pressed into the corner of a turning room, whose centres came nearer to its walls in every step."""
+    rng = np.random.default_rng([1000 + seed, CASES.index((kind, solver, True))])
+    for _ in range(number):
+        lost_in(rng, kind, solver, True, steps=0)
+    assert lost_in(rng, kind, solver, True, steps=120) == []
 
 
 @pytest.mark.nightly
