@@ -81,9 +81,11 @@ def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, on
     for line in range(first_row, last_row + 1):
         for column in range(first_column, last_column + 1):
             corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            if corners == 0:
+                continue
             first = geometry.cells[g.offset + line * g.columns + column].first
             part = part_feature(line * g.columns + first, 0)
-            if corners == 0 or part == but:
+            if part == but:
                 continue
             fraction, core = sweep_part(count, radius, corners, 0.0, half, depth, slack, workspace)
             if fraction < best:

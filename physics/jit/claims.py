@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-claim: Callable[[str], Callable[[], object]] | None = (
-    None  # waits for the right to make a file; returns what lets it go
-)
+# claim(path): waits for the right to make what goes there; returns what lets it go. Set where processes share work.
+claim: Callable[[str], Callable[[], object]] | None = None
 claimed: dict[str, Callable[[], object]] = {}  # path -> what lets it go, of all that is being compiled here

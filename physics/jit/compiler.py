@@ -1,4 +1,4 @@
-"""The only module that imports numba: whether there is a compiler, and which."""
+"""Whether there is a compiler, and which. What else here imports numba is imported only where there is one."""
 
 import os
 from typing import Any

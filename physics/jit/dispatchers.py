@@ -20,7 +20,6 @@ from physics.jit.views import view_of
 # Measured: compiling what the platformer needs takes 145 s of processor time, with both 190, on one busy machine.
 LEANER = {"_nrt": False, "no_cfunc_wrapper": True}
 
-
 listed = {}  # (kernel, types of its arguments) -> None, in the order of the calls
 nesting = [0]  # calls under way
 

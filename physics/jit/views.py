@@ -56,6 +56,7 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
+    """What a kernel gets for an argument: rows of a table, a memoryview of an array, Python's own numbers."""
     if type(argument) is np.ndarray:
         if argument.dtype.names:
             return TableView(argument)

@@ -4,6 +4,7 @@ Circle has one corner, Capsule two, Polygon three to sixteen."""
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -139,7 +140,7 @@ class Polygon(EqualByValue):
         )
         return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
 
-    @property
+    @cached_property
     def smallest_half(self) -> float:
         """From its centre of mass to the nearest edge, and the radius: of a box, half of its shorter side."""
         points = np.array(self.points)
