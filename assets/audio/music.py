@@ -19,7 +19,7 @@ from assets.audio.notation import read_tune
 from assets.audio.voices import FINE, OVERSAMPLING, RATE, decimated, drum, low_pass, tone
 from assets.craft.ogg import Recording
 
-TUNES = ("title", "shooter", "boss", "platformer", "lab")
+TUNES = ("title", "shooter", "boss", "platformer", "lander", "lab")
 JINGLES = ("victory", "game_over")
 LOUDNESS = -21.0  # [dB of full scale] of what is above HEARD; the effects peak at -3 dB
 HEARD = 100.0  # [Hz] what is below adds little to how loud a tune seems

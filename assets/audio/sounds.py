@@ -3,6 +3,7 @@
 They are short and share one mood: pulse waves for the player and rewards, noise for damage, sine and saw for enemies.
 """
 
+from assets.audio import breaking_sounds, lander_sounds
 from assets.craft.synth import envelope, finish, low_pass, mixed, soft_clip, to_wav, voice
 
 
@@ -210,38 +211,42 @@ def life():
     return low_pass(mixed((0, 0.7, lead), (0, 0.8, under)), 6_500, 3_200)
 
 
-SOUNDS = {
-    function.__name__: function
-    for function in (
-        laser,
-        enemy_shot,
-        hit,
-        explosion,
-        coin,
-        powerup,
-        jump,
-        hurt,
-        big_explosion,
-        spring,
-        land,
-        stomp,
-        blip,
-        confirm,
-        goal,
-        heavy_laser,
-        bomb,
-        graze,
-        warning,
-        crumble,
-        checkpoint,
-        secret,
-        crate,
-        ladder,
-        back,
-        chain_break,
-        life,
-    )
-}
+SOUNDS = (
+    {
+        function.__name__: function
+        for function in (
+            laser,
+            enemy_shot,
+            hit,
+            explosion,
+            coin,
+            powerup,
+            jump,
+            hurt,
+            big_explosion,
+            spring,
+            land,
+            stomp,
+            blip,
+            confirm,
+            goal,
+            heavy_laser,
+            bomb,
+            graze,
+            warning,
+            crumble,
+            checkpoint,
+            secret,
+            crate,
+            ladder,
+            back,
+            chain_break,
+            life,
+        )
+    }
+    | lander_sounds.SOUNDS
+    | breaking_sounds.SOUNDS
+)
 
 
 PRODUCTS = {f"sounds/{name}": ("assets.audio.sounds", "sound_files", (name,)) for name in SOUNDS}

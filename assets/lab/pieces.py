@@ -201,6 +201,66 @@ def table():
     return sprite.outline().pixels()
 
 
+def sword():
+    """A broad sword lying along x, its point on the right."""
+    sprite = Sprite(38, 11)
+    x, y = sprite.x, sprite.y
+    sprite.part(polygon(x, y, ((11, 3), (31, 3.4), (37, 5.5), (31, 7.6), (11, 8))), RAMPS["steel"], bulge=2, base=0.7)
+    sprite.paint(box(x, y, 11, 5, 32, 6), RAMPS["steel"][2], 0.6)
+    sprite.part(capsule(x, y, (2.5, 5.5), (10, 5.5), 1.6), RAMPS["wood"], bulge=1.5, base=0.5)
+    sprite.part(box(x, y, 8.6, 1, 11, 10, 1.0), RAMPS["gold"], bulge=1.5, base=0.6)
+    sprite.part(circle(x, y, 2.6, 5.5, 1.9), RAMPS["red"], bulge=2, base=0.6)
+    return sprite.outline().pixels()
+
+
+def shot():
+    """A brass bullet that flies to the right."""
+    sprite = Sprite(9, 6)
+    x, y = sprite.x, sprite.y
+    sprite.part(capsule(x, y, (2.6, 3), (5.8, 3), 1.9, 1.5), RAMPS["gold"], bulge=1.8, base=0.66, gain=0.4)
+    sprite.paint(box(x, y, 0, 0, 3, 6), RAMPS["orange"][2], 0.7)
+    return sprite.outline().pixels()
+
+
+def bracket(ramp):
+    """An L of iron: concave, so that its hull holds what is air."""
+    sprite = Sprite(32, 24)
+    x, y = sprite.x, sprite.y
+    corner = polygon(x, y, ((1, 1), (10, 1), (10, 14), (31, 14), (31, 23), (1, 23)))
+    sprite.part(corner, RAMPS[ramp], bulge=2.5, base=0.5, gain=0.32, grain=0.3)
+    for place in ((5.5, 5.5), (5.5, 18.5), (26.5, 18.5)):
+        sprite.paint(circle(x, y, *place, 1.7), RAMPS[ramp][1], 0.8)
+        sprite.paint(circle(x, y, place[0] - 0.4, place[1] - 0.4, 0.9), RAMPS[ramp][5], 0.8)
+    return sprite.outline().pixels()
+
+
+def star(ramp):
+    """A five-pointed star with blunt points."""
+    sprite = Sprite(26, 26)
+    angles = [math.radians(-90 + i * 36) for i in range(10)]
+    points = [
+        (13 + r * round(math.cos(a), 9), 13.5 + r * round(math.sin(a), 9))
+        for a, r in zip(angles, (12.0, 6.2) * 5, strict=True)
+    ]
+    sprite.part(polygon(sprite.x, sprite.y, points), RAMPS[ramp], bulge=4, base=0.55, gain=0.35, grain=0.3)
+    return sprite.outline().pixels()
+
+
+def tray():
+    """A stone floor with a low rim at both ends, for what rolls."""
+    sprite = Sprite(94, 24)
+    x, y = sprite.x, sprite.y
+    stone = RAMPS["stone"]
+    for left, top, right, bottom in ((1, 1, 8, 23), (86, 1, 93, 23), (1, 11, 93, 23)):
+        sprite.part(box(x, y, left, top, right, bottom), stone, bulge=2, base=0.42, gain=0.3, grain=0.6, shadow=1)
+    sprite.paint(box(x, y, 1, 17, 93, 18), stone[0], 0.7)
+    for row, first in ((11, 14), (18, 24)):
+        for left in range(first, 90, 20):
+            sprite.paint(box(x, y, left, row, left + 1, row + 6), stone[0], 0.7)
+    sprite.paint(box(x, y, 8, 11, 86, 12), stone[4], 0.8)
+    return sprite.outline().pixels()
+
+
 def lab_files():
     """Return {relative path: bytes} of the sheet "lab"."""
     sheet = Sheet("lab")
@@ -223,6 +283,13 @@ def lab_files():
         sheet.add(f"domino_{index}", domino(9, 48, pips))
     sheet.add("card_red", card(52, 4, "red"))
     sheet.add("card_blue", card(49, 4, "blue"))
+    sheet.add("sword", sword())
+    sheet.add("shot", shot())
+    sheet.add("bracket_teal", bracket("teal"))
+    sheet.add("bracket_purple", bracket("purple"))
+    sheet.add("star_gold", star("gold"))
+    sheet.add("tray", tray())
+    sheet.add("disc_large", disc(12, "red"))
     sheet.add("floor", floor(480, 32))
     sheet.add("table", table())
     return sheet.files()

@@ -3,6 +3,7 @@
 A row is (type, x, y, width, height, properties), px, x and y the top left corner.
 """
 
+from assets.platformer import rope_bridge
 from assets.platformer.decoration import TILE
 
 # letter: (type, width, height) of objects that stand on the tile's bottom, centred on the tile
@@ -16,13 +17,14 @@ STANDING = {
     "o": ("coin", 14, 14),
     "$": ("secret", 14, 14),
     "c": ("crate", 16, 16),
+    "Q": ("bomb", 14, 16),
 }
 HANGING = {"V": ("bat", 20, 14)}  # its upper edge is the tile's
 RUNS = {">": ("belt", 60.0), "<": ("belt", -60.0), "^": ("spikes", None)}  # a row of the letter is one object
 FLOATING = ("coin", "secret")
 WALKERS = ("walker", "hedgehog")
 FLOORS = "#BR-<>"
-WALLS = "#BRc^/\\1234"
+WALLS = "#BRcW^/\\1234"
 SPIKES_INSET = (3, 7)  # [px] kinder than it looks: the points' outer pixels do not hurt
 
 
@@ -39,6 +41,8 @@ def objects(level):
                 out.append((kind, x * TILE + (TILE - width) // 2, y * TILE, width, height, {}))
             elif letter == "C":
                 out.append(("crate", x * TILE, (y - 1) * TILE, 2 * TILE, 2 * TILE, {}))
+            elif letter == "~":
+                out.append(("bridge", x * TILE, y * TILE, rope_bridge.WIDTH, 2 * TILE, {}))
             elif letter == "X":
                 out.append(("crumble", x * TILE, y * TILE, 2 * TILE, TILE, {}))
             elif letter == "P":
@@ -50,6 +54,9 @@ def objects(level):
             elif letter == "L" and level.at(x, y - 1) != "L":
                 height = next(i for i in range(1, level.height + 1) if level.at(x, y + i) != "L")
                 out.append(("ladder", x * TILE, y * TILE, TILE, height * TILE, {}))
+            elif letter == "W" and "W" not in (level.at(x - 1, y), level.at(x, y - 1)):
+                width, height = _extent(level, x, y)
+                out.append(("blast_wall", x * TILE, y * TILE, width * TILE, height * TILE, {}))
             elif letter in RUNS and level.at(x - 1, y) != letter:
                 out.append(_run(level, letter, x, y))
     for act, rect, view in level.zones:
@@ -75,6 +82,13 @@ def _standing(level, letter, x, y, signs):
     elif kind in WALKERS:
         properties["range"] = walking_range(level, x, y)
     return kind, x * TILE + (TILE - width) // 2, bottom - height, width, height, properties
+
+
+def _extent(level, x, y):
+    """(columns, rows) of the block of one letter whose top left is at a tile."""
+    letter = level.at(x, y)
+    width = next(i for i in range(1, level.width + 1) if level.at(x + i, y) != letter)
+    return width, next(i for i in range(1, level.height + 1) if level.at(x, y + i) != letter)
 
 
 def _run(level, letter, x, y):

@@ -30,7 +30,7 @@ DECOR_LETTERS = {
     "L": "ladder",
 }
 WALLS = {",": "back_wall", ":": "back_cave"}  # behind these letters, and behind what stands or hangs among them
-THINGS = "".join(STANDING) + "".join(HANGING) + "!ijxgnLCP-"
+THINGS = "".join(STANDING) + "".join(HANGING) + "!ijxgnLCPW-"
 AROUND = ((N, 0, -1), (NE, 1, -1), (E, 1, 0), (SE, 1, 1), (S, 0, 1), (SW, -1, 1), (W, -1, 0), (NW, -1, -1))
 GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  # running percent of free grass tiles
 

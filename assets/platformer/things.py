@@ -9,6 +9,8 @@ from assets.craft.drawn import read_parts
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE
 from assets.craft.shading import Sprite, flashed, glow
+from assets.platformer.blast_wall import add_blast_wall
+from assets.platformer.rope_bridge import add_rope_bridge
 from assets.platformer.stonework import add_stonework
 
 LETTERS = {
@@ -252,4 +254,6 @@ def things_files():
     sheet.add_sequence("bat", [drawn[f"bat_{i}"] for i in (0, 1, 2, 1)], 10)
     sheet.add_sequence("hedgehog", [hedgehog(i) for i in range(4)], 8)
     add_stonework(sheet)
+    add_blast_wall(sheet)
+    add_rope_bridge(sheet)
     return sheet.files()

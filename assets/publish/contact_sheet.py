@@ -1,4 +1,4 @@
-"""Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of both games.
+"""Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of the games.
 
 python -m assets.publish.contact_sheet            both; the bots play some minutes of game time
 python -m assets.publish.contact_sheet sprites    only that one
@@ -19,7 +19,7 @@ from assets.ui.font import write
 SCALE = 3
 WIDTH = 496  # [px] before scaling: the widest frame and its gaps
 GAP, HEADING = 4, 16  # [px] around a frame, above a sheet for its name
-SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lab")
+SHEETS = ("ui", "planes", "effects", "hero", "things", "tiles", "lander", "lab")
 BACKDROPS = (
     "sea",
     "coast",
@@ -35,6 +35,11 @@ BACKDROPS = (
     "mountains_near",
     "cave_far",
     "cave_near",
+    "lander_sky",
+    "lander_clouds",
+    "lander_far",
+    "lander_mid",
+    "lander_near",
 )
 SHRUNK = 3  # a backdrop is shown at a third of its size, so at its own after scaling
 BACKGROUND = oklch(0.36, 0.045, 285)

@@ -9,7 +9,7 @@ from assets.craft.palette import OUTLINE, RAMPS, oklch
 from assets.publish.films import filmed
 from assets.ui.font import write
 
-GAMES = ("shooter", "platformer")
+GAMES = ("shooter", "platformer", "lander")
 COLUMNS, ROWS = 3, 4
 FRAME = (480, 270)  # [px] of a picture
 GAP, CAPTION, HEADING = 6, 13, 20  # [px] around a picture, below it for its words, above a game

@@ -13,6 +13,7 @@ from assets.craft.shading import Sprite, glow
 from assets.shooter.blasts import add_blasts
 from assets.shooter.enemy_bullets import add_enemy_bullets
 from assets.shooter.explosions import explosion
+from assets.shooter.splash import splash
 
 
 def player_bullet(frame):
@@ -127,4 +128,6 @@ def effects_files():
     sheet.add("glow_blue", glow(32, "blue"))
     sheet.add("hitbox_dot", hitbox_dot())
     add_blasts(sheet)
+    sheet.add_sequence("splash", splash(24, 440), 16)
+    sheet.add_sequence("splash_large", splash(44, 441), 15)
     return sheet.files()

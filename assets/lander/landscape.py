@@ -1,0 +1,122 @@
+"""The shape of the lander's moon: which pixels are rock, which are ice that a shell breaks, and what lies behind holes.
+
+The plan in assets/levels/lander.json has straight lines; noise bends them, so that no edge looks drawn with a ruler.
+"""
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from assets import FOLDER
+from assets.craft.fields import capsule, grid, layered_noise, polygon
+from assets.craft.shading import shifted
+
+BENT = 13.0  # [px] that a line of the plan is bent by, to both sides
+ROUGH = 3.4  # [px] the same, by the fine noise
+MARGIN = 24  # [px] around a part's box in which it is looked at: more than it is bent by
+FROZEN_IN = 6  # [px] that ice reaches into the rock beside it
+SHOULDER = 5  # [px] that the level ground reaches beyond a pad, to both sides
+HEADROOM = 34  # [px] over a pad that are free
+
+
+@dataclass
+class Landscape:
+    """All (height, width): solid and ice bool; `massif` is where rock was before caves were hollowed out of it."""
+
+    solid: np.ndarray
+    ice: np.ndarray
+    massif: np.ndarray
+
+
+def plan():
+    """The plan, as it is read from its file."""
+    return json.loads((FOLDER / "levels" / "lander.json").read_text(encoding="utf-8"))
+
+
+def landscape():
+    """The moon as it is before anybody has landed on it."""
+    drawn = plan()
+    width, height = drawn["size"]
+    x, y = grid(width, height)
+    x = x + _bend(width, height, 900)
+    y = y + _bend(width, height, 950)
+    massif = np.zeros((height, width), bool)
+    for points in drawn["rock"]:
+        massif |= _inside(x, y, points)
+    solid = massif.copy()
+    for part in drawn["hollow"]:
+        _near(solid, x, y, [part["from"], part["to"]], max(part["radius"]), _hollow(part))
+    for part in drawn["spike"]:
+        (foot_x, foot_y), half = part["at"], part["half"]
+        points = [(foot_x - half, foot_y), part["tip"], (foot_x + half, foot_y)]
+        _near(solid, x, y, points, 4, _filled(points))
+    ice = np.zeros_like(solid)
+    for points in drawn["plug"]:
+        _near(ice, x, y, points, 4, _filled(points))
+    ice &= _around(massif & ~solid)
+    solid |= ice
+    for pad in drawn["pads"]:
+        _level(solid, ice, massif, pad)
+    return Landscape(solid, ice, massif)
+
+
+def _bend(width, height, seed):
+    wide = layered_noise(width, height, 48, 12, 2, seed) - 0.5
+    fine = layered_noise(width, height, 400, 100, 2, seed + 1) - 0.5
+    return 2 * BENT * wide + 2 * ROUGH * fine
+
+
+def _inside(x, y, points):
+    """Crossing rule, each edge in the rows that it can reach."""
+    inside = np.zeros(x.shape, bool)
+    for i, (ax, ay) in enumerate(points):
+        bx, by = points[i - 1]
+        if ay == by:
+            continue
+        low, high = max(0, int(min(ay, by)) - MARGIN), max(0, int(max(ay, by)) + MARGIN)
+        px, py = x[low:high], y[low:high]
+        inside[low:high] ^= ((ay > py) != (by > py)) & (px < ax + (py - ay) * ((bx - ax) / (by - ay)))
+    return inside
+
+
+def _near(solid, x, y, points, reach, change):
+    """Apply a change to the part of the picture that holds the points and `reach` px around them."""
+    reach += MARGIN
+    left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
+    top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
+    part = np.s_[top:bottom, left:right]
+    change(solid[part], x[part], y[part])
+
+
+def _hollow(part):
+    def change(solid, x, y):
+        solid &= capsule(x, y, part["from"], part["to"], *part["radius"]) >= 0
+
+    return change
+
+
+def _filled(points):
+    def change(solid, x, y):
+        solid |= polygon(x, y, points) < 0
+
+    return change
+
+
+def _around(hollow):
+    """The hollows and a few px of the rock around them: how far ice has grown into it."""
+    out = hollow.copy()
+    for dx, dy in ((FROZEN_IN, 0), (-FROZEN_IN, 0), (0, FROZEN_IN), (0, -FROZEN_IN)):
+        out |= shifted(hollow, dx, dy)
+    return out
+
+
+def _level(solid, ice, massif, pad):
+    """Level ground for a pad's feet, and air over it; under the open sky no mountain is behind that air."""
+    left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
+    floor = pad["floor"]
+    solid[floor : floor + 40, left:right] = True
+    solid[floor - HEADROOM : floor, left:right] = False
+    ice[floor - HEADROOM : floor + 40, left:right] = False
+    if not massif[floor - HEADROOM - 6, pad["x"]]:
+        massif[floor - HEADROOM : floor, left:right] = False

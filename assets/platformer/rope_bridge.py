@@ -1,0 +1,57 @@
+"""A rope bridge that sags: its boards, whose upper side is what the hero walks on, and the ropes behind him."""
+
+import numpy as np
+
+from assets.craft.palette import OUTLINE, RAMPS
+
+WIDTH, SAG = 128, 14  # [px] from end to end, and how much lower its middle is
+BOARD = 8  # [px] a board is wide
+THICK = 6  # [px] boards and the rope under them, outlines included
+RAIL = 12  # [px] the ropes are above the boards
+POST = 3  # [px] a post is wide, outlines included
+
+
+def tops():
+    """(128,) whole px from the ends' height down to the upper side of the boards: a parabola."""
+    across = (np.arange(WIDTH) + 0.5) / WIDTH
+    return np.floor(4.0 * SAG * across * (1.0 - across) + 0.5).astype(int)
+
+
+def boards():
+    """The boards, 128 x 20 px, alpha 255 from the upper side down and 0 above it: they collide as they are drawn."""
+    wood = RAMPS["wood"]
+    picture = np.zeros((SAG + THICK, WIDTH, 4), np.uint8)
+    for column, top in enumerate(tops().tolist()):
+        seam = column % BOARD == BOARD - 1
+        tones = (OUTLINE, *((wood[1],) * 4 if seam else (wood[5], wood[4], wood[3], wood[2])), OUTLINE)
+        if column in (0, WIDTH - 1):
+            tones = (OUTLINE,) * THICK
+        for row, tone in enumerate(tones):
+            picture[top + row, column] = (*tone, 255)
+    return picture
+
+
+def ropes():
+    """Handrails, hangers and posts, 128 x 30 px; the boards' ends are 12 px below its top."""
+    wood, rope = RAMPS["wood"], RAMPS["gold"]
+    picture = np.zeros((RAIL + SAG + 4, WIDTH, 4), np.uint8)
+    levels = tops().tolist()
+    for column, top in enumerate(levels):
+        sag = 1 + top + (2 if 24 < column < WIDTH - 24 else 0)
+        if column % (2 * BOARD) == BOARD:
+            for row in range(sag, top + RAIL):
+                picture[row, column] = (*rope[1], 255)
+                for side in (column - 1, column + 1):
+                    picture[row, side] = (*OUTLINE, 255)
+        for row, tone in enumerate((OUTLINE, rope[3 + column // 2 % 2], OUTLINE)):
+            picture[sag - 1 + row, column] = (*tone, 255)
+    for left in (0, WIDTH - POST):
+        picture[: RAIL + 1, left : left + POST] = (*OUTLINE, 255)
+        picture[1 : RAIL + 1, left + 1] = (*wood[3], 255)
+    return picture
+
+
+def add_rope_bridge(sheet):
+    """Put both pictures on a sheet."""
+    sheet.add("bridge", boards())
+    sheet.add("bridge_ropes", ropes())
