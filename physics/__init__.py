@@ -16,6 +16,7 @@ from physics.queries.casts import RayHit
 from physics.queries.pair_distance import Distance, distance
 from physics.queries.pair_impact import TimeOfImpact, time_of_impact
 from physics.queries.pair_manifold import Manifold, collide
+from physics.shapes.accuracy import Fit, measure
 from physics.shapes.approximate import TIERS, fit
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
@@ -25,6 +26,7 @@ from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass
 from physics.shapes.material import Material
+from physics.shapes.polygons import decompose, hull
 from physics.shapes.tiles import TileGrid
 from physics.snapshot import Snapshot
 from physics.step import SOLVERS
@@ -49,6 +51,7 @@ __all__ = [
     "DynamicTree",
     "Effects",
     "Filter",
+    "Fit",
     "JIT",
     "KINEMATIC",
     "Manifold",
@@ -70,9 +73,12 @@ __all__ = [
     "Vec2",
     "World",
     "collide",
+    "decompose",
     "distance",
     "fit",
+    "hull",
     "mass_of",
+    "measure",
     "time_of_impact",
     "warmup",
 ]

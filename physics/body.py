@@ -7,13 +7,16 @@ import math
 
 import numpy as np
 
-from physics import checks, editing, targets
+from physics import carving, checks, editing, targets
 from physics.body_settings import BodySettings
-from physics.checks import Pair
+from physics.carving import Carved
+from physics.checks import Pair, Pose
+from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.dynamics import sleep
 from physics.math2d import turned
 from physics.queries.boxes import bounds_of
+from physics.shapes.kinds import Shape
 from physics.tables.body import DYNAMIC, KINDS, STATIC
 from physics.vec2 import Vec2
 
@@ -215,9 +218,23 @@ class Body(BodySettings):
         world, row = self.world, self._row
         told = world.contacts
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
-        asleep = contacts_of(world.sleepers.naming(self.id, int(row["island"])))
+        asleep = contacts_of(with_areas(world, world.sleepers.naming(self.id, int(row["island"]))))
         both = np.concatenate([told, asleep])
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
+
+    def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
+        """Take the pixels of its masks whose centres are inside a shape, closed, at a pose in the world.
+
+        shape: a Circle, Capsule, Polygon or PixelMask; pose: (x, y) or (x, y, angle). Pieces are 8-connected. A dynamic
+        body keeps the largest; of a piece of another body that splits the largest stays, and what was apart before. Of
+        pieces of one size the one with the first pixel stays. The others become dynamic bodies, as fast as they were,
+        unless they have less than `crumb` pixels: those are gone. A body without a mass left is removed. What touches
+        the carved places wakes. Raises TypeError, ValueError, RuntimeError during a step; without the effect carving
+        ValueError.
+        """
+        self._must_exist()
+        found = carving.carve(self.world, self.id, shape, pose, crumb)
+        return found._replace(fragments=tuple(Body(self.world, each) for each in found.fragments))
 
     def wake(self) -> None:
         """Wake it, and all it is piled up with."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from physics import checks, editing, reshaping
 from physics.dynamics import sleep
+from physics.shape_rows import MATERIAL
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.material import Material
@@ -57,7 +58,7 @@ class BodySettings(Handle):
     def material(self) -> Material:
         """What those shapes are made of that have no material of their own. Set, the body is weighed anew."""
         given = self._given
-        return Material(*(given[name].item() for name in reshaping.MATERIAL))
+        return Material(*(given[name].item() for name in MATERIAL))
 
     @material.setter
     def material(self, value: Material) -> None:
@@ -139,7 +140,8 @@ class BodySettings(Handle):
         return reshaping.shape_ids(self.world, self.id)
 
     def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes; what the body says of them stays. The new shapes get new ids."""
+        """Replace the shapes; what the body says of them stays. The new shapes get new ids, but for masks that take the
+        place of as many masks: contacts with these go on."""
         reshaping.set_shapes(self.world, self.id, shapes)
 
     def add_shape(self, shape: Shape) -> int:

@@ -12,8 +12,9 @@ from physics.collision.manifold import contacts_of
 from physics.queries.pair_axes import sat_axes
 from physics.queries.pair_distance import gjk_steps
 from physics.settings import MASK_ANGLE_BUCKETS
+from physics.shapes.rasters import draw_pictures
 from physics.tables.body import DYNAMIC
-from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POLYGON, SEGMENT
 from physics.world import World
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "motion",
     "outlines",
     "pairs",
+    "part_edges",
     "sat_axes",
     "shape_rows",
     "structure",
@@ -56,6 +58,24 @@ class Structure(NamedTuple):
     rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
     depth: np.ndarray  # (m,) level of a cell, depth of a node
     intervals: np.ndarray  # (k, 4)
+
+
+EDGE = np.dtype(
+    [
+        ("row", np.int64),  # of the part in world.shapes
+        (
+            "ax",
+            np.float64,
+        ),  # [px] from here to b, clockwise on the screen; a rounded part's real edge lies radius outside
+        ("ay", np.float64),
+        ("bx", np.float64),
+        ("by", np.float64),
+        ("radius", np.float64),
+        ("inner", np.bool_),  # lies inside the outline: nothing is pushed out through it
+        ("covered", np.bool_),  # its start is a corner that lies inside the outline
+    ]
+)
+CORNERS = 16  # bits of SHAPE's inner: edges below, corners from here on
 
 
 def bounds(world: World) -> np.ndarray:
@@ -173,6 +193,36 @@ def _line(shape, kind, points):
     return "segment" if kind == SEGMENT else "polygon", points
 
 
+def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
+    """EDGE rows of the polygons among the parts of masks' outlines, part by part; rows: of world.shapes, None: all.
+
+    Parts that are circles or capsules have no edges: outlines() tells of them.
+    """
+    shapes = world.shapes
+    if rows is None:
+        rows = np.arange(len(shapes))
+    rows = rows[(shapes["role"][rows] == PART) & (shapes["kind"][rows] == POLYGON)]
+    spans = world.library.polygons.rows[shapes["geometry"][rows]]
+    counts = spans["count"]
+    edges = np.zeros(int(counts.sum()), EDGE)
+    if not len(edges):
+        return edges
+    of = np.repeat(np.arange(len(rows)), counts)
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    number = np.arange(len(edges)) - first
+    local = world.library.corners.rows[spans["offset"][of] + number]
+    body = world.bodies[shapes["body_row"][rows]][of]
+    cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
+    edges["ax"] = body["x"] + cosine * local["x"] - sine * local["y"]
+    edges["ay"] = body["y"] + sine * local["x"] + cosine * local["y"]
+    after = first + (number + 1) % counts[of]
+    edges["bx"], edges["by"] = edges["ax"][after], edges["ay"][after]
+    edges["row"], edges["radius"] = rows[of], shapes["radius"][rows][of]
+    inner = shapes["inner"][rows][of]
+    edges["inner"], edges["covered"] = inner >> number & 1, inner >> (number + CORNERS) & 1
+    return edges
+
+
 class Drawn(NamedTuple):
     """Masks as they stand in the world; those drawn alike share their pixels."""
 
@@ -199,7 +249,8 @@ def drawn_masks(world: World) -> Drawn:
 
 
 def _drawn(world, rows):
-    """The masks at these shape rows, whose rasters are up to date."""
+    """The masks at these shape rows, whose rasters are up to date, but for those that are drawn when somebody asks."""
+    draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
     raster_of = library.raster_of[: len(library.masks)].ravel()
     drawn = np.flatnonzero(raster_of >= 0)

@@ -4,6 +4,8 @@ import hashlib
 
 import numpy as np
 
+from physics.shapes.mask import PixelMask
+from physics.tables.shape import MASK
 from physics.world_state import WorldState
 
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
@@ -52,6 +54,18 @@ def digest(world: WorldState) -> str:
         for name in names:
             column = rows[name].astype(NARROW.get(name, rows.dtype[name]))
             found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
+    exact = world.shapes["id"][(world.shapes["kind"] == MASK) & ~world.shapes["snap"]]
+    if len(exact):
+        found.update(b"exact" + exact.tobytes())
+    open_ones = [
+        shape.one_way for masks in world._shapes_of.values() for shape in masks if isinstance(shape, PixelMask)
+    ]
+    if any(open_ones):
+        found.update(b"one way" + bytes(open_ones))
+    for masks in world._shapes_of.values() if world.effects.carving else ():
+        for mask in masks:
+            if isinstance(mask, PixelMask) and mask.carved:
+                found.update(b"carved" + mask.fingerprint)
     # What waits for the next step only; where nothing waits, nothing is added.
     targets = world._targets
     for identity in sorted(targets):

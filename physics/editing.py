@@ -12,19 +12,18 @@ from physics.checks import Pair, Points
 from physics.dynamics import sleep
 from physics.dynamics.integrate import refresh_centers
 from physics.reshaping import (
-    MATERIAL,
-    add_shapes,
     check_grid_stands,
     check_own_values,
+    check_weight,
     refresh_mass,
     refresh_pose,
     shapes_for_tier,
-    weigh,
 )
+from physics.shape_rows import MATERIAL, add_shapes
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.material import Material
-from physics.shapes.rows import check_shapes, set_mass
+from physics.shapes.rows import check_shapes, set_mass, weigh
 from physics.tables.body import AUTO, CONTINUOUS, KINDS, OFF, STATIC
 from physics.world_state import WorldState
 
@@ -71,9 +70,10 @@ def add_rows(
             f"velocity and angular_velocity must be 0 for a static body (got {np.asarray(velocities).tolist()}, {spin})"
         )
     used = shapes_for_tier(shapes, wanted.tier)
-    check_shapes(used, kind, angles, swept)
+    check_shapes(used, kind, angles)
     check_grid_stands(used, spin)
     check_own_values(world, used)
+    check_weight(world, used, kind, own_mass)
     mass = weigh(used, material.density, own_mass)
     n = len(positions)
     ids = np.arange(world._next_body, world._next_body + n, dtype=np.int64)
@@ -96,7 +96,7 @@ def add_rows(
     rows["active"] = not world.sleeps  # with it, the next step takes them in
     if wanted.kind != "dynamic":
         world.awake.stir(ids.tolist())
-    set_mass(rows, mass, used)
+    set_mass(rows, mass, used, world.effects.response)
     refresh_centers(np.arange(n), rows)
     add_shapes(world, world._bodies.count - n, n, used)
     source = tuple(shapes)  # one for all: a swarm costs two entries each, and no object
@@ -191,7 +191,7 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
     world._given.rows["sensor"][world._row_number(identity)] = value
     rows = _own_rows(world, identity, "own_sensor")
     world.shapes["sensor"][rows] = value
-    world.pairs.touch(world.shapes["proxy"][rows])
+    world.pairs.set_sensor(world.shapes, rows)
     sleep.disturb(world, [identity])
 
 
@@ -199,7 +199,6 @@ def set_continuous(world: WorldState, identity: int, value: str) -> None:
     """Change how a body is swept. Raises TypeError, ValueError."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
-    check_shapes(world._shapes_of[identity], int(row["kind"]), [row["angle"].item()], swept)
     row["continuous"] = swept
 
 
@@ -238,7 +237,9 @@ def set_kind(world: WorldState, identity: int, kind: str) -> None:
     """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles."""
     world._unlocked()
     row = world._body_row(identity)
-    check_shapes(world._shapes_of[identity], KINDS.index(kind), [row["angle"].item()], int(row["continuous"]))
+    shapes, own_mass = world._shapes_of[identity], world._given.rows["mass"][world._row_number(identity)].item()
+    check_shapes(shapes, KINDS.index(kind), [row["angle"].item()])
+    check_weight(world, shapes, KINDS.index(kind), own_mass)
     row["kind"] = KINDS.index(kind)
     if kind == "static":
         row["vx"] = row["vy"] = row["angular_velocity"] = 0.0

@@ -29,6 +29,7 @@ class Effects:
     persist: bool = False  # the `persist` event: pairs that go on touching
     one_way: bool = False  # tiles open from below
     conveyor: bool = False  # surfaces that run: Material.surface_speed
+    carving: bool = False  # pixels can be taken out of masks: Body.carve
 
     def __post_init__(self):
         for field in fields(self):

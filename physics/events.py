@@ -5,11 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from physics.collision.owners import by_owner
 from physics.jit import kernel, subkernel
 from physics.tables.contact import EVENT, HIT, QUARANTINE
 from physics.tables.counters import CONTACTS
 from physics.tables.manifold import MANIFOLD
-from physics.tables.rows import rows_of
+from physics.tables.rows import joined, rows_of
 from physics.tables.step_state import StepState, stage
 
 NOTHING = np.zeros(0, MANIFOLD)
@@ -222,7 +223,7 @@ class Pairs:
     def give_back(self, rows: np.ndarray) -> None:
         """Take in pairs that were kept aside."""
         if len(rows):
-            both = np.concatenate([self.rows, rows])
+            both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
@@ -278,11 +279,18 @@ def tell(state: StepState) -> None:
     """Compare what touches with what touched before, and say what changed."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
     parked, keys = state.parked if state.parked is not None else (NOTHING, None)
-    told = state.touching.compare(manifolds, parked, False, tolerances.slop, tolerances.hit_speed)
+    whole, order = by_owner(manifolds)
+    parked, parked_order = by_owner(parked)
+    if keys is not None and parked_order is not None:
+        keys = keys[parked_order]
+    told = state.touching.compare(whole, parked, False, tolerances.slop, tolerances.hit_speed)
     events.begin, events.end, events.hits = told.begin, told.end, told.hits
     if effects.persist:
         events.persist = told.persist
     keep = told.keep
+    if order is not None:
+        keep = np.empty_like(keep)
+        keep[order] = told.keep
     if effects.sensors:
         sensed = manifolds if state.sensed is None else state.sensed
         found = state.sensing.compare(sensed, NOTHING, True, 0.0, np.inf)

@@ -4,6 +4,8 @@ import math
 
 from physics.jit import subkernel
 
+RIGHT = 2.0 * 2.0**-52  # of an angle: what the number nearest to a quarter turn, or a sum of two, is off by
+
 
 @subkernel
 def unit(x, y, fallback_x, fallback_y):
@@ -33,3 +35,19 @@ def length_of(x, y):
 def turned(x, y, cosine, sine):
     """The vector turned by the angle of that cosine and sine."""
     return cosine * x - sine * y, sine * x + cosine * y
+
+
+@subkernel
+def cosine_and_sine(angle, greatest):
+    """Cosine and sine of an angle [rad], exactly 0 and 1 or -1 at the numbers nearest to quarter turns.
+
+    greatest [rad]: the greatest of the angles that it was taken from, whose last digits it has.
+    """
+    cosine = math.cos(angle)
+    sine = math.sin(angle)
+    off = RIGHT * max(1.0, abs(greatest))
+    if abs(cosine) <= off:
+        return 0.0, 1.0 if sine > 0.0 else -1.0
+    if abs(sine) <= off:
+        return 1.0 if cosine > 0.0 else -1.0, 0.0
+    return cosine, sine

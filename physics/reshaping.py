@@ -5,18 +5,19 @@ from collections.abc import Sequence
 import numpy as np
 
 from physics import checks
+from physics.collision.kept_forces import KeptForces
 from physics.dynamics import sleep
 from physics.dynamics.integrate import refresh_centers
+from physics.mask_exchange import exchange_mask
+from physics.shape_rows import add_shapes
 from physics.shapes.approximate import fit
-from physics.shapes.kinds import Shape, mass_of
+from physics.shapes.kinds import Shape
 from physics.shapes.mask import PixelMask
-from physics.shapes.mass import Mass
-from physics.shapes.rows import check_shapes, rounding_of, set_mass
+from physics.shapes.rows import check_shapes, set_mass, weigh
 from physics.shapes.tiles import TileGrid
-from physics.tables.body import STATIC
+from physics.tables.body import DYNAMIC
+from physics.tables.shape import PART
 from physics.world_state import WorldState
-
-MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
 
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
@@ -25,53 +26,21 @@ def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular
         raise ValueError(f"{what} must be 0 for a body with a TileGrid, which cannot turn (got {turn})")
 
 
-def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """The mass of a body's shapes, sensors among them; mass: in place of what the densities make of it, 0: none."""
-    found = mass_of(tuple(shapes), density)
-    if mass == 0.0:
-        return found
-    return Mass(mass, found.center, found.inertia * (mass / found.mass) if found.mass > 0.0 else 0.0)
-
-
-def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
-    """Append the SHAPE rows of new shapes for each of the bodies that start at a row, with what the body says of them
-    or they of themselves, and give them places in the broad phase. Returns their ids."""
-    n, k = bodies, len(shapes)
-    ids = np.arange(world._next_shape, world._next_shape + n * k)
-    if n * k == 0:
-        return ids
-    world._tidy_library()
-    rows = world._shapes.append(n * k)
-    world._next_shape += n * k
-    owners = np.repeat(np.arange(first_row, first_row + n), k)
-    rows["id"], rows["body"], rows["body_row"] = ids, world.bodies["id"][owners], owners
-    given = world._given.rows[owners]
-    for name in (*MATERIAL, "membership", "mask", "sensor"):
-        rows[name] = given[name]
-    for i, shape in enumerate(shapes):
-        each = rows[i::k]
-        each["kind"], each["geometry"], each["wrapped"] = world.library.add(shape)
-        each["radius"], each["local_x"], each["local_y"] = rounding_of(shape)
-        if shape.material is not None:
-            each["own_material"] = True
-            for name in MATERIAL:
-                each[name] = getattr(shape.material, name)
-        if shape.filter is not None:
-            each["own_filter"], each["membership"], each["mask"] = True, shape.filter.membership, shape.filter.mask
-        if shape.sensor is not None:
-            each["own_sensor"], each["sensor"] = True, shape.sensor
-    world.pairs.add_proxies(rows, np.arange(n * k), world.bodies["kind"][owners] == STATIC)
-    if world.sleeps:
-        # Whose body is in the step already is not taken into it again.
-        world.pairs.set_awake(rows["proxy"][world.bodies["active"][owners]], True)
-    return ids
+def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
+    """Have a body weigh so much, whatever its densities say."""
+    at = world._row_number(identity)
+    world._given.rows["mass"][at] = mass
+    used, density = world._shapes_of[identity], float(world._given.rows["density"][at])
+    set_mass(world.bodies[at : at + 1], weigh(used, density, mass), used, world.effects.response)
+    refresh_centers(np.array([at]), world.bodies)
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
     """Weigh a body anew: its shapes, its kind or what it is made of changed. Its neighbours wake."""
     at = world._row_number(identity)
     given, used = world._given.rows[at], world._shapes_of[identity]
-    set_mass(world.bodies[at : at + 1], weigh(used, float(given["density"]), float(given["mass"])), used)
+    mass = weigh(used, float(given["density"]), float(given["mass"]))
+    set_mass(world.bodies[at : at + 1], mass, used, world.effects.response)
     refresh_pose(world, identity)
 
 
@@ -87,15 +56,27 @@ def refresh_pose(world: WorldState, identity: int) -> None:
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
     """Ids of a body's shapes, in their order."""
     world._row_number(identity)
-    return tuple(world.shapes["id"][world.shapes["body"] == identity].tolist())
+    own = (world.shapes["body"] == identity) & (world.shapes["role"] != PART)
+    return tuple(world.shapes["id"][own].tolist())
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace a body's shapes; what it says of them stays. Raises TypeError, ValueError."""
-    _check(world, identity, shapes, shape_ids(world, identity))
+    """Replace a body's shapes; what it says of them stays, and contacts where the new surface is the old one keep their
+    forces. Masks that take the place of masks keep their ids. Raises TypeError, ValueError."""
+    ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
+    _check(world, identity, shapes, ids)
     sleep.disturb(world, [identity])
-    world._drop_shapes(world.shapes["body"] != identity)
-    _add(world, identity, tuple(shapes), tuple(shapes))
+    masks = [each for each in shapes if isinstance(each, PixelMask)]
+    if len(before) == len(shapes) == len(masks) and all(isinstance(each, PixelMask) for each in before):
+        for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
+            exchange_mask(world, identity, place, shape_id, mask)
+    else:
+        kept = KeptForces(world, np.flatnonzero(world.shapes["body"] == identity))
+        world._drop_shapes(world.shapes["body"] != identity)
+        _add(world, identity, tuple(shapes), tuple(shapes))
+        kept.hand_on(world, np.flatnonzero(world.shapes["body"] == identity))
+    world._tiers.pop(identity, None)
+    world._sources.pop(identity, None)
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
@@ -114,7 +95,7 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
     rest = tuple(shape for each, shape in zip(ids, world._shapes_of[identity], strict=True) if each != shape_id)
     _check(world, identity, rest, [shape_id])
     sleep.disturb(world, [identity])
-    world._drop_shapes(world.shapes["id"] != shape_id)
+    world._drop_shapes(world.shapes["owner"] != shape_id)
     _add(world, identity, rest, ())
 
 
@@ -123,15 +104,25 @@ def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
 
 
+def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
+    """Raises ValueError for masks without a pixel where they were all that weighs of a body that is pushed."""
+    empty = [each for each in shapes if isinstance(each, PixelMask) and not each.area]
+    if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
+        raise ValueError(
+            f"shapes of a dynamic body must have a solid pixel, or it a mass (got {checks.shown(empty[0])})"
+        )
+
+
 def _check(world, identity, shapes, gone):
     """Raises what the shapes that a user wants for a body, and the ids of those that go, call for."""
     world._unlocked()
     if np.isin(world.characters.rows["shape"], gone).any():
         raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
     row = world._body_row(identity)
-    check_shapes(shapes, int(row["kind"]), [row["angle"].item()], int(row["continuous"]))
+    check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
     check_grid_stands(shapes, row["angular_velocity"].item())
     check_own_values(world, shapes)
+    check_weight(world, shapes, int(row["kind"]), world._given.rows["mass"][world._row_number(identity)].item())
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:

@@ -41,8 +41,16 @@ SLEEP_TIME = 0.5  # [s] (Box2D v3.2)
 PUSH_ROUNDS = 16  # times that a body is pushed on by kinematic surfaces in the rest of a step: two in a corner
 IMPACT_ROUNDS = 64  # times that impacts are looked for again after one stopped another's partner
 
+MAX_CORNERS = 16  # of a convex polygon: what its row of the tables holds. More: larger tables, slower collisions
 MASK_ANGLE_BUCKETS = 128  # masks are turned to multiples of 360/128 = 2.8 degrees: the edge of a 64 px sprite moves by
 # at most 0.8 px within a bucket, below the pixel grid it is drawn on
+DRAWN = 2.5  # [px] rounding to the pixel grid, nearest pixels of a turn, and an outline's distance from them: so far
+# besides the bucket's turn may the pixels that are drawn lie from an outline at the exact pose
+SMOOTH = 0.5  # [px] how far a mask's outline may leave the pixels' edges, unless the mask says otherwise: as far as no
+# pixel's centre changes sides, which is what makes staircases straight. Smaller: what rolls or slides feels pixels
+MASK_TILE = 64  # [px] side of the tiles that large masks' outlines are made of, and made anew by when carved. Smaller:
+# more parts; larger: slower carving
+LARGE_MASK = 128  # [px] masks wider or higher than this are made of tiles: below all of it is rebuilt as fast
 PROJECTION_PASSES = 4  # how often the push-out sees every contact; a crate between two walls needs two
 SPEED_LIMIT = 1e9  # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
 POSITION_LIMIT = 2.0**52  # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined

@@ -1,10 +1,11 @@
 """Snapshots of a world, in memory and as `.npz` files without pickle."""
 
+import io
 import json
+import lzma
 import tokenize
 import zipfile
 import zlib
-from dataclasses import astuple
 from os import PathLike
 from typing import Any
 
@@ -13,36 +14,30 @@ import numpy as np
 from physics import checks
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Island, Sleepers
-from physics.reshaping import MATERIAL
-from physics.shapes.convex import Capsule, Polygon
+from physics.shape_rows import MATERIAL
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
-from physics.shapes.lines import Chain, Segment
-from physics.shapes.mask import PixelMask
 from physics.shapes.material import Material
-from physics.shapes.tiles import TileGrid
 from physics.step import PUSHING, SOLVERS
+from physics.stored_shapes import pack_geometry, unpack_geometry
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
 from physics.tables.contact import EVENT
 from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.shape import SHAPE
+from physics.tables.shape import PART, SHAPE
 from physics.world_state import WorldState
 
-VERSION = 4
+VERSION = 7
 SETTINGS = ("solver", "dt", "substeps", "gravity", "drag", "wind")  # come back with a snapshot
-HULLS = {
-    "Polygon": lambda points, radius: Polygon(points, radius),
-    "Capsule": lambda points, radius: Capsule(*points, radius=radius),
-    "Segment": lambda points, radius: Segment(*points),
-}
 DAMAGE = (
     ValueError,
     TypeError,
     KeyError,
     IndexError,
     EOFError,
+    OSError,  # of what is said to be compressed by bzip2, and is not
+    lzma.LZMAError,
     OverflowError,
     AttributeError,
     zipfile.BadZipFile,
@@ -72,24 +67,30 @@ TABLES = {
 class Snapshot:
     """The state of a world at one moment. `save` and `load` keep it in a file."""
 
-    def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> None:
+    def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
             if not isinstance(value, dict):
                 raise TypeError(f"{name} must be a dict, as World.snapshot() makes it (got {checks.shown(value)})")
         self.arrays = arrays
         self.facts = facts
+        # The shapes of a library by kind and row. Shapes never change, and what is carved shares the tiles that it did
+        # not lose: nothing of them is copied until they are saved.
+        self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write a versioned .npz."""
-        named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts)), **self.arrays}
+        arrays, facts = pack_geometry(self.geometry)
+        named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
         with open(path, "wb") as file:
             np.savez_compressed(file, **named)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
         """Read a file. Raises ValueError with the file, and the reason why it is refused."""
+        with open(path, "rb") as file:
+            content = io.BytesIO(file.read())
         try:
-            with np.load(path, allow_pickle=False) as stored:
+            with np.load(content, allow_pickle=False) as stored:
                 arrays = {name: stored[name] for name in stored.files}
             facts = json.loads(str(arrays.pop("facts")))
             if facts["version"] != VERSION:
@@ -97,10 +98,11 @@ class Snapshot:
             for name, dtype in TABLES.items():
                 if arrays[name].dtype != dtype:
                     raise ValueError(f"it has other columns in {name} than this program")
-            _unpack(arrays, facts)
+            geometry = unpack_geometry(arrays, facts)
+            _unpack(arrays, facts, geometry)
         except DAMAGE as error:
             raise ValueError(f"{path} is no snapshot of this program: {error!r}") from None
-        return cls(arrays, facts)
+        return cls(arrays, facts, geometry)
 
 
 def take(world: WorldState) -> Snapshot:
@@ -123,15 +125,6 @@ def take(world: WorldState) -> Snapshot:
         "targets": np.array([*world._targets.values()], np.float64).reshape(-1, 3),
         **_islands_apart(world.sleepers.islands),
     }
-    for number, shape in enumerate(library.outlines):
-        arrays[f"hull_{number}"] = np.array(shape.points)
-    for number, shape in enumerate(library.chain_shapes):
-        arrays[f"chain_{number}"] = np.array(shape.points)
-    for number, shape in enumerate(library.tile_grids):
-        arrays[f"solid_{number}"], arrays[f"one_way_{number}"] = shape.solid, shape.one_way
-        arrays[f"slopes_{number}"] = shape.slopes
-    for number, shape in enumerate(library.masks):
-        arrays[f"mask_{number}"] = shape.solid
     tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
     facts = {
         "version": VERSION,
@@ -143,15 +136,8 @@ def take(world: WorldState) -> Snapshot:
         **{name: getattr(world, name) for name in SETTINGS},
         "tiers": tiers,
         "random": world.random.bit_generator.state,
-        "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in library.outlines],
-        "chains": [
-            [shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
-            for shape in library.chain_shapes
-        ],
-        "tile_sizes": [shape.tile_size for shape in library.tile_grids],
-        "origins": [shape.origin for shape in library.masks],
     }
-    return Snapshot(arrays, facts)
+    return Snapshot(arrays, facts, library.shapes_by_row())
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
@@ -160,7 +146,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
         raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
     facts, arrays = taken.facts, taken.arrays
     try:
-        unpacked = _unpack(arrays, facts)
+        unpacked = _unpack(arrays, facts, taken.geometry)
     except DAMAGE as error:
         raise ValueError(f"snapshot is damaged: {checks.shown(error)}") from None
     if facts["effects"] != world.effects.names():
@@ -229,14 +215,14 @@ def _sleepers(arrays) -> Sleepers:
     return sleepers
 
 
-def _unpack(arrays, facts):
+def _unpack(arrays, facts, geometry):
     """(library, shapes of each body, sources of tiers, random generator) of a snapshot; raises one of DAMAGE."""
-    library = _library(arrays, facts)
+    library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
     rows = arrays["shapes"]["body_row"]
     if len(rows) and not (0 <= rows.min() and rows.max() < len(arrays["bodies"])):
         raise ValueError("a shape belongs to no body")
-    for row in arrays["shapes"]:
+    for row in arrays["shapes"][arrays["shapes"]["role"] != PART]:
         shapes_of[int(row["body"])] += (_with_own_values(library.shape_of(row), row),)
     sources = {identity: (library.masks[mask],) for identity, _, mask in facts["tiers"]}
     random = np.random.default_rng()
@@ -269,19 +255,3 @@ def _targets(arrays) -> dict:
     """{body id: (x, y, angle)} from flat arrays."""
     ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
     return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
-
-
-def _library(arrays, facts):
-    library = Library()
-    for number, (name, radius) in enumerate(facts["hulls"]):
-        points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
-        library.add(HULLS[name](points, radius))
-    for number, (loop, ghosts, materials) in enumerate(facts["chains"]):
-        library.add(
-            Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))
-        )
-    for number, size in enumerate(facts["tile_sizes"]):
-        library.add(TileGrid(arrays[f"solid_{number}"], size, arrays[f"one_way_{number}"], arrays[f"slopes_{number}"]))
-    for number, origin in enumerate(facts["origins"]):
-        library.add(PixelMask(arrays[f"mask_{number}"], tuple(origin)))
-    return library

@@ -28,6 +28,7 @@ from physics.solver.projection import projection
 from physics.solver.pushes import PushSet
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
+from physics.tables.counters import CARVED_PIXELS
 from physics.tables.manifold import ANCHOR
 from physics.tables.step_state import Stage, StepState, stage
 from physics.targets import aim, arrive
@@ -98,7 +99,9 @@ class Workspace:
     def __init__(self, effects: Effects, solver: str) -> None:
         stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
-        self.narrow = NarrowPhase(effects.response, one_way, boxes_only)
+        self.narrow = NarrowPhase(False, one_way, boxes_only)
+        # When somebody looks at contacts of masks: where they push, their outlines have told all.
+        self.telling = NarrowPhase(True, one_way, boxes_only) if not effects.response else None
         self.sensing = NarrowPhase(False, one_way, boxes_only) if stacks and effects.sensors else None
         self.sweep = Sweeper() if effects.continuous or effects.response else None
         self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
@@ -141,6 +144,7 @@ def begin(world: WorldState, dt: float) -> StepState:
     if dt == 0.0:
         state.kept_forces = world.bodies[[*FORCES]].copy()
     state.events, state.told, state.work = events.Events(), (world.manifolds[:0], None), world.profile.work
+    state.work[CARVED_PIXELS], world._carved_pixels = world._carved_pixels, 0
     if not world.awake.sleeping:
         world.awake.all_rows(state.bodies, state.shapes)
     return state

@@ -13,7 +13,7 @@ from physics.character.character import Character
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.proximity.trace import steps_of
-from physics.settings import SLEEP_TIME
+from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.lines import Chain
@@ -25,10 +25,14 @@ from physics.world import World
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
 BOX, MASK, TILES = Polygon.box(8, 8), PixelMask(np.ones((4, 4), bool)), TileGrid(np.ones((1, 2), bool), 16)
+EXACT = PixelMask(np.ones((4, 4), bool), snap=False)
+OPEN = PixelMask(np.ones((4, 40), bool), one_way=True)
 PAIRS = {
     "circles": ((BOX, Circle(4)),),
     "boxes": ((BOX, Bounds(BOX)),),
     "masks": ((MASK, MASK), (MASK, BOX), (MASK, Circle(4))),
+    "exact masks": ((EXACT, MASK), (EXACT, BOX)),
+    "one-way masks": ((OPEN, BOX),),
     "tiles": ((TILES, BOX),),
     "chains": ((Chain([(-9, 0), (9, 0)]), BOX),),
     "capsules": ((BOX, Capsule((-2, 0), (2, 0), 2)),),
@@ -62,21 +66,36 @@ def warmup(
         runs.append(("rest", lambda: _rest(effects, solver)))
     if "tree" in names:
         runs.append(("broad phase tree", lambda: _crowd(effects)))
+    if effects.carving:
+        runs.append(("carving", lambda: _carve(effects, solver)))
     if effects.continuous:
         runs.append(("sweeps", lambda: _impacts(effects, solver)))
-    for piece in PIECES if pieces is None else pieces:
+    pieces = PIECES if pieces is None else tuple(pieces)
+    for piece in pieces:
         if piece in PAIRS and effects.narrowphase:
             runs += [
                 (piece, lambda pair=pair: _small_world(effects, solver, strategy(), pair)) for pair in PAIRS[piece]
             ]
+            if piece == "masks" and effects.response:
+                runs.append((piece, lambda: _amid(effects, solver)))
+            if piece == "masks" and effects.response and effects.sensors:
+                runs.append((piece, lambda: _zone(effects, solver)))
             if piece == "tiles":
                 runs.append((piece, lambda: _ground(effects, solver, TILES)))
+            if piece == "one-way masks":
+                runs.append((piece, lambda: _ground(effects, solver, OPEN)))
         elif piece in QUESTIONS:
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
+            if piece == "queries" and "masks" in pieces:
+                runs.append((piece, lambda: _pixels(effects)))
         elif piece == "characters" and effects.response:
             runs.append((piece, lambda: _character(effects, solver)))
         elif piece not in PIECES:
             raise KeyError(f"no piece {piece!r}; there are {', '.join(PIECES)}")
+    if effects.narrowphase:
+        runs.append(
+            ("several pairs", lambda: _together(effects, solver, [PAIRS[each][0] for each in PAIRS if each in pieces]))
+        )
     for number, (name, run) in enumerate(runs):
         if progress:
             progress(number, len(runs), name)
@@ -85,19 +104,34 @@ def warmup(
         progress(len(runs), len(runs), "ready")
 
 
+def _kind_of(shape):
+    """Dynamic, unless it only carries."""
+    return "kinematic" if isinstance(shape, (TileGrid, Chain)) or shape is OPEN else "dynamic"
+
+
 def _small_world(effects, solver, strategy, pair):
     world = World(effects, strategy, solver)
-    first = world.add_body(
-        pair[0], kind="kinematic" if isinstance(pair[0], (TileGrid, Chain)) else "dynamic", position=(0, 0)
-    )
-    world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
+    first = world.add_body(pair[0], kind=_kind_of(pair[0]), position=(0, 0))
+    second = world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
     world.query_aabb((0, 0), (1, 1))  # what the strategy answers to a query
     world.rows(world.bodies["id"])
     rows_of(world.shapes, world.shapes["id"])
     world.told_manifolds()
     contacts_of(world.manifolds)
-    world.remove_body(first)
+    second.move_to((3, 2))
+    second.velocity = 0.0, 0.0
+    world.step()
+    world.remove_body(first)  # while it is touched
+    world.step()
+
+
+def _together(effects, solver, pairs):
+    """Pairs of several kinds that meet in one step: what is told of them is put in order."""
+    world = World(effects, solver=solver)
+    for number, pair in enumerate(pairs):
+        for shape in pair:
+            world.add_body(shape, kind=_kind_of(shape), position=(80.0 * number, 0.0))
     world.step()
 
 
@@ -125,6 +159,20 @@ def _rest(effects, solver):
     world.step()
 
 
+def _carve(effects, solver):
+    """Out of a small mask and out of a large one, on which something rests, with each kind of tool."""
+    world = World(effects, solver=solver)
+    solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
+    solid[0, 0] = False
+    for mask in (PixelMask(solid), PixelMask(solid[:, :20])):
+        body = world.add_body(mask, kind="static", position=(mask.size[0], 0.0))
+        world.add_body(MASK, position=(mask.size[0], -12.0))
+        world.step()
+        for tool in (Circle(2), Polygon.box(2, 40), MASK):
+            body.carve(tool, (mask.size[0] + 4.0, -8.0), crumb=0)
+            world.step()
+
+
 def _crowd(effects):
     """So many new bodies that the tree is built anew."""
     world = World(effects, DynamicTree())
@@ -144,11 +192,38 @@ def _impacts(effects, solver):
         world.step()
 
 
+def _amid(effects, solver):
+    """What stands in the middle of a mask, where each part of its outline leaves it to the others."""
+    arm = abs(np.arange(12) - 5.5) < 2.0
+    world = World(effects, solver=solver)
+    world.add_body(PixelMask(arm[:, None] | arm), kind="static")
+    world.add_body(Polygon.box(2, 2), position=(0.5, 0.3))
+    world.step()
+
+
+def _zone(effects, solver):
+    """What a sensor says of pixels where what pushes goes by outlines."""
+    world = World(effects, solver=solver)
+    world.add_body(BOX, kind="static", sensor=True)
+    world.add_body(MASK, position=(1, 0))
+    world.add_body(MASK, position=(30, 0), velocity=(-3000.0, 0.0))
+    world.step()
+
+
 def _queries(effects):
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))
     world.overlap(Circle(2), (0, 0, 0))
+
+
+def _pixels(effects):
+    """Questions about masks, also where what pushes goes by their outlines."""
+    world = World(effects)
+    world.add_body(MASK, kind="static")
+    for shape in (Circle(2), BOX, MASK):
+        world.overlap(shape, (0, 0, 0))
+    world.query_point((0, 0))
 
 
 def _casts(effects):
@@ -173,5 +248,15 @@ def _character(effects, solver):
     world.step()
 
 
-QUESTIONS = {"queries": _queries, "casts": _casts, "steps": _steps}
+def _contacts(effects):
+    """Contacts of masks, of which a step without response asks only whether there are some."""
+    for mask in (MASK, EXACT):
+        world = World(effects)
+        for x in (0.0, 2.0):
+            world.add_body(mask, position=(x, 0.0))
+        world.step()
+        len(world.contacts)
+
+
+QUESTIONS = {"queries": _queries, "casts": _casts, "steps": _steps, "contacts": _contacts}
 PIECES = (*PAIRS, *QUESTIONS, "characters")

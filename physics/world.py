@@ -81,7 +81,7 @@ class World(Environment, Questions):
         self._bodies, self._given, self._shapes, self.characters = map(Table, (BODY, GIVEN, SHAPE, CHARACTER))
         self.library = Library()
         self._stepping = False
-        self._next_body = self._next_shape = 0
+        self._next_body = self._next_shape = self._carved_pixels = 0
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # What is remembered from step to step.
         self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()

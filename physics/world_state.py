@@ -10,6 +10,7 @@ from physics import checks
 from physics.broadphase.pair_list import PairList
 from physics.broadphase.proxies import Strategy
 from physics.broadphase.rectangles import write_rectangles
+from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
@@ -100,6 +101,7 @@ class WorldState:
     _shapes: Table
     _next_body: int
     _next_shape: int
+    _carved_pixels: int  # since the last step
     _users: dict[int, Any]  # these five by body id
     _targets: dict[int, tuple[float, float, float]]  # poses to be reached at the end of the next step
     _shapes_of: dict[int, tuple[Shape, ...]]
@@ -125,7 +127,7 @@ class WorldState:
     def contacts(self) -> np.ndarray:
         """CONTACT rows of what touched, was pushed, or met on the way in the last step, in order of shape ids."""
         if self._contacts is None:
-            self._contacts = contacts_of(self.told_manifolds())
+            self._contacts = contacts_of(with_areas(self, self.told_manifolds()))
         return self._contacts
 
     def told_manifolds(self) -> np.ndarray:
@@ -136,7 +138,7 @@ class WorldState:
     @property
     def sleeping_contacts(self) -> np.ndarray:
         """CONTACT rows, as `contacts`, of the pairs that sleep, as they were when they fell asleep."""
-        return contacts_of(self.sleepers.manifolds())
+        return contacts_of(with_areas(self, self.sleepers.manifolds()))
 
     def tell_contacts(self, manifolds: np.ndarray, keep: np.ndarray | None = None) -> None:
         """Take in the manifolds of a step, of which the flagged ones count; points are listed when somebody looks."""
@@ -236,7 +238,7 @@ class WorldState:
         return self._bodies.data[self._row_number(identity)]
 
     def _drop_shapes(self, keep: np.ndarray) -> None:
-        self.pairs.ids(self.shapes)  # named while the rows still stand
+        self.pairs.name(self.shapes)
         self.pairs.free_proxies(self.shapes["proxy"][~keep])
         self._shapes.keep(keep)
         self.library.gone += int(np.count_nonzero(~keep))

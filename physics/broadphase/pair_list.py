@@ -2,12 +2,23 @@
 
 import numpy as np
 
-from physics.broadphase.proxies import Arena, Strategy, keep_pairs, mark_settled, merge_pairs, pair_keys
+from physics.broadphase.proxies import Arena, Strategy, keep_pairs, mark_settled, merge_pairs, pair_keys, tell_rows
 from physics.shapes.filter import Filter
 from physics.tables.counters import CANDIDATES, COUNTERS
 from physics.tables.proxy import PROXY
+from physics.tables.shape import PART
 from physics.tables.step_state import StepState, stage
 
+SOLID, PIXEL, OUTLINE, SENSED, NOWHERE = 1, 2, 4, 8, 16
+EVERYTHING = 31
+AVOIDS = np.zeros(NOWHERE + 1, np.int64)  # by plane
+AVOIDS[[SOLID, PIXEL, OUTLINE, SENSED, NOWHERE]] = (
+    PIXEL | NOWHERE,
+    EVERYTHING - SENSED,
+    PIXEL | SENSED | NOWHERE,
+    OUTLINE | NOWHERE,
+    EVERYTHING,
+)
 NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 
@@ -31,7 +42,7 @@ class PairList:
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
-        self.known_ids = self.candidates[:0]  # None until somebody asks
+        self.known_ids = self.owners = self.candidates[:0]  # None until somebody asks; owners as SHAPE has them
         self.everything = False  # the strategy is new: tell it about all proxies
         self.again = []  # slots whose pairs are to be found again, besides those whose rectangles changed
         self.moved = False  # shape rows have moved since the last update
@@ -44,8 +55,16 @@ class PairList:
     def ids(self, shapes: np.ndarray) -> np.ndarray:
         """(n, 2) shape ids of the candidates, whose rows are those of the SHAPE rows given, unless named before."""
         if self.known_ids is None:
-            self.known_ids = shapes["id"][self.rows]
+            owners = self.name(shapes)
+            keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each once, in the order of both
+            self.known_ids = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
         return self.known_ids
+
+    def name(self, shapes: np.ndarray) -> np.ndarray:
+        """Look up whose the candidates are, (n, 2) shape ids, while the SHAPE rows given still stand."""
+        if self.owners is None:
+            self.owners = shapes["owner"][self.rows]
+        return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
         """Give the shapes at these rows of a SHAPE array a slot each; still: whether each is static."""
@@ -60,6 +79,7 @@ class PairList:
         shapes["proxy"][rows] = slots
         for name in ("body", "membership", "mask"):
             self.proxies[name][slots] = shapes[name][rows]
+        self._set_planes(slots, shapes["role"][rows], shapes["sensor"][rows])
         self.proxies["still"][slots] = still
         self.proxies["awake"][slots] = not self.sleeping
         self.proxies["row"][slots] = -1  # until its rectangle is known
@@ -101,9 +121,7 @@ class PairList:
 
     def rename(self, shapes: np.ndarray) -> None:
         """Shape rows have moved: tell the proxies theirs. The next update writes those of the candidates."""
-        slots = shapes["proxy"]
-        there = np.flatnonzero((slots >= 0) & (self.proxies["row"][slots] >= 0))
-        self.proxies["row"][slots[there]] = there
+        tell_rows(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
@@ -128,6 +146,18 @@ class PairList:
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
         self.touch(slots)
 
+    def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
+        """Take in that the shapes at these rows of a SHAPE array have become sensors, or are solid again."""
+        rows = rows[shapes["proxy"][rows] >= 0]
+        self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
+        self.touch(shapes["proxy"][rows])
+
+    def _set_planes(self, slots, roles, sensors):
+        """Who asks for pixels meets masks themselves; what is pushed meets their parts."""
+        plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
+        plane[sensors & (roles == PART)] = NOWHERE
+        self.proxies["plane"][slots], self.proxies["avoids"][slots] = plane, AVOIDS[plane]
+
     def set_still(self, slots: np.ndarray, still: bool) -> None:
         """Change whether slots are static."""
         slots = slots[slots >= 0]
@@ -150,7 +180,7 @@ class PairList:
             self.proxies["changed"][freed] = False
             self.everything = False
             self.count = 0
-            self.rows = self.known_ids = self.candidates[:0]
+            self.rows = self.known_ids = self.owners = self.candidates[:0]
         else:
             arena.changed = self.changed[:changed_count]
             if len(freed) or self.again:
@@ -187,13 +217,13 @@ class PairList:
         merge_pairs(proxies, shapes, self.spare, kept, self.keys, found, self.slots, self.candidates)
         self.count = total
         self.rows = self.candidates[:total]
-        self.known_ids = None
+        self.known_ids = self.owners = None
 
     def _rename(self, shapes):
         """Rows may have moved though nothing changed: a body without proxies was removed."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
-        self.known_ids = None
+        self.known_ids = self.owners = None
 
 
 @stage("broad_phase", reads=("broadphase", "pairs", "shapes", "changed_count"), writes=("pairs", "broadphase", "work"))

@@ -50,10 +50,11 @@ def may_meet(
     # write
     work_inout,
 ):
-    """Whether two boxes that touch may pair: not both still or asleep, not of one body, filters agree. O(1)."""
+    """Whether two boxes that touch may pair: not both still or asleep, not of one body, in planes that meet, filters
+    agree. O(1)."""
     p = proxies[a]
     q = proxies[b]
-    if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake):
+    if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
         return False
     if (p.membership & q.mask) == 0 or (q.membership & p.mask) == 0:
         work_inout[FILTERED] += 1
@@ -168,6 +169,15 @@ def _corners(name, value):
         row = int(np.argwhere(np.isnan(array))[0][0])
         raise ValueError(f"{name}[{row}] must not be NaN (got {array[row].tolist()})")
     return array
+
+
+@kernel
+def tell_rows(shapes, proxies_inout):
+    """Write the shape rows of proxies whose rectangles are known. O(shapes)."""
+    for k in range(len(shapes)):
+        slot = shapes[k].proxy
+        if slot >= 0 and proxies_inout[slot].row >= 0:
+            proxies_inout[slot].row = k
 
 
 @kernel

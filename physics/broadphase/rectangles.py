@@ -5,15 +5,17 @@ a pile that rests costs the broad phase nothing. More candidates, the same conta
 boxes. Source: Catto, Box2D v3.2, constants.h (margin).
 """
 
+import math
+
 import numpy as np
 
 from physics.jit import kernel
 from physics.math2d import length_of
-from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION
+from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, DRAWN, MASK_ANGLE_BUCKETS
 from physics.shapes.placement import refresh_aabbs, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.shape import MASK
+from physics.tables.shape import PIXELS
 from physics.tables.step_state import StepState, stage
 from physics.tables.world_tables import WorldTables
 
@@ -33,7 +35,8 @@ def update_rectangles(
     """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
 
     rasters: those of the geometry. motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates,
-    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it needs.
+    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it needs;
+    how far the pixels of a mask may be drawn from its exact pose: [px], and of its size.
     Returns the number of slots. O(rows).
     """
     gravity_x = motion[0]
@@ -60,6 +63,13 @@ def update_rectangles(
         upper_x = s.max_x
         upper_y = s.max_y
         fat = 0.0
+        if s.role == PIXELS and s.snap:
+            # Its box is that of the exact pose: what is drawn may lie a little beyond.
+            beyond = motion[6] + motion[7] * b.extent
+            lower_x -= beyond
+            lower_y -= beyond
+            upper_x += beyond
+            upper_y += beyond
         if b.kind != STATIC:
             dx = dt * b.vx
             dy = dt * b.vy
@@ -68,7 +78,7 @@ def update_rectangles(
                 dy += dt * dt * (b.gravity_scale * gravity_y + b.inverse_mass * b.force_y)
             # A point turns by no more than its arc, or across the whole circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
-            if s.kind == MASK:
+            if s.snap and s.role != PIXELS:
                 # Drawn on the pixel grid at both ends; at another angle its edges are rounded anew.
                 r = rasters[s.raster]
                 dx = float(snapped(b.x + dx, r.origin_x) - s.left)
@@ -131,6 +141,8 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
         tolerances.speculative if piles else tolerances.slop,
         AABB_MARGIN * tolerances.pixels_per_meter if piles else 0.0,
         AABB_MARGIN_FRACTION if piles else 0.0,
+        DRAWN,
+        math.pi / MASK_ANGLE_BUCKETS,
     )
     changed = pairs.room_for(len(rows))
     refresh_aabbs(rows, tables.library.tables, bodies, shapes)

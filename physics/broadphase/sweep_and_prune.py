@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
 from physics.jit import kernel
-from physics.tables.counters import FILTERED, NODES_VISITED, PAIRS_TESTED, SWAPS
+from physics.tables.counters import NODES_VISITED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0  # the other axis must vary this much more before the order is sorted anew
 AXIS_INTERVAL = 32  # updates between two looks at how the bodies are spread
@@ -203,7 +203,7 @@ def intersect(
     pairs_out,
     work_inout,
 ):
-    """Pairs that stand in both sorted key lists and pass the filter. Returns their number. O(both lists)."""
+    """Pairs that stand in both sorted key lists and may meet. Returns their number. O(both lists)."""
     found = 0
     i = 0
     j = 0
@@ -216,9 +216,7 @@ def intersect(
         else:
             a = keys_x[i] >> 32
             b = keys_x[i] & low
-            if (proxies[a].membership & proxies[b].mask) == 0 or (proxies[b].membership & proxies[a].mask) == 0:
-                work_inout[FILTERED] += 1
-            else:
+            if may_meet(proxies, a, b, work_inout):
                 found = write_pair(a, b, found, pairs_out)
             i += 1
             j += 1

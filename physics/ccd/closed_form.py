@@ -94,8 +94,7 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
                     best = fraction
                     best_x = nx
                     best_y = ny
-        before = k - 1 if k > 0 else count - 1
-        if radius > 0.0 and (edges >> (16 + k)) & 1 and (edges >> (16 + before)) & 1:
+        if radius > 0.0 and (edges >> (16 + k)) & 1:
             fraction, nx, ny = sweep_circles(x - corners[k, 0], y - corners[k, 1], dx, dy, radius)
             if fraction < best:
                 best = fraction

@@ -114,7 +114,7 @@ def find_rotational_impacts(
     paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for
     the others; stacking: two dynamic bodies are left to the solver unless one is a bullet; without, motion into the
     other by less than a quarter of the half size stops nobody: the contact lets it out at once; rotation: without,
-    nothing turns, and what has a closed form was found by it; slack [px]: see sweep_part. impacts_out (n, 6). Returns
+    nothing turns, and what has a closed form was found by it; slack [px]: see sweep_part. impacts_out (n, 8). Returns
     the number found. O(candidates).
     """
     found = 0
@@ -246,9 +246,9 @@ def write_impacts(
 ):
     """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
 
-    impacts (n, 6): candidate, fraction, normal, stops, feature. The point is the edge, along the normal, of the smaller
-    of the two boxes, or where a ray met the other. With response 1 the separation is that at the final poses: what a
-    side went on by after the impact.
+    impacts (n, 8): candidate, fraction, normal, stops, feature, point. Where that is nan it is the edge, along the
+    normal, of the smaller of the two boxes, or where a ray met the other. With response 1 the separation is that at the
+    final poses: what a side went on by after the impact.
     """
     found = 0
     for i in range(count):
@@ -268,6 +268,9 @@ def write_impacts(
         s = a if small_a else b
         flew_on = response == 0 or a.sensor or b.sensor
         x, y = impact_point(p if small_a else q, s, 1.0 if small_a else -1.0, nx, ny, impacts[i, 1], flew_on)
+        if not math.isnan(impacts[i, 6]):
+            x = impacts[i, 6]
+            y = impacts[i, 7]
         separation = 0.0
         if response == 1:
             after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)

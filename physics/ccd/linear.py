@@ -56,7 +56,7 @@ def is_fast(body, dt, only_straight):
     if body.continuous == AUTO and only_straight == 1:
         return False
     if body.continuous == AUTO:
-        return length_of(body.vx, body.vy) * dt > body.smallest_half
+        return length_of(body.vx, body.vy) * dt > body.thin_half
     return True
 
 
@@ -154,7 +154,8 @@ def find_impacts(
 
     Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
     the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
-    only_straight: see is_fast; impacts_out (n, 6) float64. Returns the number found. O(candidates).
+    only_straight: see is_fast; impacts_out (n, 8) float64, of which no
+    point is written. Returns the number found. O(candidates).
     """
     found = 0
     for i in range(count):

@@ -79,10 +79,10 @@ def find_fast(
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
         moved = way_of(bodies, paths, i)
-        if moved > 0.0 and (b.continuous != AUTO or moved > b.smallest_half):
+        if moved > 0.0 and (b.continuous != AUTO or moved > b.thin_half):
             fast_out[i] = True
             found += 1
-        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.smallest_half:
+        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.thin_half:
             found += 1
     return found, straight
 
@@ -98,7 +98,7 @@ def outruns(bodies, paths, row, other):
     far = length_of(paths[row, 0] - paths[other, 0], paths[row, 1] - paths[other, 1]) + b.extent
     turned = far * min(abs(paths[other, 5] - paths[other, 2]), 2.0)
     turned += b.extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
-    return length_of(dx, dy) + turned > b.smallest_half
+    return length_of(dx, dy) + turned > b.thin_half
 
 
 @kernel

@@ -2,11 +2,12 @@
 
 import math
 
-from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, reach_of
+from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, place_at, reach_of
 from physics.ccd.closed_form import MISS
 from physics.ccd.rotational import depth_at_start, sweep_part, swept_box
 from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import part_feature
+from physics.collision.surfaces import lies_across
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
 from physics.math2d import turned
@@ -180,6 +181,27 @@ def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
             if is_before(link, local_x, local_y, count, 0.0, False, workspace):
                 depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
     return depth
+
+
+@subkernel
+def starts_across(geometry, chain, local_x, local_y, count, radius, slack, workspace):
+    """Whether the mover lies deeper than slack [px] across a surface before it moves, so that it passes."""
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    u, v = turned(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
+    place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
+    return lies_across(
+        geometry,
+        chain,
+        other[CENTER_X] - motion[CENTER_X] - u,
+        other[CENTER_Y] - motion[CENTER_Y] - v,
+        other[ANGLE],
+        workspace.advance.a,
+        count,
+        radius,
+        slack,
+        workspace.advance.b,
+    )
 
 
 @subkernel

@@ -2,13 +2,13 @@
 
 from physics.ccd.closed_form import MISS
 from physics.ccd.rotational import CORE, depth_at_start, sweep_core, sweep_part, write_local, write_motion
-from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
+from physics.ccd.rotational_ground import starts_across, sweep_chain, sweep_tiles
 from physics.jit import subkernel
 from physics.proximity.gjk import NX, NY
 from physics.shapes.placement import is_hull, rounding
 from physics.tables.body import DYNAMIC, RAY
 from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
-from physics.tables.shape import CHAIN, TILES
+from physics.tables.shape import CHAIN, PART, TILES
 
 
 @subkernel
@@ -57,7 +57,7 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
 
     motions (bodies, 6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step.
     row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: see sweep_part;
-    one_way: whether such tiles take part; but: the feature, of tiles or links, that does not count, or -1.
+    one_way: whether what is open from below takes part; but: the feature, of tiles or links, that does not count, or -1
     """
     s = shapes[row]
     o = shapes[other]
@@ -91,6 +91,15 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
             but,
             workspace,
         )
+    elif (
+        o.role == PART
+        and o.kind == CHAIN
+        and (
+            not one_way
+            or starts_across(geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, slack, workspace)
+        )
+    ):
+        return MISS, 0.0, -1.0, -1
     elif o.kind == CHAIN:
         fraction, nx, ny, feature = sweep_chain(
             geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, but, workspace

@@ -10,6 +10,7 @@ import numpy as np
 from physics.ccd.impacts import find_rotational_impacts, move_back, write_impacts
 from physics.ccd.linear import find_impacts, stop_at_impacts
 from physics.ccd.paths import find_fast, find_outgrown, foresee_paths, list_paths
+from physics.ccd.pixels import NO_SQUARES, find_shared_areas, squares_of
 from physics.ccd.push_ahead import push_ahead
 from physics.ccd.rotational import new_rotational_workspace
 from physics.collision.anchors import anchors_of
@@ -21,10 +22,11 @@ from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import MANIFOLD
+from physics.tables.shape import MASK
 from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
-NO_IMPACTS = np.zeros((0, 6))
+NO_IMPACTS = np.zeros((0, 8))
 
 
 class Sweeper:
@@ -33,8 +35,9 @@ class Sweeper:
     def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
-        self.impacts = np.zeros((16, 6))
+        self.impacts = np.full((16, 8), np.nan)
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
+        self.squares, self.squares_in, self.best = NO_SQUARES, None, np.zeros(5)
 
     def grow(self, state: StepState) -> None:
         """Make room for the bodies and the candidates of a step."""
@@ -43,11 +46,11 @@ class Sweeper:
             self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
             self.fast = np.zeros(2 * bodies, bool)
         if len(self.impacts) < candidates:
-            self.impacts = np.zeros((2 * candidates, 6))
+            self.impacts = np.full((2 * candidates, 8), np.nan)
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Impacts (n, 6) of the fast with what stands still (moving 0), or moves (1); strict: the least of them stops."""
+    """Impacts (n, 8) of the fast with what stands still (moving 0), or moves (1); strict: the least of them stops."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -68,11 +71,46 @@ def _look(state, moving, strict=False) -> np.ndarray:
         sweeper.impacts,
         state.work,
     )
-    return sweeper.impacts[:found].copy()
+    impacts = sweeper.impacts[:found].copy()
+    masks = _masks_in(state)
+    if not len(masks):
+        return impacts
+    if sweeper.squares_in is not state.library:
+        sweeper.squares, sweeper.squares_in = NO_SQUARES, state.library
+    sweeper.squares = squares_of(state.library, masks, sweeper.squares)
+    found = find_shared_areas(
+        state.library.tables,
+        state.bodies,
+        state.shapes,
+        rows,
+        len(rows),
+        moving,
+        strict or state.effects.stacking,
+        state.effects.one_way,
+        sweeper.squares,
+        sweeper.paths,
+        sweeper.fast,
+        sweeper.cuts,
+        sweeper.turning,
+        sweeper.best,
+        sweeper.impacts,
+        state.work,
+    )
+    shared = sweeper.impacts[:found].copy()
+    sweeper.impacts[:, 6:] = np.nan  # the other sweeps know no point
+    return np.concatenate([impacts, shared])
+
+
+def _masks_in(state) -> np.ndarray:
+    """Rows in the library of the masks that candidates are told by: all where nothing is pushed, else with sensors."""
+    if not state.library.masks:
+        return np.zeros(0, np.int64)
+    both = state.shapes[["kind", "geometry"]][state.pairs.rows]
+    return np.unique(both["geometry"][both["kind"] == MASK])
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Impacts (n, 6) of the bodies whose way has a closed form."""
+    """Impacts (n, 8) of the bodies whose way has a closed form."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_impacts(
@@ -95,7 +133,7 @@ FORESEEN = ("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library
 PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 
 
-@stage("time_of_impact", reads=FORESEEN, writes=("impacts", "work", "workspace", "bodies.fraction"))
+@stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
     """What the bodies are about to meet, and which part of their motion is free."""
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt

@@ -16,11 +16,13 @@ from physics.character.ride import give_way, note_feet, ride_bodies, take_back
 from physics.character.shift import carried_by, carry_riders, shift
 from physics.character.solids import aabb_of, in_shape, is_box, is_loose, round_half_up
 from physics.character.workspace import character_of, find_own_rows, walk_for
+from physics.collision.clipping import ALL_EDGES
 from physics.dynamics.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import aabb_at, refresh_aabbs
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.rows import rows_of
+from physics.tables.shape import PIXELS
 from physics.tables.step_state import StepState, stage
 
 
@@ -53,7 +55,7 @@ def swept_box(walk, row, along_x):
 def in_swept(me, row, shifted, along_x, box, walk_inout):
     """Whether a character, shifted by some pixels along an axis, is in what a solid swept along it; box: see swept_box.
 
-    A solid that is no box, a grid of tiles or a mask, is tested where it stands when it has moved along this axis.
+    A solid that is no box, a grid of tiles, is tested where it stands when it has moved along this axis.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -66,7 +68,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
             return True
         count, radius = place_outline(walk_inout, me, at_x, at_y)
         box_corners(left, top, right - left, bottom - top, walk_inout.scratch.theirs)
-        depth, nx, ny, x, y = meet_hull(walk_inout.scratch, count, radius, 4, 0.0)
+        depth, nx, ny, x, y = meet_hull(walk_inout.scratch, count, radius, 4, 0.0, ALL_EDGES, math.inf)
         return depth > walk_inout.settings.slop
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
     now = b.y
@@ -124,14 +126,14 @@ def carry_one(me, row, along_x, box, walk_inout):
 def carry_and_push(movers, walk_inout):
     """Let every kinematic solid that moved by whole pixels carry its riders and push what it ran into.
 
-    movers: shape rows, in order, of which those count that keep to the pixel grid: upright boxes, tiles, masks; the
-    rest is left to ride_bodies. O(moved solids · characters).
+    movers: shape rows, in order, of which those count that keep to the pixel grid: upright boxes and tiles; the rest is
+    left to ride_bodies. O(moved solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
         s = walk_inout.shapes[row]
         b = walk_inout.bodies[s.body_row]
-        if b.kind != KINEMATIC or s.sensor or b.quarantined:
+        if b.kind != KINEMATIC or s.sensor or b.quarantined or s.role == PIXELS:
             continue
         if character_of(walk_inout.characters, s.body) >= 0 or is_loose(walk_inout, row):
             continue

@@ -10,6 +10,7 @@ from physics.character.ground import STEEPEST_CLIMB
 from physics.character.walk import is_stopped, walk
 from physics.character.workspace import find_own_rows, walk_for
 from physics.checks import Pair
+from physics.dynamics.sleep import disturb
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.filter import Filter
@@ -18,6 +19,7 @@ from physics.shapes.mask import PixelMask
 
 LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
 PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
+GIVEN = ["vx", "vy", "angular_velocity", "force_x", "force_y", "torque"]  # what a walk may write of other bodies
 MAX_SLOPE = 0.8  # [rad] 46 degrees: a slope of one tile per tile is walked
 
 
@@ -145,7 +147,13 @@ class Character:
         rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]
         squeezed = bool(rows["squeezed"][me])
-        walk(me, dx, dy, self._walk(me, dx, dy), world.workspace.walked)
+        way = self._walk(me, dx, dy)
+        asleep = _asleep(world, way.near)
+        before = world.bodies[asleep][GIVEN]
+        walk(me, dx, dy, way, world.workspace.walked)
+        if len(asleep):
+            # It was pushed from where the next pixel is: it may lie a hair away, where no touch would wake it.
+            disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][GIVEN]]])
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
         return Moved(
@@ -207,6 +215,14 @@ class Character:
     def remove(self) -> None:
         """Remove the character and its body."""
         self.world.remove_body(self.body)
+
+
+def _asleep(world, near):
+    """The rows of bodies that sleep, of those that these shape rows are of."""
+    if not world.sleeps:
+        return np.zeros(0, np.int64)
+    rows = np.unique(world.shapes["body_row"][near])
+    return rows[~world.bodies["awake"][rows]]
 
 
 def _checked_move(dx, dy):

@@ -5,6 +5,7 @@ import math
 from physics.character.ground import BLOCKED, FREE, ON_SLOPE, STEEP, pixels_along
 from physics.character.solids import blocked_at
 from physics.jit import subkernel
+from physics.tables.body import STATIC
 
 
 @subkernel
@@ -54,7 +55,12 @@ def drop_onto(walk, me, rows, left, onto):
         what, by, slope = blocked_at(walk, me, rows, left, c.top + drop + 1, 0, 1, 0.0)
         if what == FREE:
             continue
-        if what == ON_SLOPE and drop <= max(pixels_along(slope), pixels_along(onto)):
+        most = max(pixels_along(slope), pixels_along(onto))
+        if what == ON_SLOPE and walk.bodies[walk.shapes[by].body_row].kind != STATIC:
+            most += (
+                1  # feet stand on the pixel nearest to what moves: up to half a pixel in it before, and above it now
+            )
+        if what == ON_SLOPE and drop <= most:
             return drop, slope
         if what == BLOCKED and onto != 0.0 and drop <= pixels_along(onto):
             return drop, 0.0

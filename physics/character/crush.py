@@ -1,9 +1,8 @@
 """Whether what moves stands in a character that could not give way: it is squeezed as long as that is so."""
 
-from physics.character.chains_and_masks import deepest_link
-from physics.character.ground import FREE
+from physics.character.chains import deepest_link
+from physics.character.ground import FREE, GIVE
 from physics.character.meet import meet, place_outline
-from physics.character.shift import GIVE
 from physics.character.solids import gather, in_shape
 from physics.character.workspace import character_of
 from physics.jit import subkernel

@@ -9,6 +9,7 @@ from physics.jit import subkernel
 from physics.tables.body import DYNAMIC, STATIC
 
 FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of what counts most where several are met
+GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
 FEET = 0.5  # [px] feet stand on the whole pixel nearest to a surface that moves
 LEADS_DEEPER = 0.02  # cosine between a way and a normal from which the way leads into a body that is pushed
 SHEER = 1e-9  # cosine between a wall's normal and down below which it bears nothing
@@ -43,6 +44,17 @@ def allowed_depth(c, loose, nx, ny, give, slop):
     if not loose:
         return slop
     return give + (FEET if is_walkable(c, nx, ny) else 0.1 * slop)
+
+
+@subkernel
+def deepest_of(b, slop, dt):
+    """How deep [px] a character may have come into an outline: by a pixel, or as far as that moved into it.
+
+    What is deeper behind an edge of one part is told by a neighbour, see hulls.collide_hulls.
+    """
+    if b.kind == STATIC:
+        return 1.0 + 2.0 * slop
+    return 1.0 + 2.0 * slop + GIVE + (abs(b.vx) + abs(b.vy) + abs(b.angular_velocity) * b.extent) * dt
 
 
 @subkernel

@@ -1,17 +1,16 @@
-"""How deep a character is in one shape, and which way that lies: its outline against hulls, discs, masks and links."""
+"""How deep a character is in one shape, and which way that lies: its outline against hulls, discs and links."""
 
 import math
 
+from physics.character.ground import deepest_of
 from physics.collision.chains import collide_link_circle, collide_link_hull
-from physics.collision.circles import collide_circles
-from physics.collision.clipping import ALL_EDGES
-from physics.collision.hulls import collide_hull_circle, collide_hulls
-from physics.collision.mask_hulls import collide_mask_circle, collide_mask_polygon
-from physics.collision.mask_rounded import collide_mask_rounded
+from physics.collision.circles import COVERED, collide_circles
+from physics.collision.clipping import ALL_EDGES, LEFT
+from physics.collision.hulls import collide_hull_circle, collide_hulls, faces_of
 from physics.jit import subkernel
 from physics.math2d import turned
-from physics.shapes.placement import corners_at, hull_at, raster_at, rounding, snapped
-from physics.tables.shape import CIRCLE, MASK
+from physics.shapes.placement import corners_at, hull_at, rounding
+from physics.tables.shape import CIRCLE
 
 
 @subkernel
@@ -67,44 +66,28 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 
 @subkernel
-def meet_hull(scratch, count, radius, corners, rounded):
-    """As meet, for the hull in scratch.theirs, of so many corners and that rounding [px]."""
+def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
+    """As meet, for the hull in scratch.theirs, of so many corners and that rounding [px].
+
+    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is LEFT where a neighbour is to tell it.
+    """
     mine = scratch.mine
+    scratch.points[0] = 0.0
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_hull_circle(
-            scratch.theirs, corners, ALL_EDGES, rounded, mine[0, 0], mine[0, 1], radius
+            scratch.theirs, corners, edges, rounded, mine[0, 0], mine[0, 1], radius
         )
-        return -separation if hit and separation < 0.0 else 0.0, -nx, -ny, x, y
+        depth = -separation if hit and separation < 0.0 else 0.0
+        if feature == COVERED or (edges != ALL_EDGES and depth > deepest):
+            scratch.points[0] = LEFT
+            return 0.0, -nx, -ny, x, y
+        scratch.points[0] = 1.0 if depth > 0.0 else 0.0
+        return depth, -nx, -ny, x, y
+    own = faces_of(mine, count, scratch.theirs, corners, edges) if edges != ALL_EDGES else ALL_EDGES
     points = collide_hulls(
-        mine, count, radius, ALL_EDGES, scratch.theirs, corners, rounded, ALL_EDGES, 0.0, 0.0, math.inf, scratch.points
+        mine, count, radius, own, scratch.theirs, corners, rounded, edges, 0.0, 0.0, deepest, scratch.points
     )
     return manifold_depth(points, scratch.points)
-
-
-@subkernel
-def meet_mask(walk, row, count, radius):
-    """As meet, for a mask, by its pixels as drawn; depth 0: no pixel is shared."""
-    s = walk.shapes[row]
-    b = walk.bodies[s.body_row]
-    rasters = walk.geometry.rasters
-    words = walk.geometry.words
-    mine = walk.scratch.mine
-    mask = raster_at(walk.geometry, s.geometry, b.angle)
-    left = snapped(b.x, rasters[mask].origin_x)
-    top = snapped(b.y, rasters[mask].origin_y)
-    if count == 1:
-        area, nx, ny, x, y, separation, first = collide_mask_circle(
-            rasters, words, mask, left, top, mine[0, 0], mine[0, 1], radius
-        )
-    elif radius > 0.0:
-        area, nx, ny, x, y, separation, first = collide_mask_rounded(
-            rasters, words, mask, left, top, mine, count, radius
-        )
-    else:
-        area, nx, ny, x, y, separation, first = collide_mask_polygon(
-            rasters, words, mask, left, top, mine, count, ALL_EDGES, walk.scratch.depths
-        )
-    return -separation if area > 0 else 0.0, -nx, -ny, x, y
 
 
 @subkernel
@@ -124,16 +107,17 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """(depth [px], normal from the character, the middle of what touches) of scratch.mine in a hull, disc or mask.
+    """(depth [px], normal from the character, the middle of what touches) of scratch.mine in a hull or a disc.
 
-    count, radius: of the character, see place_outline. Depth 0: apart.
+    count, radius: of the character, see place_outline. Depth 0: apart; or a neighbour in its mask's outline has the
+    nearer surface, which scratch.points[0] says: LEFT.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+        walk.scratch.points[0] = 0.0
         return meet_disc(walk.scratch, count, radius, b.x + u, b.y + v, s.radius)
-    if s.kind == MASK:
-        return meet_mask(walk, row, count, radius)
     corners = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
-    return meet_hull(walk.scratch, count, radius, corners, rounding(walk.shapes, row))
+    deepest = math.inf if s.inner == 0 else deepest_of(b, walk.settings.slop, walk.settings.dt)
+    return meet_hull(walk.scratch, count, radius, corners, rounding(walk.shapes, row), ALL_EDGES ^ s.inner, deepest)

@@ -4,9 +4,9 @@ import math
 
 from physics.character.climb import drop_onto
 from physics.character.crush import depth_in, is_crushed
-from physics.character.ground import FEET, is_walkable
+from physics.character.ground import FEET, GIVE, is_walkable
 from physics.character.push import foot_of
-from physics.character.shift import GIVE, carried_by, carry_riders, shift
+from physics.character.shift import carried_by, carry_riders, shift
 from physics.character.solids import gather, is_loose
 from physics.character.walk import whole_pixels
 from physics.character.workspace import place_body, settle

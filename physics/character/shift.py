@@ -1,12 +1,10 @@
 """A character that something else moves: shifted pixel by pixel, as far as nothing keeps it."""
 
 from physics.character.climb import drop_onto, way_aside
-from physics.character.ground import FREE
+from physics.character.ground import FREE, GIVE
 from physics.character.solids import blocked_at, gather
 from physics.character.workspace import character_of, settle
 from physics.jit import subkernel
-
-GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
 
 
 @subkernel

@@ -8,15 +8,16 @@ it blocks only a way that leads deeper, and nothing that moves ever traps it.
 
 import math
 
-from physics.character.chains_and_masks import in_chain, in_mask
+from physics.character.chains import in_chain
 from physics.character.ground import BLOCKED, FREE, allowed_depth, judge
 from physics.character.meet import meet, meet_hull, place_outline
 from physics.character.tiles import in_tile_outlines, in_tiles, on_pixels
 from physics.character.workspace import character_of
+from physics.collision.clipping import ALL_EDGES, LEFT
 from physics.jit import subkernel
 from physics.shapes.placement import aabb_at, corners_at
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
-from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON, TILES
+from physics.tables.shape import BOUNDS, CHAIN, PIXELS, POLYGON, TILES
 
 
 @subkernel
@@ -43,8 +44,8 @@ def is_box(walk, row):
     s = walk.shapes[row]
     if s.kind == BOUNDS:
         return True
-    if s.kind != POLYGON or s.radius != 0.0:
-        return False
+    if s.kind != POLYGON or s.radius != 0.0 or s.inner != 0:
+        return False  # a part of an outline has its place beside its neighbours, not on the pixel grid
     b = walk.bodies[s.body_row]
     count = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
     return is_upright_box(walk.scratch.theirs, count)
@@ -52,14 +53,14 @@ def is_box(walk, row):
 
 @subkernel
 def is_loose(walk, row):
-    """Whether a shape is pushed, or moves in another way than by the whole pixels of its box or of its drawing."""
+    """Whether a shape is pushed, or moves in another way than by the whole pixels of its box."""
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     if b.kind != KINEMATIC:
         return b.kind == DYNAMIC
     if b.angular_velocity != 0.0:
         return True
-    return s.kind != TILES and s.kind != MASK and not (b.angle == 0.0 and is_box(walk, row))
+    return s.kind != TILES and not (b.angle == 0.0 and is_box(walk, row))
 
 
 @subkernel
@@ -97,7 +98,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull, a disc or a mask that turns."""
+    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull or a disc."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -107,7 +108,7 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
         for k in range(corners):
             for axis in range(2):
                 walk.scratch.theirs[k, axis] = on_pixels(b.kind, walk.scratch.theirs[k, axis])
-        depth, nx, ny, x, y = meet_hull(walk.scratch, count, radius, corners, 0.0)
+        depth, nx, ny, x, y = meet_hull(walk.scratch, count, radius, corners, 0.0, ALL_EDGES, math.inf)
     else:
         depth, nx, ny, x, y = meet(walk, row, count, radius)
     return judge(c, b.kind, depth - allowed_depth(c, loose, nx, ny, give, walk.settings.slop), nx, ny, way_x, way_y)
@@ -133,8 +134,6 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
             return BLOCKED if in_character(walk, me, other, left, top) else FREE, 0.0
     if s.kind == CHAIN:
         return in_chain(walk, me, row, left, top, way_x, way_y, give)
-    if s.kind == MASK and b.kind != DYNAMIC and b.angular_velocity == 0.0:
-        return in_mask(walk, me, row, left, top, way_x, way_y)
     upright = b.kind == STATIC or (b.kind == KINEMATIC and b.angle == 0.0 and b.angular_velocity == 0.0)
     if c.is_box and upright and is_box(walk, row):
         return BLOCKED if in_upright_box(walk, me, row, left, top) else FREE, 0.0
@@ -162,6 +161,7 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
         b = walk.bodies[s.body_row]
         if (
             s.sensor
+            or s.role == PIXELS
             or s.body_row == c.body_row
             or s.body_row == without
             or (b.kind == DYNAMIC and walk.settings.stacking == 0)
@@ -185,13 +185,24 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     """(what a place is to a character: FREE, STEEP, ON_SLOPE or BLOCKED; the shape row that is, or -1; its slope).
 
-    rows: as gather lists them; the rest as in in_shape. What counts most decides.
+    rows: as gather lists them; the rest as in in_shape. What counts most decides. Where parts of a mask that stands
+    still leave the place to their neighbours, and none of them tells it, it is deep inside.
     """
     result = FREE
     by = -1
     slope = 0.0
+    owner = -1
+    left_by = -1  # a part of this owner that has left it to its neighbours, while none has told it
+    told = False
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]
+        s = walk.shapes[row]
+        if s.owner != owner:
+            if left_by >= 0:
+                return BLOCKED, left_by, 0.0
+            owner = s.owner
+            told = False
+        walk.scratch.points[0] = 0.0
         what, rise = in_shape(walk, me, row, left, top, way_x, way_y, give)
         if what == BLOCKED:
             return BLOCKED, row, 0.0
@@ -199,4 +210,11 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
             result = what
             by = row
             slope = rise
+        told = told or walk.scratch.points[0] > 0.0
+        if s.inner != 0 and walk.scratch.points[0] == LEFT and walk.bodies[s.body_row].kind == STATIC:
+            left_by = row
+        if told:
+            left_by = -1
+    if left_by >= 0:
+        return BLOCKED, left_by, 0.0
     return result, by, slope

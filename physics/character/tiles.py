@@ -7,11 +7,10 @@ import math
 
 from physics.character.ground import BLOCKED, EVEN, FREE, ON_SLOPE, STEEP, judge, pixels_along
 from physics.character.meet import manifold_depth, place_outline
-from physics.collision.clipping import ALL_EDGES, edge_normal
-from physics.collision.hulls import collide_hull_circle, collide_hulls, is_free_corner
+from physics.collision.clipping import ALL_EDGES
+from physics.collision.hulls import collide_hull_circle, collide_hulls, faces_of
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import subkernel
-from physics.proximity.gjk import support
 from physics.tables.body import KINEMATIC
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE
 
@@ -76,20 +75,6 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
             else:
                 return BLOCKED, 0.0
     return result, slope
-
-
-@subkernel
-def faces_of(mine, count, theirs, corners, edges):
-    """The edges of an outline that may push it out of a slope tile: those that meet a corner that sticks out.
-
-    edges: bits as tile_at gives them. The others meet a corner where the ground goes on: its neighbour has the surface.
-    """
-    found = 0xFFFF0000
-    for k in range(count):
-        nx, ny = edge_normal(mine, count, k)
-        if is_free_corner(edges, corners, support(theirs, corners, -nx, -ny)):
-            found |= 1 << k
-    return found
 
 
 @subkernel

@@ -10,8 +10,6 @@ from physics.tables.geometry import Geometry
 from physics.tables.rows import row_of
 from physics.tables.world_tables import WorldTables
 
-COLUMNS = 33  # pixel columns of a mask whose surface is looked at around a foot
-
 
 class Scratch(NamedTuple):
     """Room for one test in flight."""
@@ -19,8 +17,6 @@ class Scratch(NamedTuple):
     mine: np.ndarray  # (16, 2) corners of the character [px]
     theirs: np.ndarray  # (16, 2) corners of what it may meet
     points: np.ndarray  # (POINTS,) a manifold in flight, see collision/clipping.py
-    depths: np.ndarray  # (16,)
-    surface: np.ndarray  # (COLUMNS,) pixel row of a mask's surface in each column
 
 
 class Settings(NamedTuple):
@@ -50,7 +46,7 @@ class Walk(NamedTuple):
 
 def new_scratch() -> Scratch:
     """Scratch room for the walks of one world."""
-    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS), np.zeros(16), np.zeros(COLUMNS, np.int64))
+    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS))
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:

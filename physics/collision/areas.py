@@ -1,20 +1,32 @@
-"""The pixels that the masks of known manifolds share with the other side: counted anew where the bodies ended."""
+"""The pixels that the masks of known contacts share with the other side.
+
+Masks push by their outlines, so nothing of a step needs their areas: they are counted when somebody looks at contacts.
+"""
 
 import math
+
+import numpy as np
 
 from physics.collision.chain_pairs import BACKING
 from physics.collision.chains import link_at
 from physics.collision.clipping import ALL_EDGES
+from physics.collision.dispatch import no_work
 from physics.collision.features import part_of
-from physics.collision.manifold import circle_at, corners_of
+from physics.collision.manifold import circle_at, copy_manifold, corners_of
+from physics.collision.mask_exact import exact_area, meet_polygon
+from physics.collision.mask_exact_pairs import exact_mask_area
 from physics.collision.mask_hulls import collide_mask_circle, collide_mask_line, collide_mask_polygon, thick_line
 from physics.collision.mask_rounded import collide_mask_rounded
+from physics.collision.owners import by_owner
 from physics.collision.tiles import tile_at
 from physics.jit import kernel, subkernel
 from physics.raster.overlap import shared_area
 from physics.shapes.placement import rounding
+from physics.shapes.rasters import draw_masks
 from physics.tables.geometry import SLOPE
-from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
+from physics.tables.rows import rows_of
+from physics.tables.shape import CHAIN, CIRCLE, MASK, PIXELS, TILES
+from physics.tables.world_tables import WorldTables
 
 
 @subkernel
@@ -53,6 +65,12 @@ def area_in_hull(geometry, mask, count, radius, workspace):
     )[0]
 
 
+@subkernel
+def area_in_part(geometry, body, mask, count, workspace):
+    """The area [px2] of a MASK, a row of SHAPE, in the polygon of workspace.b, of so many corners."""
+    return meet_polygon(geometry, body, mask, workspace.b, count, ALL_EDGES, workspace.a, workspace.depths)[0]
+
+
 @kernel
 def count_areas(
     # read
@@ -70,6 +88,9 @@ def count_areas(
             continue
         a = shapes[m.row_a]
         b = shapes[m.row_b]
+        if a.kind == MASK and b.kind == MASK and not (a.snap and b.snap):
+            m.area_1 = exact_mask_area(geometry, bodies, a, b)
+            continue
         if a.kind == MASK and b.kind == MASK:
             m.area_1 = float(
                 shared_area(geometry.rasters, geometry.words, a.raster, b.raster, b.left - a.left, b.top - a.top)
@@ -78,17 +99,85 @@ def count_areas(
         mask = a if a.kind == MASK else b
         other = m.row_b if a.kind == MASK else m.row_a
         kind = shapes[other].kind
-        if kind == CIRCLE:
+        if kind != CHAIN and kind != TILES and not mask.snap:
+            row = m.row_a if a.kind == MASK else m.row_b
+            m.area_1 = exact_area(
+                geometry, bodies, shapes, row, other, rounding(shapes, other), workspace.b, workspace.depths
+            )
+        elif kind == CIRCLE:
             x, y, radius = circle_at(bodies, shapes, other)
             m.area_1 = float(
                 collide_mask_circle(geometry.rasters, geometry.words, mask.raster, mask.left, mask.top, x, y, radius)[0]
             )
         elif kind == CHAIN or kind == TILES:
             count = outline_of_part(geometry, bodies, shapes, other, part_of(m.feature_1), workspace)
-            m.area_1 = float(area_in_hull(geometry, mask, count, 0.0, workspace))
+            body = bodies[mask.body_row]
+            m.area_1 = area_in_part(geometry, body, mask, count, workspace)
             if m.count == 2:
                 count = outline_of_part(geometry, bodies, shapes, other, part_of(m.feature_2), workspace)
-                m.area_2 = float(area_in_hull(geometry, mask, count, 0.0, workspace))
+                m.area_2 = area_in_part(geometry, body, mask, count, workspace)
         else:
             count = corners_of(geometry, bodies, shapes, other, workspace.b)
             m.area_1 = float(area_in_hull(geometry, mask, count, rounding(shapes, other), workspace))
+
+
+def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
+    """MANIFOLD rows by owner, with the pixels [px2] that the shapes share, each where its body is now.
+
+    0 where neither is a mask, and where outlines meet and pixels do not. Each point tells all that its pair shares; of
+    tiles and chains what lies in the run or link it stands on. Where nothing is pushed a step asks of two masks only
+    whether they meet: then their point, normal and depth are told here too.
+    """
+    whole, _ = by_owner(manifolds)
+    shapes = tables.shapes
+    if not tables.library.masks or not len(whole):
+        return whole
+    if not tables.effects.response:
+        return _told_in_full(tables, whole) if tables.effects.narrowphase else whole
+    row_a, row_b = rows_of(shapes, whole["owner_a"]), rows_of(shapes, whole["owner_b"])
+    masked = ((shapes["role"][row_a] == PIXELS) | (shapes["role"][row_b] == PIXELS)) & (row_a >= 0) & (row_b >= 0)
+    some = whole[masked]
+    if not len(some):
+        return whole
+    some["row_a"], some["row_b"], some["area_1"] = row_a[masked], row_b[masked], 1.0
+    draw_masks(tables.library, np.union1d(some["row_a"], some["row_b"]), tables.bodies, shapes)
+    count_areas(tables.library.tables, tables.bodies, shapes, tables.workspace.narrow.workspace, some)
+    standing = np.isin(shapes["kind"], (CHAIN, TILES))
+    alike = ~(standing[some["row_a"]] | standing[some["row_b"]])
+    some["area_2"][alike] = some["area_1"][alike]
+    found = whole.copy()
+    found["area_1"][masked], found["area_2"][masked] = some["area_1"], some["area_2"]
+    return found
+
+
+@kernel
+def put_back(
+    # read
+    full,
+    places,
+    # write
+    manifolds_out,
+):
+    """Write manifolds over those of their pairs: places (pairs,) of these."""
+    for i in range(len(full)):
+        copy_manifold(full, i, places[full[i].candidate], manifolds_out)
+
+
+def _told_in_full(tables, manifolds):
+    """With all that is to be told of two masks, where they still meet."""
+    shapes = tables.shapes
+    row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
+    masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
+    if not masks.any():
+        return manifolds
+    pairs = np.stack([row_a, row_b], axis=1)[masks]
+    full = tables.workspace.telling.collide(tables.library.tables, tables.bodies, shapes, pairs, 0.0, no_work())
+    found = manifolds.copy()
+    put_back(full, np.flatnonzero(masks), found)
+    return found
+
+
+def _rows(shapes, manifolds, side):
+    """SHAPE rows of one side: those of the step, unless shapes came or went since."""
+    rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
+    return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

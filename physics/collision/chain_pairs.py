@@ -6,7 +6,8 @@ import math
 from physics.collision.chains import collide_link_circle, collide_link_hull, in_front, link_at
 from physics.collision.features import part_feature
 from physics.collision.manifold import CHAIN_ANY, add_point, add_points
-from physics.collision.mask_hulls import collide_mask_polygon, thick_line
+from physics.collision.mask_exact import meet_polygon
+from physics.collision.mask_hulls import thick_line
 from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
@@ -110,31 +111,13 @@ def collide_chain_pairs(
                         continue
                     link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
                     if o.kind == MASK:
-                        r = geometry.rasters[o.raster]
-                        if (
-                            in_front(
-                                points,
-                                0,
-                                1,
-                                o.left + 0.5 * (r.set_left + r.set_right),
-                                o.top + 0.5 * (r.set_top + r.set_bottom),
-                            )
-                            < 0.0
-                        ):
+                        if in_front(points, 0, 1, 0.5 * (o.min_x + o.max_x), 0.5 * (o.min_y + o.max_y)) < 0.0:
                             continue
                         thick_line(points, 0.0, BACKING, workspace.b)
-                        area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                            geometry.rasters,
-                            geometry.words,
-                            o.raster,
-                            o.left,
-                            o.top,
-                            workspace.b,
-                            4,
-                            1,
-                            workspace.depths,
+                        area, nx, ny, x, y, separation, which = meet_polygon(
+                            geometry, q, o, workspace.b, 4, 1, points, workspace.depths
                         )
-                        if area > 0:
+                        if area > 0.0:
                             found = add_point(
                                 shapes,
                                 candidates,
@@ -145,7 +128,7 @@ def collide_chain_pairs(
                                 x,
                                 y,
                                 separation,
-                                float(area),
+                                area,
                                 part_feature(k, 0),
                                 manifolds_out,
                             )

@@ -2,10 +2,12 @@
 
 import math
 
-from physics.collision.clipping import edge_normal
+from physics.collision.clipping import edge_normal, meets_corner
 from physics.collision.features import CIRCLE_CORNER
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
+
+COVERED = -1  # in place of a feature: the centre is inside, and no edge may be touched
 
 
 @subkernel
@@ -24,9 +26,10 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 def collide_polygon_circle(corners, count, edges, x, y, radius):
     """A convex polygon against a disc [px]: (found, normal to the disc, point midway, separation, feature).
 
-    edges: bits of the edges that may be touched. An edge that may not be touched is covered by a neighbour, so nothing
-    is found where it, or a corner it ends in, is the nearest: the neighbour finds it. With the centre inside, the
-    nearest touchable edge decides. A centre on the outline takes the edge's normal. O(count).
+    edges: bits of the edges and corners that may be touched. What may not is covered by a neighbour, so nothing is
+    found where it is the nearest: the neighbour finds it. With the centre inside, the
+    nearest touchable edge decides; without any, which the feature COVERED says, a neighbour. A centre on the outline
+    takes the edge's normal. O(count).
     """
     best = -1
     inner = -1
@@ -45,7 +48,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
         best = inner
         best_separation = inner_separation
         if best < 0:
-            return False, 0.0, -1.0, x, y, 0.0, 0
+            return False, 0.0, -1.0, x, y, 0.0, COVERED
     nx, ny = edge_normal(corners, count, best)
     if best_separation > 0.0:
         following = best + 1 if best + 1 < count else 0
@@ -56,14 +59,12 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
         # Right over a corner the face decides: of two tiles that share a covered corner one has to tell.
         if from_start < 0.0 or from_end > 0.0:
             corner = best if from_start < 0.0 else following
-            before = corner - 1 if corner > 0 else count - 1
-            # Both edges of the corner must be free, or the neighbour that covers one of them has the nearer point.
-            if not ((edges >> (16 + corner)) & 1 and (edges >> (16 + before)) & 1):
-                return False, 0.0, -1.0, x, y, 0.0, 0
             dx = x - corners[corner, 0]
             dy = y - corners[corner, 1]
             distance = length_of(dx, dy)
             nx, ny = unit(dx, dy, nx, ny)
+            if not meets_corner(corners, count, edges, corner, nx, ny):
+                return False, 0.0, -1.0, x, y, 0.0, 0
             separation = distance - radius
             along = 0.5 * separation
             return (

@@ -15,9 +15,12 @@ import math
 
 from physics.collision.features import clipped_feature, support_feature
 from physics.jit import subkernel
+from physics.tables.shape import TURNS
 
+TURN = 1.0 / TURNS  # [rad]
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
-ALL_EDGES = 0xFFFFFFFF  # low 16 bits: edges that may be touched; high 16: edges whose corners may be
+LEFT = -1.0  # in place of the count: they overlap, and a neighbour that covers the nearer edges is to tell it
+ALL_EDGES = 0xFFFFFFFF  # 16 bits: edges that may be touched; next 16: corners that may be; beyond: as SHAPE's inner
 
 
 @subkernel
@@ -30,6 +33,26 @@ def edge_normal(corners, count, k):
     if length == 0.0:
         return 0.0, -1.0
     return dy / length, -dx / length
+
+
+@subkernel
+def meets_corner(corners, count, edges, corner, nx, ny):
+    """Whether what lies in the direction (nx, ny), unit, of a corner has it as the nearest point of the outline.
+
+    Of a corner that other parts cover a neighbour tells. At a blunt one the part seems sharper than the outline is: its
+    inner side is not the outline's, which turns there only so far from the side that may be touched.
+    """
+    if (edges >> (16 + corner)) & 1 == 0:
+        return False
+    if (edges >> (32 + corner)) & 1 == 0:
+        return True
+    least = math.cos((edges >> 48) * TURN)
+    for back in range(2):
+        side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
+        if (edges >> side) & 1:
+            own_x, own_y = edge_normal(corners, count, side)
+            return nx * own_x + ny * own_y >= least
+    return False
 
 
 @subkernel

@@ -7,6 +7,7 @@ from physics.collision.dispatch import SENSORS, SOLIDS
 from physics.collision.materials import mix_materials
 from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import in_order
+from physics.shapes.rasters import draw_masks
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import StepState, stage
 
@@ -88,6 +89,7 @@ def detect_piles(state: StepState) -> None:
         previous=previous,
         anchors=state.anchors,
         recycle=tolerances.recycle,
+        graze=tolerances.slop,
     )
     anchors = state.workspace.anchors_for(len(manifolds))
     carry_over(tables, bodies, state.shapes, previous, state.anchors, manifolds, anchors)
@@ -99,13 +101,25 @@ def detect_piles(state: StepState) -> None:
 @stage(
     "sensors",
     reads=("awake", "bodies", "shapes", "library", "pairs", "swept_sensors", "workspace"),
-    writes=("sensed", "swept_sensors", "work", "workspace"),
+    writes=(
+        "sensed",
+        "swept_sensors",
+        "work",
+        "workspace",
+        "library",
+        *(f"shapes.{name}" for name in ("raster", "left", "top")),
+    ),
 )
 def sense(state: StepState) -> None:
     """Sensors see the final poses, and what a sweep met on the way."""
-    tables, bodies, shapes = state.library.tables, state.bodies, state.shapes
+    bodies, shapes = state.bodies, state.shapes
     narrow = state.workspace.sensing
-    sensed = narrow.collide(tables, bodies, shapes, state.pairs.rows, 0.0, state.work, which=SENSORS)
+    pairs = state.pairs.rows
+    if state.library.masks and len(pairs):
+        asked = shapes["sensor"][pairs].any(axis=1)
+        draw_masks(state.library, np.unique(pairs[asked]), bodies, shapes)
+    tables = state.library.tables
+    sensed = narrow.collide(tables, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
     swept = state.swept_sensors
     if len(swept):
         known = sensed["shape_a"] << 32 | sensed["shape_b"]

@@ -9,29 +9,39 @@ from physics.collision.hull_pairs import (
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
 )
+from physics.collision.left_over import drop_opposed, settle_left
 from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
     MASK_CIRCLE,
+    MASK_HULL_EXACT,
     MASK_POLYGON,
     MASKS,
+    MASKS_EXACT,
     NOTHING,
     POLYGON_CIRCLE,
     POLYGONS,
+    SURFACE_ANY,
     Batch,
     new_workspace,
     place_in_order,
 )
+from physics.collision.mask_exact_pairs import (
+    collide_exact_hull_pairs,
+    collide_exact_mask_pairs_full,
+    collide_exact_mask_pairs_hit,
+)
 from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
-from physics.collision.persist import recycle_manifolds, remember_grids
+from physics.collision.persist import recycle_manifolds, remember_ground
+from physics.collision.surfaces import admit_to_surfaces
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.dynamics.awake import is_active, wakes
 from physics.jit import kernel, subkernel
 from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
 from physics.tables.geometry import Geometry
 from physics.tables.manifold import MANIFOLD
-from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
+from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
 
 ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
 
@@ -51,6 +61,21 @@ def kind_of_pair(low, high):
     if low == MASK or high == MASK:
         return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+
+
+@subkernel
+def as_snapped(kind, a, b):
+    """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
+    snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
+    surface."""
+    if kind == CHAIN_ANY:
+        chain = a if a.kind == CHAIN else b
+        return SURFACE_ANY if chain.role == PART else kind
+    if kind == MASKS:
+        return kind if a.snap and b.snap else MASKS_EXACT
+    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
+        return kind if a.snap or b.snap else MASK_HULL_EXACT
+    return kind
 
 
 @subkernel
@@ -86,7 +111,7 @@ def classify(
         sensor = a.sensor or b.sensor
         kind = NOTHING
         if which == ALL or sensor == (which == SENSORS):
-            kind = kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind))
+            kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
         if kind != NOTHING and which != ALL:
             if (
                 a.min_x - margin > b.max_x
@@ -108,13 +133,14 @@ def classify(
 class NarrowPhase:
     """Turns candidates into manifolds; keeps the workspace for them from step to step.
 
-    full_masks: area, normal and depth of mask pairs; one_way: tiles open from below take part; boxes_only: stop at
+    full_masks: area, normal and depth of mask pairs; one_way: what is open from below takes part; boxes_only: stop at
     AABBs.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
         self.boxes_only, self.one_way = boxes_only, one_way
         masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
+        exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
         self.passes = (
             ((CIRCLES,), collide_circle_pairs),
@@ -122,12 +148,14 @@ class NarrowPhase:
             ((POLYGONS,), collide_polygon_pairs),
             ((MASKS,), masks),
             ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
+            ((MASKS_EXACT,), exact),
+            ((MASK_HULL_EXACT,), collide_exact_hull_pairs),
             ((GRID_ANY,), grids),
             ((CHAIN_ANY,), collide_chain_pairs),
         )
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
-        self.counts = np.zeros(NOTHING + 1, np.int64)
+        self.counts, self.deep = np.zeros(NOTHING + 1, np.int64), np.zeros(64, bool)
         self.raw, self.ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
         self.last_raw, self.last_ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
 
@@ -144,19 +172,21 @@ class NarrowPhase:
         previous: np.ndarray | None = None,
         anchors: np.ndarray | None = None,
         recycle: float = 0.0,
+        graze: float = 0.0,
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
         candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
         which: see classify; bias [px]: see hulls.collide_hulls. previous: manifolds of the step before, which tell who
-        stood on one-way tiles; with their anchors they are used again where nothing moved by more than `recycle` [px].
+        stood on what is open from below; with their anchors they are used again where nothing moved by more than
+        `recycle` [px]. graze [px]: see Batch.
         """
         count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         if len(self.kinds) < count + 1:
             self.kinds = np.zeros(2 * count + 1, np.int64)
-        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, float(margin), float(bias))
+        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, float(margin), float(bias), float(graze))
         if self.boxes_only:
             found = self._with_room(work, lambda: collide_boxes(batch, self.raw, work))
             return self.raw[:found]
@@ -165,18 +195,33 @@ class NarrowPhase:
         if previous is not None and len(previous):
             if anchors is not None:
                 again = self._recycle(batch, previous, anchors, recycle)
-            if self.one_way and self.counts[GRID_ANY]:
+            if self.one_way and (self.counts[GRID_ANY] or self.counts[SURFACE_ANY]):
                 workspace = self._remember(batch, previous)
+        if self.one_way and self.counts[SURFACE_ANY]:
+            admit_to_surfaces(batch, workspace is not self.workspace, workspace, self.kinds, self.counts)
         used = [run for kinds, run in self.passes if any(self.counts[kind] for kind in kinds)]
+
+        if len(workspace.left) < count + 1:
+            workspace = workspace._replace(left=np.zeros(2 * count + 1, np.int64))
+            self.workspace = self.workspace._replace(left=workspace.left)
 
         def run_all():
             found = again
+            workspace.left[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
             return found
 
         found = self._with_room(work, run_all)
-        if len(used) + (again > 0) < 2:
+        before = self.raw[:0] if previous is None else previous
+        rest = settle_left(batch, self.raw[:found], before, workspace) if workspace.left[0] else ()
+        if len(rest):
+            self._make_room(found + len(rest))
+            self.raw[found : found + len(rest)] = rest
+            found += len(rest)
+        if self.counts[POLYGONS] or again:
+            found = drop_opposed(bodies, found, margin, self._deep_for(found), self.raw)
+        if not len(rest) and len(used) + (again > 0) < 2:
             return self.raw[:found]
         if len(self.ordered) < len(self.raw):
             self.ordered = np.zeros(len(self.raw), MANIFOLD)
@@ -190,23 +235,33 @@ class NarrowPhase:
         return recycle_manifolds(batch, previous, anchors, distance, self.kinds, self.counts, self.raw)
 
     def _remember(self, batch, previous):
-        """The workspace with the previous manifolds of every pair with a tile grid."""
+        """The workspace with the previous manifolds of every pair with ground that may be open from below."""
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
-        remember_grids(batch, previous, workspace.memory)
+        remember_ground(batch, previous, workspace.memory)
         return workspace
 
     def _with_room(self, work, run):
         before = work.copy()
         found = run()
         if found > len(self.raw):
-            kept = self.raw
-            self.raw = np.zeros(2 * found, MANIFOLD)
-            self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
+            self._make_room(found)
             work[:] = before
             found = run()
         return found
+
+    def _deep_for(self, count) -> np.ndarray:
+        """Room for so many flags."""
+        if len(self.deep) < count:
+            self.deep = np.zeros(2 * count, bool)
+        return self.deep
+
+    def _make_room(self, count):
+        if count > len(self.raw):
+            kept = self.raw
+            self.raw = np.zeros(2 * count, MANIFOLD)
+            self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
 
 
 def narrow_phase_for_queries() -> NarrowPhase:

@@ -5,14 +5,24 @@ Each runs through all candidates and takes those of its kind, so contacts come o
 
 import math
 
-from physics.collision.circles import collide_circles
-from physics.collision.clipping import ALL_EDGES
+from physics.collision.circles import COVERED, collide_circles
+from physics.collision.clipping import ALL_EDGES, LEFT
 from physics.collision.features import CIRCLE_CORNER, CORNERS
-from physics.collision.hulls import collide_hull_circle, collide_hulls, passes_by
-from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, add_point, add_points, circle_at, corners_of
+from physics.collision.hulls import collide_hull_circle, collide_hulls, faces_of, passes_by
+from physics.collision.manifold import (
+    CIRCLES,
+    POLYGON_CIRCLE,
+    POLYGONS,
+    add_point,
+    add_points,
+    circle_at,
+    corners_of,
+    leave,
+)
 from physics.collision.upright import collide_upright, upright_corners
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import polygon_at, rounding
+from physics.tables.body import DYNAMIC
 from physics.tables.counters import SENSOR_TESTS
 from physics.tables.shape import BOUNDS, CIRCLE
 
@@ -95,8 +105,10 @@ def collide_polygon_circle_pairs(
             n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), workspace.a)
         x, y, radius = circle_at(bodies, shapes, circle)
         hit, nx, ny, px, py, separation, feature = collide_hull_circle(
-            workspace.a, n, ALL_EDGES, rounding(shapes, polygon), x, y, radius
+            workspace.a, n, ALL_EDGES ^ s.inner, rounding(shapes, polygon), x, y, radius
         )
+        if not hit and feature == COVERED:
+            leave(i, workspace.left)
         if hit and 0.0 < separation <= margin and feature >= CIRCLE_CORNER:
             q = bodies[shapes[circle].body_row]
             vx, vy = closing(p, q, px, py, x, y)
@@ -109,6 +121,26 @@ def collide_polygon_circle_pairs(
                 shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, manifolds_out
             )
     return found
+
+
+@subkernel
+def slides_by(a, na, b, nb, rounding, graze, p, q, manifold):
+    """Whether two hulls with a manifold do not meet in this step: corners that fly past each other, and who comes to a
+    side that it would overlap by no more than `graze` [px] in passing.
+
+    A side that ends a hair above the floor beside it stops nobody; what little it overlaps is pushed out upwards.
+    p, q: BODY rows of a and b.
+    """
+    least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
+    corners = manifold[0] == 1.0 and manifold[6] >= CORNERS
+    if least <= (0.0 if corners else -graze):
+        return False
+    vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
+    if corners:
+        return passes_by(a, na, b, nb, rounding, vx, vy)
+    along = vx * manifold[1] + vy * manifold[2]
+    # Only who comes along the normal passes a side: what it slides on is touched all the time.
+    return 2.0 * along * along > vx * vx + vy * vy and passes_by(a, na, b, nb, rounding - graze, vx, vy)
 
 
 @kernel
@@ -156,13 +188,21 @@ def collide_polygon_pairs(
             nb = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), b)
         a_radius = 0.0 if s.kind == BOUNDS else s.radius
         b_radius = 0.0 if o.kind == BOUNDS else o.radius
+        a_edges = ALL_EDGES
+        b_edges = ALL_EDGES
+        deepest = math.inf
+        if s.inner != 0 or o.inner != 0:
+            a_edges = (ALL_EDGES ^ s.inner) & faces_of(a, na, b, nb, ALL_EDGES ^ o.inner)
+            b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
+            # Who is never pushed is only told of: by whichever part is met.
+            deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
         points = collide_hulls(
-            a, na, a_radius, ALL_EDGES, b, nb, b_radius, ALL_EDGES, margin, batch.bias, math.inf, manifold
+            a, na, a_radius, a_edges, b, nb, b_radius, b_edges, margin, batch.bias, deepest, manifold
         )
-        if points == 1 and manifold[6] >= CORNERS and manifold[5] > 0.0:
-            vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
-            if passes_by(a, na, b, nb, a_radius + b_radius, vx, vy):
-                continue
+        if points > 0 and slides_by(a, na, b, nb, a_radius + b_radius, batch.graze, p, q, manifold):
+            continue
+        if manifold[0] == LEFT:
+            leave(i, workspace.left)
         found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
     return found
 

@@ -11,10 +11,19 @@ Degenerate cases have one answer each: among faces that push equally the first o
 import math
 
 from physics.collision.circles import collide_polygon_circle
-from physics.collision.clipping import best_edge, clip_edges, support_manifold
+from physics.collision.clipping import (
+    ALL_EDGES,
+    LEFT,
+    best_edge,
+    clip_edges,
+    edge_normal,
+    meets_corner,
+    support_manifold,
+)
 from physics.collision.features import CIRCLE_CORNER, corners_feature
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
+from physics.proximity.gjk import support
 
 
 @subkernel
@@ -104,10 +113,36 @@ def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
 
 
 @subkernel
-def is_free_corner(edges, count, corner):
-    """Whether both edges at a corner may be touched there; else the neighbour that covers one has the nearer point."""
-    before = corner - 1 if corner > 0 else count - 1
-    return (edges >> (16 + corner)) & 1 == 1 and (edges >> (16 + before)) & 1 == 1
+def faces_of(a, count, b, b_count, b_edges):
+    """The edges of A that may push it out of B: those that meet a corner of B that sticks out.
+
+    b_edges: bits as in collide_hulls. The others meet a corner behind which B's neighbour goes on: it has the surface.
+    """
+    if b_edges == ALL_EDGES:
+        return ALL_EDGES
+    found = 0xFFFF0000
+    for k in range(count):
+        nx, ny = edge_normal(a, count, k)
+        if meets_corner(b, b_count, b_edges, support(b, b_count, -nx, -ny), -nx, -ny):
+            found |= 1 << k
+    return found
+
+
+@subkernel
+def lies_along(corners, count, edge, other, other_count):
+    """Whether another polygon lies over an edge: their extents along the edge share more than a point."""
+    following = edge + 1 if edge + 1 < count else 0
+    x = corners[edge, 0]
+    y = corners[edge, 1]
+    dx = corners[following, 0] - x
+    dy = corners[following, 1] - y
+    low = math.inf
+    high = -math.inf
+    for k in range(other_count):
+        along = dx * (other[k, 0] - x) + dy * (other[k, 1] - y)
+        low = min(low, along)
+        high = max(high, along)
+    return high > 0.0 and low < dx * dx + dy * dy
 
 
 @subkernel
@@ -154,7 +189,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
     a, b: world corners (n, 2) [px], grown by the radii [px]; a_edges, b_edges: bits of the edges that may be touched;
     bias [px]: how much better B's face must separate to be the reference, so that it does not flip between equal faces;
     deepest [px]: what is deeper than that behind every edge that may be touched, and less deep behind one that may not,
-    is left to the neighbour that covers it. O(a_count · b_count).
+    is left to the neighbour that covers it: then manifold_out[0] is LEFT. O(a_count · b_count).
     """
     rounding = a_radius + b_radius
     manifold_out[0] = 0.0
@@ -162,15 +197,27 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
     if a_all > margin + rounding:
         return 0
     b_edge, b_separation, b_all = best_edge(b, b_count, b_edges, a, a_count)
-    if b_all > margin + rounding or (a_edge < 0 and b_edge < 0):
+    if b_all > margin + rounding:
+        return 0
+    if a_edge < 0 and b_edge < 0:
+        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
         return 0
     apart = max(a_all, b_all) > 0.0
     if a_count == 2 and b_count == 2 and not apart:
         apart = segments_gap(a, b) > 0.0
     allowed = max(a_separation, b_separation)
     if -allowed > deepest and max(a_all, b_all) > allowed:
+        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
         return 0
     from_b = b_edge >= 0 and (a_edge < 0 or b_separation > a_separation + bias)
+    if (
+        not apart
+        and max(a_all, b_all) > allowed
+        and not (lies_along(b, b_count, b_edge, a, a_count) if from_b else lies_along(a, a_count, a_edge, b, b_count))
+    ):
+        # A nearer face is a neighbour's, and this one is somewhere else.
+        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
+        return 0
     for attempt in range(2):
         flipped = from_b if attempt == 0 else not from_b
         if (b_edge if flipped else a_edge) < 0:
@@ -199,7 +246,8 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
             return count
     i, j, _ = nearest_corners(a, a_count, b, b_count)
     manifold_out[0] = 0.0
-    if not is_free_corner(a_edges, a_count, i) or not is_free_corner(b_edges, b_count, j):
+    nx, ny = unit(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1], 0.0, -1.0)
+    if not meets_corner(a, a_count, a_edges, i, nx, ny) or not meets_corner(b, b_count, b_edges, j, -nx, -ny):
         return 0
     return corner_manifold(a, i, a_radius, b, j, b_radius, margin, manifold_out)
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from physics.collision.owners import by_owner
 from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
@@ -15,7 +16,9 @@ from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import BOUNDS
 
 # Kinds of pairs, by which the candidates are dealt to the passes.
-CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON, GRID_ANY, CHAIN_ANY, NOTHING = range(9)
+CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON = range(6)
+MASKS_EXACT, MASK_HULL_EXACT, GRID_ANY, CHAIN_ANY = range(6, 10)  # exact: with a mask that is not snapped
+SURFACE_ANY, NOTHING = 10, 11  # surface: a chain that is the upper side of a mask open from below
 POINTS = 11  # floats of a manifold in flight: see clipping.py
 
 
@@ -30,6 +33,7 @@ class Batch(NamedTuple):
     count: int  # candidates in use
     margin: float  # [px] pairs apart by at most that are found too
     bias: float  # [px] see hulls.collide_hulls
+    graze: float = 0.0  # [px] who would overlap by no more in passing does not meet: see hull_pairs
 
 
 class Workspace(NamedTuple):
@@ -39,8 +43,11 @@ class Workspace(NamedTuple):
     b: np.ndarray
     points: np.ndarray  # (POINTS,), see clipping.py
     depths: np.ndarray  # (16,)
-    previous: np.ndarray  # MANIFOLD rows of the step before, and where those of each candidate with a grid stand
+    previous: (
+        np.ndarray
+    )  # MANIFOLD rows of the step before, and where those of each candidate with ground open from below stand
     memory: np.ndarray  # (candidates, 2) first row, number
+    left: np.ndarray  # (candidates + 1,) how many candidates overlap and are left to a neighbour, then which
 
 
 def new_workspace() -> Workspace:
@@ -52,7 +59,15 @@ def new_workspace() -> Workspace:
         np.zeros(16),
         np.zeros(0, MANIFOLD),
         np.zeros((0, 2), np.int64),
+        np.zeros(2, np.int64),
     )
+
+
+@subkernel
+def leave(pair, left_inout):
+    """Note a candidate that is left to a neighbour."""
+    left_inout[0] += 1
+    left_inout[left_inout[0]] = pair
 
 
 @subkernel
@@ -67,6 +82,8 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.body_b = b.body
     m.shape_a = a.id
     m.shape_b = b.id
+    m.owner_a = a.owner
+    m.owner_b = b.owner
     m.body_row_a = a.body_row
     m.body_row_b = b.body_row
     m.row_a = row_a
@@ -167,6 +184,8 @@ def copy_manifold(manifolds, source, target, manifolds_out):
     d.body_b = s.body_b
     d.shape_a = s.shape_a
     d.shape_b = s.shape_b
+    d.owner_a = s.owner_a
+    d.owner_b = s.owner_b
     d.body_row_a = s.body_row_a
     d.body_row_b = s.body_row_b
     d.row_a = s.row_a
@@ -240,8 +259,8 @@ def write_contacts(
             c = contacts_out[found]
             c.body_a = m.body_a
             c.body_b = m.body_b
-            c.shape_a = m.shape_a
-            c.shape_b = m.shape_b
+            c.shape_a = m.owner_a
+            c.shape_b = m.owner_b
             c.normal_x = m.normal_x
             c.normal_y = m.normal_y
             c.point_x = m.x_1 if k == 0 else m.x_2
@@ -256,7 +275,8 @@ def write_contacts(
 
 
 def contacts_of(manifolds: np.ndarray) -> np.ndarray:
-    """The points of MANIFOLD rows as CONTACT rows, in their order."""
+    """The points of MANIFOLD rows as CONTACT rows, in the order of the shapes that touch."""
+    manifolds, _ = by_owner(manifolds)
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
     write_contacts(manifolds, contacts)
     return contacts

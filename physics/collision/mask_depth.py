@@ -11,7 +11,7 @@ import math
 
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
-from physics.raster.overlap import first_pixel, shared_area, shared_moments
+from physics.raster.overlap import first_pixel, lines_meet, shared_area, shared_moments
 
 
 @subkernel
@@ -46,18 +46,29 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
     rest_* [px] in 0..1: what snapping took from the positions, so that the move is rounded as it will be, whether B is
     moved along the normal or A against it.
     """
+    a = rasters[mask_a]
+    b = rasters[mask_b]
+    lines = a.stride == 1 and b.stride == 1
+    box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
+    box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
+    row_a = a.offset
+    row_b = b.offset
     depth = 0.0
-    while depth <= most:
+    found = True
+    while found and depth <= most:
         depth += 1.0
         x = dx + math.floor(rest_bx + nx * depth)
         y = dy + math.floor(rest_by + ny * depth)
-        found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
         other_x = dx - math.floor(rest_ax - nx * depth)
         other_y = dy - math.floor(rest_ay - ny * depth)
-        if not found and (other_x != x or other_y != y):
-            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
-        if not found:
-            return depth
+        if lines:
+            found = lines_meet(words, row_a, box_a, row_b, box_b, x, y)
+            if not found and (other_x != x or other_y != y):
+                found = lines_meet(words, row_a, box_a, row_b, box_b, other_x, other_y)
+        else:
+            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
+            if not found and (other_x != x or other_y != y):
+                found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
     return depth
 
 

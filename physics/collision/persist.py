@@ -7,7 +7,7 @@ pose, without detecting again (Catto, Box2D v3: contact recycling; Coumans, Bull
 import math
 
 from physics.collision.anchors import anchor_manifold, copy_anchor, rest_anchor
-from physics.collision.manifold import GRID_ANY, NOTHING, copy_manifold
+from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY, copy_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
@@ -204,22 +204,23 @@ def recycle_manifolds(
 
 
 @kernel
-def remember_grids(
+def remember_ground(
     # read
     batch,
     previous,
     # write
     memory_out,
 ):
-    """Write where a tile grid's previous manifolds of each candidate stand: memory_out (count, 2) first, number.
+    """Write where the previous manifolds of each candidate with a tile grid, or a surface, stand: memory_out (count, 2)
+    first, number.
 
-    Both in the order of shape ids. One-way tiles ask who stood on them. O(candidates + previous).
+    Both in the order of shape ids. What is open from below asks who stood on it. O(candidates + previous).
     """
     j = 0
     for i in range(batch.count):
         memory_out[i, 0] = 0
         memory_out[i, 1] = 0
-        if batch.kinds[i] != GRID_ANY:
+        if batch.kinds[i] != GRID_ANY and batch.kinds[i] != SURFACE_ANY:
             continue
         a = batch.shapes[batch.candidates[i, 0]].id
         b = batch.shapes[batch.candidates[i, 1]].id

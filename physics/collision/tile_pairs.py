@@ -7,7 +7,7 @@ from physics.collision.clipping import ALL_EDGES
 from physics.collision.features import part_feature, part_of
 from physics.collision.hulls import collide_hull_circle, collide_hulls
 from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_at, corners_of
-from physics.collision.mask_hulls import collide_mask_polygon
+from physics.collision.mask_exact import meet_polygon
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import polygon_at, rounding
@@ -74,18 +74,12 @@ def make_grid_pass(one_way: bool) -> Callable:
             last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
             first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
             last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
-            mask = 0
-            left = 0
-            top = 0
             n = 0
             cx = 0.0
             cy = 0.0
             radius = 0.0
             if o.kind == MASK:
                 work_inout[MASK_TESTS] += 1
-                mask = o.raster
-                left = o.left
-                top = o.top
             elif o.kind == CIRCLE:
                 cx, cy, radius = circle_at(bodies, shapes, other)
             else:
@@ -135,18 +129,10 @@ def make_grid_pass(one_way: bool) -> Callable:
                         edges = edges if attempt == 0 else ALL_EDGES
                         feature = part_feature(tile_row * g.columns + cell.first, 0)
                         if o.kind == MASK:
-                            area, nx, ny, x, y, separation, which = collide_mask_polygon(
-                                geometry.rasters,
-                                geometry.words,
-                                mask,
-                                left,
-                                top,
-                                workspace.a,
-                                corners,
-                                edges,
-                                workspace.depths,
+                            area, nx, ny, x, y, separation, which = meet_polygon(
+                                geometry, q, o, workspace.a, corners, edges, workspace.b, workspace.depths
                             )
-                            if area > 0:
+                            if area > 0.0:
                                 found = add_point(
                                     shapes,
                                     candidates,
@@ -157,7 +143,7 @@ def make_grid_pass(one_way: bool) -> Callable:
                                     x,
                                     y,
                                     separation,
-                                    float(area),
+                                    area,
                                     feature,
                                     manifolds_out,
                                 )

@@ -46,6 +46,12 @@ def turns_away(grids, cells, grid, row, column, side):
 
 
 @subkernel
+def between(edges, count):
+    """The bits of the corners of which both edges are set."""
+    return edges & ((edges << 1) | (edges >> (count - 1)))
+
+
+@subkernel
 def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
     """World corners [px] of the run of solid or one-way cells that a cell belongs to,
     and the bits of its touchable edges.
@@ -64,7 +70,7 @@ def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
     corners_out[3, 0] = x + cell.first * g.tile_size
     corners_out[3, 1] = y + (row + 1) * g.tile_size
     if cell.kind == ONE_WAY:
-        return 4, 1 | (1 << 16)
+        return 4, 1
     edges = 0
     corners = 0
     for k in range(min(max(low, cell.first), cell.last), max(min(high, cell.last), cell.first) + 1):
@@ -82,13 +88,13 @@ def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
         corners |= 8
     if edges == 0:
         return 4, ALL_EDGES
-    return 4, edges | ((edges | corners) << 16)
+    return 4, edges | (between(edges | corners, 4) << 16)
 
 
 @subkernel
 def tile_at(geometry, grid, x, y, row, column, corners_out):
     """World corners [px] of a tile, clockwise on the screen from its top left, and the bits of its touchable edges
-    (and, 16 bits higher, of the edges whose corners can be touched: a covered side too where the ground bends down).
+    (and, 16 bits higher, of its corners: that of a covered side too where the ground bends down).
 
     grid: row of GRID; x, y [px]: where the grid's origin is; corners_out (16, 2). A solid tile has four corners, a
     slope three or four. A tile whose edges are all covered may be touched everywhere: what is inside has to get out.
@@ -111,7 +117,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
         corners_out[2, 1] = bottom
         corners_out[3, 0] = left
         corners_out[3, 1] = bottom
-        return 4, 1 | (1 << 16)
+        return 4, 1
     heights_left = 1.0
     heights_right = 1.0
     if cell.kind == SLOPE:
@@ -153,7 +159,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     n += 1
     if edges == 0:
         return n, ALL_EDGES
-    return n, edges | ((edges | corners) << 16)
+    return n, edges | (between(edges | corners, n) << 16)
 
 
 @subkernel

@@ -17,7 +17,7 @@ from physics.jit import kernel
 from physics.math2d import length_of
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.manifold import ANCHOR
-from physics.tables.rows import rows_of
+from physics.tables.rows import joined, row_of, rows_of
 from physics.tables.step_state import StepState, stage
 from physics.tables.world_tables import WorldTables
 
@@ -40,6 +40,27 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
             keys.add(own)
             keys |= _islands_beside(tables, sleepers.islands[own].manifolds, identity)
     wake(tables, keys)
+
+
+def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
+    """Wake the islands that rest on some shapes, by id, of a body that stands: the rest of it is as it was.
+
+    Returns False, and wakes nothing, where more than its islands may have to be told: then see disturb.
+    """
+    sleepers = tables.sleepers
+    row = rows_of(tables.bodies, [identity])[0]
+    if not tables.awake.sleeping or tables.bodies["active"][row]:
+        return False
+    for kept in (sleepers.touching, sleepers.sensing):
+        if len(kept) and ((kept["body_a"] == identity) | (kept["body_b"] == identity)).any():
+            return False
+    keys, some = [], set(shapes.tolist())
+    for key in sleepers.links.get(identity, ()):
+        named = sleepers.islands[key].manifolds
+        if not (some.isdisjoint(named["shape_a"].tolist()) and some.isdisjoint(named["shape_b"].tolist())):
+            keys.append(key)
+    wake(tables, keys)
+    return True
 
 
 def _islands_beside(tables, manifolds, identity):
@@ -77,10 +98,10 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     bodies["awake"][rows] = True
     bodies["sleep_time"][rows] = 0.0
     bodies["island"][rows] = -1
-    tables.touching.give_back(np.concatenate(told))
+    tables.touching.give_back(joined(told))
     sleepers.return_told(tables, ids)
     tables.awake.include(tables, rows)
-    _bring_back(tables, np.concatenate([m for m, _ in parts]), np.concatenate([a for _, a in parts]))
+    _bring_back(tables, joined([m for m, _ in parts]), joined([a for _, a in parts]))
 
 
 def _bring_back(tables, manifolds, anchors):
@@ -91,19 +112,15 @@ def _bring_back(tables, manifolds, anchors):
     again, anchors = with_rows(tables, manifolds[new], anchors[new])
     if len(again):
         again["previous"] = -1
-        both = np.concatenate([found, again])
+        both = joined([found, again])
         order = order_of(both)
-        tables.manifolds, tables.anchors = both[order], np.concatenate([tables.anchors, anchors])[order]
+        tables.manifolds, tables.anchors = both[order], joined([tables.anchors, anchors])[order]
 
 
 def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Manifolds and anchors with the rows that bodies and shapes have now; without those whose sides are gone."""
-    there = np.ones(len(manifolds), bool)
-    for side in "ab":
-        for table, name, column in ((tables.bodies, "body_", "body_row_"), (tables.shapes, "shape_", "row_")):
-            rows = rows_of(table, manifolds[name + side])
-            manifolds[column + side] = rows
-            there &= rows >= 0
+    there = np.empty(len(manifolds), bool)
+    refresh_rows(tables.bodies, tables.shapes, manifolds, there)
     return (manifolds, anchors) if there.all() else (manifolds[there], anchors[there])
 
 
@@ -111,9 +128,22 @@ def forget(tables: WorldTables) -> None:
     """Drop the manifolds of bodies and shapes that are gone; refresh the rows of the others."""
     if len(tables.manifolds):
         anchors = tables.anchors if len(tables.anchors) else np.zeros(len(tables.manifolds), ANCHOR)
-        found, kept = with_rows(tables, tables.manifolds.copy(), anchors)
+        found, kept = with_rows(tables, joined([tables.manifolds]), anchors)
         tables.manifolds = found
         tables.anchors = kept if len(tables.anchors) else tables.anchors
+
+
+@kernel
+def refresh_rows(bodies, shapes, manifolds_inout, there_out):
+    """Write the rows that the bodies and shapes of manifolds have, and which manifolds have all of theirs.
+    O(manifolds log shapes)."""
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        m.body_row_a = row_of(bodies, m.body_a)
+        m.body_row_b = row_of(bodies, m.body_b)
+        m.row_a = row_of(shapes, m.shape_a)
+        m.row_b = row_of(shapes, m.shape_b)
+        there_out[i] = min(m.body_row_a, m.body_row_b, m.row_a, m.row_b) >= 0
 
 
 @kernel
@@ -173,7 +203,7 @@ def find_run_over(
             row = shapes[pairs[i, 1 - side]].body_row
             if b.kind != KINEMATIC or not b.active or bodies[row].kind != DYNAMIC or bodies[row].awake:
                 continue
-            if dt * (length_of(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.smallest_half:
+            if dt * (length_of(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.thin_half:
                 rows_out[found] = row
                 found += 1
     return found

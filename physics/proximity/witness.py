@@ -53,7 +53,7 @@ def separate_parts(
                 continue
             copy_part(b.corners, j, b.counts[j], corners_b_out)
             separation = separate(
-                corners_a_out, a.counts[i], a.radius, corners_b_out, b.counts[j], b.radius, 0, 0, workspace
+                corners_a_out, a.counts[i], a.radii[i], corners_b_out, b.counts[j], b.radii[j], 0, 0, workspace
             )
             totals_out[0] += workspace.state[ROUNDS]
             totals_out[1] += workspace.state[CAPPED]
@@ -64,5 +64,15 @@ def separate_parts(
     if best_i >= 0 and len(a.counts) * len(b.counts) > 1:
         copy_part(a.corners, best_i, a.counts[best_i], corners_a_out)
         copy_part(b.corners, best_j, b.counts[best_j], corners_b_out)
-        separate(corners_a_out, a.counts[best_i], a.radius, corners_b_out, b.counts[best_j], b.radius, 0, 0, workspace)
+        separate(
+            corners_a_out,
+            a.counts[best_i],
+            a.radii[best_i],
+            corners_b_out,
+            b.counts[best_j],
+            b.radii[best_j],
+            0,
+            0,
+            workspace,
+        )
     return best

@@ -2,17 +2,19 @@
 
 import math
 
-from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TURN, advance
+from physics.ccd.advance import ANGLE, CENTER_X, CENTER_Y, MOVE_X, MOVE_Y, TOUCHING_BAND, TURN, advance, reach_of
 from physics.ccd.closed_form import MISS
 from physics.ccd.rotational import place_mover
-from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
+from physics.ccd.rotational_ground import starts_across, sweep_chain, sweep_tiles
 from physics.jit import kernel
 from physics.proximity.gjk import BX, BY, NX, NY, ROUNDS
 from physics.proximity.separation import separate
+from physics.proximity.witness import copy_part
+from physics.queries.ray_lines import cast_on_disc, cast_on_hull
 from physics.queries.rays import cast_on_shape
 from physics.shapes.placement import hull_at, is_hull, rounding
 from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TOI_CALLS
-from physics.tables.shape import CHAIN, MASK, TILES
+from physics.tables.shape import CHAIN, PART, TILES
 
 
 @kernel
@@ -49,6 +51,37 @@ def cast_ray_at_rows(
 
 
 @kernel
+def cast_ray_at_parts(
+    # read
+    parts,
+    dx,
+    dy,
+    # write
+    corners_inout,
+    hit_out,
+    work_inout,
+):
+    """Write (fraction, normal) to hit_out[1:], where a ray from the origin by (dx, dy) [px] first meets a part.
+
+    parts: Parts; corners_inout (16, 2): scratch; hit_out (4,). Returns whether it meets any. O(parts).
+    """
+    hit_out[1] = MISS
+    for k in range(len(parts.counts)):
+        count = parts.counts[k]
+        copy_part(parts.corners, k, count, corners_inout)
+        work_inout[NARROW_TESTS] += 1
+        if count == 1:
+            fraction, nx, ny = cast_on_disc(-corners_inout[0, 0], -corners_inout[0, 1], dx, dy, parts.radii[k])
+        else:
+            fraction, nx, ny = cast_on_hull(corners_inout, count, parts.radii[k], 0.0, 0.0, dx, dy)
+        if fraction < hit_out[1]:
+            hit_out[1] = fraction
+            hit_out[2] = nx
+            hit_out[3] = ny
+    return hit_out[1] <= 1.0
+
+
+@kernel
 def cast_hull_at_rows(
     # read
     geometry,
@@ -69,7 +102,7 @@ def cast_hull_at_rows(
 ):
     """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
 
-    Returns their number. rows: SHAPE rows, of which masks are left out; corners (16, 2) [px] from (x, y), `count` of
+    Returns their number. rows: SHAPE rows, no masks among them; corners (16, 2) [px] from (x, y), `count` of
     them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it
     approaches: 0.
     """
@@ -77,8 +110,6 @@ def cast_hull_at_rows(
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
-        if s.kind == MASK:
-            continue
         b = bodies[s.body_row]
         work_inout[TOI_CALLS] += 1
         r.motion_a[CENTER_X] = x
@@ -103,6 +134,9 @@ def cast_hull_at_rows(
                 geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, -1, workspace
             )
         elif s.kind == CHAIN:
+            near = TOUCHING_BAND * (reach_of(workspace.mover, count) + radius)
+            if s.role == PART and starts_across(geometry, s.geometry, 0.0, 0.0, count, radius, near, workspace):
+                continue
             fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, -1, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)

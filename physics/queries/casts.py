@@ -9,22 +9,29 @@ import numpy as np
 
 from physics import checks
 from physics.ccd.closed_form import MISS
-from physics.ccd.parts import advance_parts
+from physics.ccd.parts import advance_parts, sweep_unions
 from physics.ccd.rotational import new_rotational_workspace
 from physics.checks import Pair, Pose
 from physics.collision.dispatch import narrow_phase_for_queries
 from physics.proximity.gjk import AX, AY, BX, BY, new_gap_workspace
 from physics.proximity.witness import separate_parts
-from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_rows, nearest_hull
+from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_parts, cast_ray_at_rows, nearest_hull
 from physics.queries.index import AskedWorld
+from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
+from physics.shapes.bounds import Bounds
+from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import SHAPES, Shape
-from physics.shapes.parts import Parts, parts_of, placed_parts
+from physics.shapes.lines import Segment
+from physics.shapes.mask import PixelMask
+from physics.shapes.parts import Parts, parts_near, parts_of, swept_parts
 from physics.shapes.placement import is_hull, refresh_aabbs
+from physics.shapes.rasters import draw_masks
 from physics.shapes.rows import place
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
-from physics.tables.shape import MASK, SHAPE
+from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
+from physics.tables.shape import CHAIN, MASK, PART, PIXELS, SHAPE
 from physics.vec2 import Vec2
 
 RAY_PIECES = 16  # a long slanted ray asks for up to this many boxes along it, not for one around it …
@@ -57,25 +64,44 @@ def ray_cast_all(
     index = world.queries
     index.begin(world)
     pieces = 1 + int(min(RAY_PIECES - 1.0, min(abs(dx), abs(dy)) / (PIECE * world.tolerances.pixels_per_meter)))
+    beyond = _beyond_drawn(world)
+    leave = PART if dx == 0.0 and dy == 0.0 else PIXELS  # a point is asked of the pixels, a ray of the outline
     corners, asked, hits = np.zeros((16, 2)), np.zeros(0, np.int64), np.zeros((0, 4))
     for piece in range(pieces):
-        ends = [(x + share * dx, y + share * dy) for share in (piece / pieces, (piece + 1) / pieces)]
-        rows = _allowed(world, index.rows_in(world, *_box_around(*ends)), filter, sensors)
+        start, end = ((x + share * dx, y + share * dy) for share in (piece / pieces, (piece + 1) / pieces))
+        rows = _allowed(world, index.rows_in(world, *_box_around(start, end, beyond)), filter, sensors, leave)
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
-        workspace = np.zeros((len(rows), 4))
+        by_parts = rows[(world.shapes["kind"][rows] == MASK) & (leave == PIXELS)]
+        others = np.setdiff1d(rows, by_parts, assume_unique=True)
+        workspace = np.zeros((len(others), 4))
         found = cast_ray_at_rows(
-            world.library.tables, world.bodies, world.shapes, rows, x, y, dx, dy, corners, workspace, index.work
+            world.library.tables, world.bodies, world.shapes, others, x, y, dx, dy, corners, workspace, index.work
         )
-        hits = np.concatenate([hits, workspace[:found]])
+        hits = np.concatenate([hits, workspace[:found], *_rays_at_outlines(world, by_parts, x, y, dx, dy)])
         # What is met within the pieces so far has been asked: nothing nearer is left.
         if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
             break
     hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
+    _, nearest = np.unique(world.shapes["owner"][hits[:, 0].astype(np.int64)], return_index=True)
+    hits = hits[np.sort(nearest)]  # of a mask's parts, the first that is met
     return [
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
         for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
     ]
+
+
+def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
+    """(row, fraction, normal) of the masks that a ray meets, each by the parts of its outline near the ray."""
+    hits, corners = [], np.zeros((16, 2))
+    for row in rows.tolist():
+        parts = swept_parts(world.library, world.bodies, world.shapes, row, x, y, math.inf)
+        parts = parts_near(parts, min(0.0, dx), min(0.0, dy), max(0.0, dx), max(0.0, dy))
+        hit = np.zeros((1, 4))
+        hit[0, 0] = row
+        if cast_ray_at_parts(parts, dx, dy, corners, hit[0], world.queries.work):
+            hits.append(hit)
+    return hits
 
 
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
@@ -83,8 +109,8 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
 
     Sensors are left out. The normal points from what is met to the shape, the point lies midway between them. Touching
     or overlapping at the start: fraction 0 when it approaches; when it parts or slides the cast looks on. Zero length:
-    the first shape it overlaps. Masks move unsnapped, a Chain is met from its front, a one-way tile from above. Raises
-    TypeError, ValueError.
+    the first shape it overlaps. A PixelMask is its outline at the exact pose, and what only grazes it passes. A Chain
+    is met from its front, a one-way tile or mask from above. Raises TypeError, ValueError.
     """
     pose, filter = _placeable(shape, pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
@@ -92,48 +118,50 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
     index.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
+        beyond = _beyond_drawn(world)
         box = [float(shapes[name][0]) for name in ("min_x", "min_y", "max_x", "max_y")]
         rows = _allowed(
             world,
             index.rows_in(
                 world,
-                (min(box[0], box[0] + dx), min(box[1], box[1] + dy)),
-                (max(box[2], box[2] + dx), max(box[3], box[3] + dy)),
+                (min(box[0], box[0] + dx) - beyond, min(box[1], box[1] + dy) - beyond),
+                (max(box[2], box[2] + dx) + beyond, max(box[3], box[3] + dy) + beyond),
             ),
             filter,
             False,
         )
         if dx == 0.0 and dy == 0.0:
             return _first_contact(world, bodies, shapes, rows)
-        probe = placed_parts(world.library, bodies, shapes, 0, pose[0], pose[1], -math.inf)
-        hits = _sweep(world, probe, is_hull(int(shapes["kind"][0])), rows, (*pose[:2], dx, dy), box[3])
+        probe = swept_parts(world.library, bodies, shapes, 0, pose[0], pose[1], -math.inf)
+        hits = _sweep(world, shape, probe, rows, (*pose[:2], dx, dy), box[3])
         if not len(hits):
             return None
         row, fraction, nx, ny = hits[np.lexsort((hits[:, 0], hits[:, 1]))][0].tolist()
         x, y = pose[0] + fraction * dx, pose[1] + fraction * dy
         workspace = new_gap_workspace()
-        other = placed_parts(world.library, world.bodies, world.shapes, int(row), x, y, box[3])
+        met = rows[world.shapes["owner"][rows] == world.shapes["owner"][int(row)]]
+        other = _outline_at(world, met, x, y, probe, (0.0, 0.0), box[3])
         separate_parts(probe, other, np.zeros((16, 2)), np.zeros((16, 2)), workspace, np.zeros(2))
         gap = workspace.gap.tolist()
         return _hit(world, row, fraction, nx, ny, (x + 0.5 * (gap[AX] + gap[BX]), y + 0.5 * (gap[AY] + gap[BY])))
 
 
-def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
-    """(row, fraction, normal to the probe) of the shapes that a probe meets,
-    by its parts where masks or more are in play."""
+def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
+    """(row, fraction, normal to the probe) of what a probe meets: of a mask the first of its rows."""
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
-    kinds = world.shapes["kind"][rows]
-    by_parts = kinds == MASK if is_one_hull else np.ones(len(rows), bool)
-    if is_one_hull:
+    s = world.shapes[rows]
+    of_masks = (s["kind"] == MASK) | ((s["role"] == PART) & (s["kind"] != CHAIN))
+    alone = ~of_masks if isinstance(shape, (Circle, Capsule, Polygon, Segment, Bounds)) else np.zeros(len(rows), bool)
+    if alone.any():
         found = cast_hull_at_rows(
             world.library.tables,
             world.bodies,
             world.shapes,
-            rows,
+            rows[alone],
             probe.corners[0],
             int(probe.counts[0]),
-            probe.radius,
+            float(probe.radii[0]),
             x,
             y,
             dx,
@@ -143,14 +171,31 @@ def _sweep(world, probe, is_one_hull, rows, motion, feet) -> np.ndarray:
             work,
         )
     moving, still = np.array([0.0, 0.0, 0.0, dx, dy, 0.0]), np.zeros(6)
-    for row in rows[by_parts].tolist():
-        impact = np.zeros(3)
-        other = placed_parts(world.library, world.bodies, world.shapes, row, x, y, feet)
-        advance_parts(probe, other, moving, still, workspace, impact, np.zeros(2))
+    sweep_by = sweep_unions if isinstance(shape, PixelMask) else advance_parts
+    for owner in np.unique(s["owner"][~alone]).tolist():
+        same = rows[~alone & (s["owner"] == owner)]
+        impact, totals = np.zeros(3), np.zeros(2)
+        other = _outline_at(world, same, x, y, probe, (dx, dy), feet)
+        sweep = sweep_unions if of_masks[~alone & (s["owner"] == owner)].any() else sweep_by
+        sweep(probe, other, moving, still, workspace, impact, totals)
+        work[TOI_CALLS] += 1
+        work[GJK_ITERATIONS] += int(totals[0])
+        work[CAP_HITS] += int(totals[1])
         if impact[0] < MISS:
-            hits[found] = row, impact[0], -impact[1], -impact[2]
+            hits[found] = same[0], impact[0], -impact[1], -impact[2]
             found += 1
     return hits[:found]
+
+
+def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
+    """The parts, seen from (x, y), of the rows of one shape, that a probe may meet on its way [px]."""
+    every = [swept_parts(world.library, world.bodies, world.shapes, row, x, y, feet) for row in rows.tolist()]
+    parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
+    if not len(probe.counts):
+        return parts
+    (left, top), (right, bottom) = probe.boxes[:, :2].min(axis=0), probe.boxes[:, 2:].max(axis=0)
+    dx, dy = way
+    return parts_near(parts, left + min(0.0, dx), top + min(0.0, dy), right + max(0.0, dx), bottom + max(0.0, dy))
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
@@ -162,9 +207,10 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
     x, y = checks.position("point", point)
     filter, index = _checked(filter), world.queries
     index.begin(world)
-    reach, found = 2.0 * world.tolerances.pixels_per_meter, None
+    reach, beyond, found = 2.0 * world.tolerances.pixels_per_meter, _beyond_drawn(world), None
     while True:
-        rows = index.rows_in(world, (x - reach, y - reach), (x + reach, y + reach))
+        around = reach + beyond
+        rows = index.rows_in(world, (x - around, y - around), (x + around, y + around))
         everything = len(rows) == np.count_nonzero(~world.bodies["quarantined"][world.shapes["body_row"]])
         found = _nearest(world, _allowed(world, rows, filter, False), x, y)
         if everything or (found and found[1] <= reach):
@@ -188,7 +234,7 @@ def _nearest(world, rows, x, y):
     alone = parts_of([[(0.0, 0.0)]])
     for row in rows.tolist():
         if not is_hull(int(world.shapes["kind"][row])):
-            parts: Parts = placed_parts(world.library, world.bodies, world.shapes, row, x, y, y)
+            parts: Parts = swept_parts(world.library, world.bodies, world.shapes, row, x, y, y)
             gap = separate_parts(alone, parts, point, corners, workspace, np.zeros(2))
             if math.isfinite(gap):
                 found.append(
@@ -217,9 +263,10 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
-        s = shapes[0]
-        rows = world.queries.rows_in(world, (s["min_x"], s["min_y"]), (s["max_x"], s["max_y"]))
-        contacts = _contacts(world, bodies, shapes, _allowed(world, rows, filter, True))
+        s, beyond = shapes[0], _beyond_drawn(world)
+        box = (s["min_x"] - beyond, s["min_y"] - beyond), (s["max_x"] + beyond, s["max_y"] + beyond)
+        rows = _allowed(world, world.queries.rows_in(world, *box), filter, True, PART)
+        contacts = _contacts(world, bodies, shapes, rows)
         return [world.body(each) for each in np.unique(contacts["body_a"]).tolist()]
 
 
@@ -272,17 +319,31 @@ def _checked(filter):
     return filter
 
 
-def _allowed(world, rows, filter, sensors):
-    """The rows whose filter agrees with the query's; without sensors unless asked for."""
+def _allowed(world, rows, filter, sensors, leave=PIXELS):
+    """The rows whose filter agrees with the query's; without sensors unless asked for. leave: the role that is left
+    out: a mask's PIXELS where its outline is asked, its PARTs where its pixels are."""
     s = world.shapes
+    rows = rows[s["role"][rows] != leave]
     keep = (s["membership"][rows] & filter.mask != 0) & (s["mask"][rows] & filter.membership != 0)
-    return rows[keep if sensors else keep & ~s["sensor"][rows]]
+    rows = rows[keep if sensors else keep & ~s["sensor"][rows]]
+    draw_masks(world.library, rows, world.bodies, s)
+    return rows
 
 
-def _box_around(start, end):
-    return (min(start[0], end[0]), min(start[1], end[1])), (max(start[0], end[0]), max(start[1], end[1]))
+def _box_around(start, end, beyond):
+    return (
+        (min(start[0], end[0]) - beyond, min(start[1], end[1]) - beyond),
+        (max(start[0], end[0]) + beyond, max(start[1], end[1]) + beyond),
+    )
+
+
+def _beyond_drawn(world):
+    """How far [px] a mask's outline at the exact pose may reach out of the box that its pixels are drawn in."""
+    if not world.library.masks or not len(world.bodies):
+        return 0.0
+    return DRAWN + float(world.bodies["extent"].max()) * math.pi / MASK_ANGLE_BUCKETS
 
 
 def _hit(world, row, fraction, nx, ny, point):
     shape = world.shapes[int(row)]
-    return RayHit(world.body(int(shape["body"])), int(shape["id"]), Vec2(*point), Vec2(nx + 0.0, ny + 0.0), fraction)
+    return RayHit(world.body(int(shape["body"])), int(shape["owner"]), Vec2(*point), Vec2(nx + 0.0, ny + 0.0), fraction)

@@ -44,12 +44,14 @@ class Distance:
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact.
+    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact, of masks
+    < 0.
 
     Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
-    `collide` gives. Where shapes touch or cross without a contact (two masks side by side; a Chain from behind; tiles
-    on tiles) it is the smallest number above 0. A mask is measured as it is drawn, on the pixel grid. Infinite, with
-    the normal (1, 0), to a shape without a solid cell or pixel. Raises TypeError, ValueError.
+    `collide` gives. What touches a mask without sharing area is 0 from it, without a contact; where other shapes touch
+    or cross without a contact (a Chain from behind; tiles on tiles) it is the smallest number above 0. A mask is
+    measured by its pixels, a snapped one as it is drawn, on the pixel grid. Infinite, with the normal (1, 0), to a
+    shape without a solid cell or pixel. Raises TypeError, ValueError.
     """
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
@@ -84,7 +86,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     if found <= band and not (convex and found < -band):
         contact = collide(shape_a, pose_a, shape_b, pose_b)
         if not len(contact):
-            found = max(found, NEXT_TO_NOTHING)
+            found = max(found, 0.0 if _are_open(shape_a, shape_b) else NEXT_TO_NOTHING)
         elif convex:
             found = min(found, 0.0)
         else:
@@ -95,6 +97,12 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     nx, ny = nx + 0.0, ny + 0.0
     point_b = Vec2(point_a[0] + found * nx, point_a[1] + found * ny)
     return Distance(float(found), point_a, point_b, Vec2(nx, ny), int(rounds))
+
+
+def _are_open(shape_a, shape_b) -> bool:
+    """Whether one is a mask, the other no chain: touching, they are 0 apart and share nothing."""
+    pair = (shape_a, shape_b)
+    return any(isinstance(each, PixelMask) for each in pair) and not any(isinstance(each, Chain) for each in pair)
 
 
 @kernel

@@ -7,7 +7,7 @@ import numpy as np
 
 from physics.ccd.advance import TOLERANCE
 from physics.ccd.closed_form import MISS, sweep_circles
-from physics.ccd.parts import advance_on_ground, advance_parts
+from physics.ccd.parts import advance_on_ground, advance_parts, sweep_unions
 from physics.ccd.rotational import new_rotational_workspace
 from physics.checks import Pose
 from physics.proximity.gjk import AX, AY, BX, BY, NX, NY, new_gap_workspace
@@ -20,7 +20,16 @@ from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
-from physics.shapes.parts import Parts, chain_outlines, mask_outlines, parts_of, rectangle, tile_outlines
+from physics.shapes.parts import (
+    Parts,
+    chain_outlines,
+    mask_outlines,
+    outline_parts,
+    parts_of,
+    rectangle,
+    tile_outlines,
+    turned_parts,
+)
 from physics.shapes.tiles import TileGrid
 from physics.vec2 import Vec2
 
@@ -51,9 +60,8 @@ def time_of_impact(
     Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
     fraction 0 when they approach; when they part or slide they are looked at until they approach. A Chain is met from
     its front, a one-way tile from above; no seam of ground is felt, and what only grazes tiles or links does not meet
-    them. A PixelMask is the union of its pixel squares at the exact pose: what is snapped to the pixel grid has no
-    motion. A Bounds whose shape turns changes its size on the way: to 1e-12 of it. Tiles and chains do not meet each
-    other. Raises TypeError, ValueError.
+    them; nor does what only grazes a PixelMask, which is its outline at the exact pose. A Bounds whose shape turns
+    changes its size on the way: to 1e-12 of it. Tiles and chains do not meet each other. Raises TypeError, ValueError.
     """
     moves = [
         [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
@@ -92,7 +100,8 @@ def _first(a, move_a, b, move_b):
         )
     else:
         parts_b, motion_b = _local(b, move_b)
-        advance_parts(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
+        sweep = sweep_unions if isinstance(a, PixelMask) or isinstance(b, PixelMask) else advance_parts
+        sweep(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
     return found.tolist()
 
 
@@ -120,12 +129,13 @@ def _local(shape, move) -> tuple[Parts, np.ndarray]:
     if not isinstance(shape, Bounds):
         return _body_parts(shape), motion
     angle, motion[2] = move[0][2], 0.0
-    return _box_at(_body_parts(shape.shape), shape.shape, angle), motion
+    return _box_at(shape.shape, angle), motion
 
 
 def _body_parts(shape) -> Parts:
+    """In body space; of a mask its outline."""
     if isinstance(shape, PixelMask):
-        return parts_of(mask_outlines(shape, 0, -shape.origin[0], -shape.origin[1]))
+        return outline_parts(shape)
     if isinstance(shape, TileGrid):
         return parts_of(tile_outlines(shape, 0.0, 0.0, -math.inf))
     if isinstance(shape, Chain):
@@ -135,9 +145,17 @@ def _body_parts(shape) -> Parts:
     return parts_of([shape.points], getattr(shape, "radius", 0.0))
 
 
-def _box_at(parts, shape, angle) -> Parts:
-    """The box around parts that are turned by an angle; around a mask's pixels as it is drawn at that angle."""
-    if isinstance(shape, PixelMask) and shape.area:
+def _boxed_parts(shape) -> Parts:
+    """As _body_parts, of what a Bounds wraps: of a mask its pixels."""
+    if isinstance(shape, PixelMask):
+        return parts_of(mask_outlines(shape, 0, -shape.origin[0], -shape.origin[1]))
+    return _body_parts(shape)
+
+
+def _box_at(shape, angle) -> Parts:
+    """The box around a shape that is turned by an angle; around a mask's pixels as it is drawn at that angle."""
+    parts = _boxed_parts(shape)
+    if isinstance(shape, PixelMask) and shape.snap and shape.area:
         turned = shape.turned(angle)
         rows, columns = np.nonzero(turned.solid)
         x, y = turned.origin
@@ -150,31 +168,24 @@ def _box_at(parts, shape, angle) -> Parts:
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
     """Parts at a pose, seen from (x, y)."""
-    cosine, sine = math.cos(pose[2]), math.sin(pose[2])
-    corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (pose[0] - x, pose[1] - y)
-    return parts_of([corners[k, :n] for k, n in enumerate(parts.counts)], parts.radius)
+    return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
 
 
 def _at(move, fraction):
     return tuple(p + fraction * (q - p) for p, q in zip(*move, strict=True))
 
 
-def _parts_at(shape, parts, move, fraction, x, y) -> Parts:
+def _parts_at(shape, move, fraction, x, y) -> Parts:
     pose = _at(move, fraction)
     if isinstance(shape, Bounds):
-        return _placed(_box_at(parts, shape.shape, pose[2]), (pose[0], pose[1], 0.0), x, y)
-    return _placed(parts, pose, x, y)
+        return _placed(_box_at(shape.shape, pose[2]), (pose[0], pose[1], 0.0), x, y)
+    return _placed(_body_parts(shape), pose, x, y)
 
 
 def _point(a, move_a, b, move_b, fraction):
     """Midway between the nearest points at a fraction [px]."""
     x, y = move_a[0][:2]
-    gap = _gap_at(
-        *(
-            _parts_at(each, _body_parts(getattr(each, "shape", each)), move, fraction, x, y)
-            for each, move in ((a, move_a), (b, move_b))
-        )
-    )
+    gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
 
 
@@ -187,7 +198,7 @@ def _gap_at(parts_a, parts_b):
 def _advance_boxes(a, move_a, b, move_b):
     """Conservative advancement by the distance and a bound on the speed: where a box changes its size as it turns."""
     x, y = move_a[0][:2]
-    parts = [_body_parts(getattr(each, "shape", each)) for each in (a, b)]
+    parts = [_boxed_parts(each.shape) if isinstance(each, Bounds) else _body_parts(each) for each in (a, b)]
     if not all(len(each.counts) for each in parts):
         return MISS, 1.0, 0.0
     reach = [float(np.hypot(*np.abs(each.boxes).reshape(-1, 2, 2).max(axis=(0, 1)))) for each in parts]
@@ -198,12 +209,7 @@ def _advance_boxes(a, move_a, b, move_b):
     tolerance = 1e-12 * (sum(reach) + path)
 
     def look(fraction):
-        gap = _gap_at(
-            *(
-                _parts_at(each, part, move, fraction, x, y)
-                for each, part, move in ((a, parts[0], move_a), (b, parts[1], move_b))
-            )
-        )
+        gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
         return float(gap[0]), float(gap[NX]), float(gap[NY])
 
     fraction, was_apart = 0.0, False

@@ -81,7 +81,7 @@ def _make_order(shape) -> tuple:
         pixels = (shape.solid.tobytes(), shape.slopes.tobytes(), shape.one_way.tobytes())
         return (kind, *shape.solid.shape, shape.tile_size, *pixels)
     if isinstance(shape, PixelMask):
-        return (kind, *shape.size, *shape.origin, shape.solid.tobytes())
+        return (kind, *shape.size, *shape.origin, shape.snap, shape.solid.tobytes())
     points = (shape.center,) if isinstance(shape, Circle) else shape.points
     return (kind, getattr(shape, "radius", 0.0), len(points), *(each for point in points for each in point))
 

@@ -49,6 +49,15 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 
 @subkernel
+def cast_on_disc(x, y, dx, dy, radius):
+    """A ray from (x, y), seen from the centre of a closed disc [px]: (fraction or MISS, normal); inside: 0."""
+    if x * x + y * y <= radius * radius:
+        back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
+        return 0.0, back_x, back_y
+    return sweep_circles(x, y, dx, dy, radius)
+
+
+@subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
     """A ray against a closed hull of two or more corners grown by a radius [px]: (fraction or MISS, normal).
 

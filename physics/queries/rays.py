@@ -1,17 +1,18 @@
-"""A ray against every shape: closed forms for circles, other hulls and lines, cell by cell for tiles and pixels.
+"""A ray against every shape: closed forms for circles, other hulls and lines, cell by cell for tiles.
 
 Source of the cell walk: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987.
 """
 
 import math
 
-from physics.ccd.closed_form import MISS, sweep_circle_polygon, sweep_circles
+from physics.ccd.closed_form import MISS, sweep_circle_polygon
 from physics.collision.clipping import ALL_EDGES
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
-from physics.math2d import turned, unit
-from physics.queries.ray_lines import cast_on_chain, cast_on_hull
+from physics.math2d import cosine_and_sine, turned, unit
+from physics.queries.ray_lines import cast_on_chain, cast_on_disc, cast_on_hull
 from physics.raster.bits import is_set
+from physics.shapes.mask_pose import into_raster, raster_of_shape
 from physics.shapes.placement import corners_at, raster_at, rounding, snapped
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, SOLID
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
@@ -111,41 +112,27 @@ def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
 
 
 @subkernel
-def cast_on_mask(rasters, words, mask, x, y, dx, dy):
-    """A ray, seen from the raster's corner [px], against its solid pixels: (fraction or MISS, normal)."""
+def is_solid_at(rasters, words, mask, x, y):
+    """Whether a point, seen from the raster's corner [px], lies in a solid pixel: [i, i + 1) x [j, j + 1)."""
     r = rasters[mask]
-    enter, leave = enter_box(x, y, dx, dy, float(r.width), float(r.height))
-    if enter > leave or r.area == 0:
-        return MISS, 0.0, -1.0
-    column = start_cell(x + enter * dx, dx, 1.0, r.width)
-    row = start_cell(y + enter * dy, dy, 1.0, r.height)
-    fraction = enter
-    nx, ny = unit(-dx, -dy, 0.0, -1.0)
-    if enter > 0.0:
-        # The face of the raster through which it came in.
-        if dx != 0.0 and (0.0 - x) / dx == enter or dx != 0.0 and (r.width - x) / dx == enter:
-            nx = -1.0 if dx > 0.0 else 1.0
-            ny = 0.0
-        else:
-            nx = 0.0
-            ny = -1.0 if dy > 0.0 else 1.0
-    while 0 <= column < r.width and 0 <= row < r.height:
-        if is_set(words, r.offset + row * r.stride, column):
-            return fraction, nx, ny
-        across = next_border(x, dx, column, 1.0)
-        down = next_border(y, dy, row, 1.0)
-        fraction = min(across, down)
-        if fraction > leave:
-            break
-        if across < down:
-            column += 1 if dx > 0.0 else -1
-            nx = -1.0 if dx > 0.0 else 1.0
-            ny = 0.0
-        else:
-            row += 1 if dy > 0.0 else -1
-            nx = 0.0
-            ny = -1.0 if dy > 0.0 else 1.0
-    return MISS, 0.0, -1.0
+    if not (0.0 <= x < r.width and 0.0 <= y < r.height):
+        return False
+    return is_set(words, r.offset + math.floor(y) * r.stride, math.floor(x))
+
+
+@subkernel
+def is_in_mask(geometry, shape, body, x, y):
+    """Whether a point [px] lies in a solid pixel of a mask, as drawn where it is snapped."""
+    if not shape.snap:
+        mask = raster_of_shape(geometry, shape)
+        cosine, sine = cosine_and_sine(body.angle, body.angle)
+        u, v = into_raster(geometry.rasters[mask], body, cosine, sine, x, y)
+        return is_solid_at(geometry.rasters, geometry.words, mask, u, v)
+    mask = raster_at(geometry, shape.geometry, body.angle)
+    r = geometry.rasters[mask]
+    return is_solid_at(
+        geometry.rasters, geometry.words, mask, x - snapped(body.x, r.origin_x), y - snapped(body.y, r.origin_y)
+    )
 
 
 @subkernel
@@ -183,18 +170,17 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
-    """A ray from (x, y) by (dx, dy) [px] against a shape: (fraction or MISS, normal). No length: of the point."""
+    """A ray from (x, y) by (dx, dy) [px] against a shape: (fraction or MISS, normal). No length: of the point.
+
+    A mask is asked for points alone: rays are cast at its outline.
+    """
     s = shapes[row]
     b = bodies[s.body_row]
     point = dx == 0.0 and dy == 0.0
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
-        rx = x - b.x - u
-        ry = y - b.y - v
-        if rx * rx + ry * ry <= s.radius * s.radius:
-            return 0.0, back_x, back_y
-        return sweep_circles(rx, ry, dx, dy, s.radius)
+        return cast_on_disc(x - b.x - u, y - b.y - v, dx, dy, s.radius)
     if s.kind == TILES:
         if point_in_tiles(geometry, s.geometry, x - b.x, y - b.y, corners_inout):
             return 0.0, back_x, back_y
@@ -202,21 +188,7 @@ def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
             return MISS, 0.0, -1.0
         return cast_on_tiles(geometry, s.geometry, x - b.x, y - b.y, dx, dy, corners_inout)
     if s.kind == MASK:
-        mask = raster_at(geometry, s.geometry, b.angle)
-        r = geometry.rasters[mask]
-        left = snapped(b.x, r.origin_x)
-        top = snapped(b.y, r.origin_y)
-        if point:
-            column = math.floor(x - left)
-            line = math.floor(y - top)
-            if (
-                0 <= column < r.width
-                and 0 <= line < r.height
-                and is_set(geometry.words, r.offset + line * r.stride, column)
-            ):
-                return 0.0, back_x, back_y
-            return MISS, 0.0, -1.0
-        return cast_on_mask(geometry.rasters, geometry.words, mask, x - left, y - top, dx, dy)
+        return 0.0 if is_in_mask(geometry, s, b, x, y) else MISS, 0.0, -1.0
     if s.kind == CHAIN:
         return cast_on_chain(
             geometry.chains,

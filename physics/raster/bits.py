@@ -45,6 +45,20 @@ def count_bits(value):
 
 
 @subkernel
+def sum_of_places(value):
+    """The sum of the places of all set bits: each binary digit of a place counts the bits that have it (Knuth 4A,
+    7.1.3)."""
+    return (
+        popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
+        + 2 * popcount(word(value & word(0xCCCCCCCCCCCCCCCC)))
+        + 4 * popcount(word(value & word(0xF0F0F0F0F0F0F0F0)))
+        + 8 * popcount(word(value & word(0xFF00FF00FF00FF00)))
+        + 16 * popcount(word(value & word(0xFFFF0000FFFF0000)))
+        + 32 * popcount(word(value & word(0xFFFFFFFF00000000)))
+    )
+
+
+@subkernel
 def without_lowest(value):
     """The word with its lowest set bit cleared."""
     return word(value & word(value - word(1)))
@@ -54,6 +68,44 @@ def without_lowest(value):
 def both(a, b):
     """Pixels set in both words."""
     return word(a & b)
+
+
+@subkernel
+def either(a, b):
+    """Pixels set in one of the words."""
+    return word(a | b)
+
+
+@subkernel
+def first_run(value):
+    """(start, end) of the lowest row of set bits of a word that is not zero; end is exclusive."""
+    start = lowest_bit(value)
+    clear = word((value >> word(start)) ^ word(0xFFFFFFFFFFFFFFFF))
+    return start, 64 if clear == word(0) else start + lowest_bit(clear)
+
+
+@subkernel
+def run_bits(start, end):
+    """A word whose bits from start on are set, up to end, which may be 64."""
+    return word(columns_up_to(end) ^ columns_up_to(start))
+
+
+@subkernel
+def minus(a, b):
+    """Pixels set in a word and not in the other."""
+    return word(a & word(b ^ word(0xFFFFFFFFFFFFFFFF)))
+
+
+@subkernel
+def touch(a, b):
+    """Whether a pixel of one word is the neighbour, side or corner, of one in the word of the line beside."""
+    return word(word(a | word(a << word(1)) | word(a >> word(1))) & b) != word(0)
+
+
+@subkernel
+def has_bit(value, place):
+    """Whether a bit of a word is set."""
+    return word(word(value >> word(place)) & word(1)) != word(0)
 
 
 @subkernel
@@ -90,9 +142,32 @@ def first_shared_row(words, word_a, shift_a, word_b, shift_b, rows, keep):
     return int(first), word(words[from_a + first] >> down_a) & word(words[from_b + first] >> down_b) & keep
 
 
+@subkernel
+def rows_meet(words, word_a, shift_a, word_b, shift_b, rows, keep):
+    """Whether any of `rows` rows of one word each share a kept pixel. Vectorised as first_shared_row. O(rows)."""
+    from_a = word(word_a)
+    from_b = word(word_b)
+    down_a = word(shift_a)
+    down_b = word(shift_b)
+    found = word(0)
+    for y in range(word(rows)):
+        found |= word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b)
+    return word(found & keep) != word(0)
+
+
 def packed(solid: np.ndarray) -> np.ndarray:
     """solid[row, col] as (rows, ceil(columns/64)) uint64, lowest bit first."""
     height, width = solid.shape
     padded = np.zeros((height, -(-width // 64) * 64), bool)
     padded[:, :width] = solid
     return np.packbits(padded, axis=1, bitorder="little").view("<u8").astype(np.uint64)
+
+
+def halo(solid: np.ndarray) -> np.ndarray:
+    """The packed pixels that are solid or next to a solid one, side or corner, in a raster larger by one all round."""
+    rows, columns = solid.shape
+    grown = np.zeros((rows + 2, columns + 2), bool)
+    for y in range(3):
+        for x in range(3):
+            grown[y : y + rows, x : x + columns] |= solid
+    return packed(grown)

@@ -11,8 +11,9 @@ from physics.raster.bits import (
     count_bits,
     first_shared_row,
     lowest_bit,
+    rows_meet,
     shared_word,
-    without_lowest,
+    sum_of_places,
 )
 
 
@@ -56,6 +57,19 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 
 @subkernel
+def lines_meet(words, row_a, box_a, row_b, box_b, dx, dy):
+    """Whether a pixel is shared by rasters of one word per row: their first words, and their solid bounds (left, top,
+    right, bottom). O(rows)."""
+    left = max(box_a[0], box_b[0] + dx)
+    top = max(box_a[1], box_b[1] + dy)
+    right = min(box_a[2], box_b[2] + dx)
+    bottom = min(box_a[3], box_b[3] + dy)
+    if left >= right or top >= bottom:
+        return False
+    return rows_meet(words, row_a + top, left, row_b + top - dy, left - dx, bottom - top, columns_up_to(right - left))
+
+
+@subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
     """The number of shared pixels. O(words)."""
     a = rasters[mask_a]
@@ -86,7 +100,7 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """(area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words + shared pixels)."""
+    """(area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words)."""
     a = rasters[mask_a]
     b = rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -106,9 +120,7 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
             )
             bits = count_bits(shared)
             area += bits
+            sum_x += bits * x + sum_of_places(shared)
             sum_y += bits * y
-            while shared != word(0):
-                sum_x += x + lowest_bit(shared)
-                shared = without_lowest(shared)
             x += 64
     return area, sum_x, sum_y

@@ -12,6 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 SAMPLES = 5  # per side of a pixel, so that one is its centre: coverage in steps of 1/25
+OFFSETS = sorted(
+    (((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)),
+    key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at),
+)
+BAND = 1 << 14  # [px] turned at once: what that takes for a while stays in the cache and leaves no gaps in the heap
 
 
 @dataclass(frozen=True)
@@ -20,7 +25,7 @@ class Turned:
 
     solid: np.ndarray
     origin: tuple[float, float]
-    source_x: np.ndarray  # (rows, columns) int, -1 where clear
+    source_x: np.ndarray  # (rows, columns) int16, -1 where clear
     source_y: np.ndarray
 
 
@@ -31,8 +36,8 @@ def bucket_of(angle: float, buckets: int) -> int:
 
 def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: int) -> Turned:
     """The mask turned by bucket/buckets of a full turn, clockwise on the screen, about its origin."""
-    rows, columns = np.indices(solid.shape) if solid.size else (np.zeros(solid.shape, int),) * 2
-    source_x, source_y = np.where(solid, columns, -1), np.where(solid, rows, -1)
+    rows, columns = np.ogrid[: solid.shape[0], : solid.shape[1]]
+    source_x, source_y = (np.where(solid, each, -1).astype(np.int16) for each in (columns, rows))
     if solid.size == 0 or not solid.any():
         return Turned(solid, origin, source_x, source_y)
     if 4 * bucket % buckets == 0:
@@ -50,38 +55,69 @@ def _quarter_turns(solid, origin, source_x, source_y, turns: int):
 
 def _any_turn(solid, origin, angle):
     cosine, sine = math.cos(angle), math.sin(angle)
-    ys, xs = np.nonzero(solid)
-    left, top, right, bottom = xs.min(), ys.min(), xs.max() + 1, ys.max() + 1
+    columns, rows = (np.flatnonzero(solid.any(axis=axis)) for axis in (0, 1))
+    left, top, right, bottom = columns[0], rows[0], columns[-1] + 1, rows[-1] + 1
     corner_x = np.array([left, right, right, left]) - origin[0]
     corner_y = np.array([top, top, bottom, bottom]) - origin[1]
     out_x, out_y = cosine * corner_x - sine * corner_y, sine * corner_x + cosine * corner_y
     origin_x, origin_y = -math.floor(out_x.min()), -math.floor(out_y.min())
     width, height = math.ceil(out_x.max()) + origin_x, math.ceil(out_y.max()) + origin_y
 
-    rows, columns = solid.shape
-    padded = np.zeros((rows + 2, columns + 2), bool)  # a clear border catches what falls beside the source
-    padded[1:-1, 1:-1] = solid
-    coverage = np.zeros(height * width, np.int64)
-    centered = np.zeros(height * width, bool)
-    source = np.full(height * width, -1)
-    pixel_y, pixel_x = np.mgrid[0.0:height, 0.0:width]
-    base_x = (cosine * (pixel_x - origin_x) + sine * (pixel_y - origin_y) + (origin[0] + 1.0)).ravel()
-    base_y = (cosine * (pixel_y - origin_y) - sine * (pixel_x - origin_x) + (origin[1] + 1.0)).ravel()
-    offsets = [((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)]
-    offsets.sort(key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at))  # the centre decides the colour
-    for number, (x, y) in enumerate(offsets):
-        at_x = np.clip(base_x + (cosine * x + sine * y), 0.0, columns + 1.0).astype(np.intp)
-        at_y = np.clip(base_y + (cosine * y - sine * x), 0.0, rows + 1.0).astype(np.intp)
-        at = at_y * (columns + 2) + at_x
-        covered = padded.ravel()[at]
-        source = np.where(covered & (source < 0), at, source)
-        coverage += covered
-        if number == 0:
-            centered = covered
-    coverage, centered = coverage.reshape(height, width), centered.reshape(height, width)
-    source_y, source_x = (each.reshape(height, width) - 1 for each in np.divmod(source, columns + 2))
+    padded = np.pad(solid, 1)  # a clear border catches what falls beside the source
+    mixed = _mixed(padded)
+    centered, coverage = np.empty((height, width), bool), np.empty((height, width), np.uint8)
+    sources = np.empty((2, height, width), np.int16)
+    along = np.arange(float(width)) - origin_x
+    deep = max(1, BAND // width)
+    for top in range(0, height, deep):
+        band = slice(top, top + deep)
+        down = np.arange(float(height))[band, None] - origin_y
+        base_x = (cosine * along + sine * down + (origin[0] + 1.0)).ravel()
+        base_y = (cosine * down - sine * along + (origin[1] + 1.0)).ravel()
+        middle, covered, source = _sampled(padded, mixed, base_x, base_y, cosine, sine)
+        centered[band], coverage[band] = middle.reshape(-1, width), covered.reshape(-1, width)
+        sources[:, band] = np.stack(np.divmod(source, padded.shape[1])).reshape(2, -1, width) - 1
     kept = _as_many(centered, coverage, int(solid.sum()))
-    return Turned(kept, (float(origin_x), float(origin_y)), np.where(kept, source_x, -1), np.where(kept, source_y, -1))
+    source_y, source_x = np.where(kept, sources, np.int16(-1))
+    return Turned(kept, (float(origin_x), float(origin_y)), source_x, source_y)
+
+
+def _sampled(padded, mixed, base_x, base_y, cosine, sine):
+    """(whether the centre is solid, how many samples are, the first solid one's pixel of the padded source or -1).
+
+    base_x, base_y: the first corner of each pixel in the padded source [px]; mixed: as _mixed tells.
+    """
+    rows, columns = padded.shape
+
+    def at(base_x, base_y, offset):
+        x, y = offset
+        at_x = np.clip(base_x + (cosine * x + sine * y), 0.0, columns - 1.0).astype(np.intp)
+        at_y = np.clip(base_y + (cosine * y - sine * x), 0.0, rows - 1.0).astype(np.intp)
+        return at_y * columns + at_x
+
+    middle, *others = OFFSETS
+    source = at(base_x, base_y, middle)
+    centered = padded.ravel()[source]
+    # Samples lie less than a pixel from the centre: where all pixels around its source are alike, it tells for them.
+    some = np.flatnonzero(mixed.ravel()[source])
+    coverage = centered * np.uint8(len(OFFSETS))
+    source = np.where(centered, source, -1)  # the centre decides the colour
+    covered, found, base_x, base_y = centered[some].astype(np.uint8), source[some], base_x[some], base_y[some]
+    for offset in others:
+        sample = at(base_x, base_y, offset)
+        hit = padded.ravel()[sample]
+        found = np.where(hit & (found < 0), sample, found)
+        covered += hit
+    coverage[some], source[some] = covered, found
+    return centered, coverage, source
+
+
+def _mixed(padded):
+    """Where the 3 x 3 pixels around one are not all solid and not all clear; beyond the edge all is clear."""
+    wide = np.pad(padded, 1).view(np.uint8)
+    row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
+    count = row[:-2] + row[1:-1] + row[2:]
+    return (count > 0) & (count < 9)
 
 
 def _as_many(centered, coverage, wanted):
@@ -89,18 +125,25 @@ def _as_many(centered, coverage, wanted):
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:
-        order = np.argsort(-np.where(kept, 0, coverage).ravel(), kind="stable")[:missing]
-        kept.ravel()[order[coverage.ravel()[order] > 0]] = True
+        kept.ravel()[_in_order(~kept & (coverage > 0), -coverage.astype(np.int8))[:missing]] = True
         return kept
     padded = np.pad(kept, 1)
-    for at in np.argsort(np.where(kept, coverage, SAMPLES * SAMPLES + 1).ravel(), kind="stable").tolist():
-        if missing == 0 or not kept.ravel()[at]:
-            break
-        row, column = divmod(at, kept.shape[1])
-        if _is_simple(padded[row : row + 3, column : column + 3]):
-            padded[row + 1, column + 1] = False
-            missing += 1
+    whole = coverage == len(OFFSETS)
+    for some in (kept & ~whole, kept & whole):
+        for at in _in_order(some, coverage).tolist():
+            if missing == 0:
+                return padded[1:-1, 1:-1]
+            row, column = divmod(at, kept.shape[1])
+            if _is_simple(padded[row : row + 3, column : column + 3]):
+                padded[row + 1, column + 1] = False
+                missing += 1
     return padded[1:-1, 1:-1]
+
+
+def _in_order(some, key):
+    """Where something is true, by a key for each pixel; alike ones by row and column."""
+    at = np.flatnonzero(some)
+    return at[np.argsort(key.ravel()[at], kind="stable")]
 
 
 def _is_simple(around):

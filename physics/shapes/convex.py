@@ -4,17 +4,19 @@ Circle has one corner, Capsule two, Polygon three to sixteen."""
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from physics import checks
 from physics.checks import Pair, Points
+from physics.settings import MAX_CORNERS
 from physics.shapes.mass import Mass, polygon_mass, rounded_mass
 from physics.shapes.own_values import EqualByValue
 from physics.vec2 import Vec2
 
-MAX_CORNERS = 16
+STRAIGHT = 1e-12  # [rad] a smaller turn is none
+CORNER_OF = partial(tuple.__new__, Vec2)  # of two numbers; Vec2._make counts them first
 SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
 
 
@@ -112,17 +114,26 @@ class Polygon(EqualByValue):
         turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
         scale = np.hypot(*edges.T) * np.hypot(*following.T)
         shortest = np.hypot(*edges.T).min() <= SHORTEST * np.ptp(points, axis=0).max()
-        if shortest or np.any(np.abs(turns) <= 1e-12 * scale):
+        if shortest or np.any(np.abs(turns) <= STRAIGHT * scale):
             raise ValueError(f"points must have no equal corners and no three in line (got {points.tolist()})")
         # All turns to one side, and once around: a star also turns to one side only.
         around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
         if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
             raise ValueError(
-                f"points must be convex (got {points.tolist()}); split a concave outline into convex parts"
+                f"points must be convex (got {checks.shown(points.tolist())}); physics.decompose splits a concave "
+                "outline into convex parts"
             )
         if turns[0] < 0:
             points = points[::-1]
         object.__setattr__(self, "points", tuple(Vec2(x, y) for x, y in points.tolist()))
+
+    @classmethod
+    def known(cls, points: list[list[float]]) -> "Polygon":
+        """Of corners [px] that are known to be as they are kept, convex and clockwise on the screen: nothing is
+        checked. For outlines of masks, which have thousands."""
+        found = object.__new__(cls)
+        vars(found).update(points=tuple(map(CORNER_OF, points)), radius=0.0)
+        return found
 
     @classmethod
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":

@@ -4,12 +4,16 @@ A shape that is used by a thousand bodies stands here once. Masks are added per 
 uses any longer stays until it may be half of all; then what is used is put into a library of its own.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import chain
+from typing import NamedTuple
 
 import numpy as np
 
-from physics.raster.bits import packed
+from physics.fitting.hull import mask_hull
+from physics.raster.bits import halo, packed
+from physics.raster.pieces import TILE
 from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
@@ -17,6 +21,7 @@ from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.kinds import Shape
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
+from physics.shapes.outline_tiles import is_tiled
 from physics.shapes.tiles import TileGrid
 from physics.tables.geometry import (
     BLOCK_LINKS,
@@ -39,7 +44,24 @@ from physics.tables.table import Table
 
 SLACK = 1 << 16  # [bytes] of geometry, and …
 FEW = 64  # … shapes, that are not worth tidying up for
-KIND_OF = {Polygon: POLYGON, Capsule: CAPSULE, Segment: SEGMENT, Chain: CHAIN, TileGrid: TILES, PixelMask: MASK}
+KIND_OF = {
+    Circle: CIRCLE,
+    Polygon: POLYGON,
+    Capsule: CAPSULE,
+    Segment: SEGMENT,
+    Chain: CHAIN,
+    TileGrid: TILES,
+    PixelMask: MASK,
+}
+
+
+class Geometries(NamedTuple):
+    """The shapes of a library by kind and row. Lists; shapes never change."""
+
+    outlines: list  # polygons, capsules, segments
+    chains: list
+    grids: list
+    masks: list
 
 
 class Library:
@@ -95,7 +117,10 @@ class Library:
         ):
             mine = np.flatnonzero(np.isin(kinds, of))
             used, which = np.unique(shapes["geometry"][mine], return_inverse=True)
-            rows = np.array([fresh.add(known[row])[1] for row in used.tolist()], np.int64)
+            if known is self.outlines:
+                rows = fresh._add_known_hulls(self, used)
+            else:
+                rows = np.array([fresh.add(known[row])[1] for row in used.tolist()], np.int64)
             shapes["geometry"][mine] = rows[which]
             if known is self.masks:
                 for old, new in zip(used.tolist(), rows.tolist(), strict=True):
@@ -103,7 +128,8 @@ class Library:
                         if fresh.raster_of[new, bucket] < 0:
                             fresh.add_raster(new, bucket)
                         rasters[self.raster_of[old, bucket]] = fresh.raster_of[new, bucket]
-        shapes["raster"] = rasters[shapes["raster"]]
+        # What was drawn for a question is gone with it (visited): who asks next has it drawn anew.
+        shapes["raster"] = rasters[np.minimum(shapes["raster"], self.rasters.count)]
         fresh.least = fresh.size
         return fresh
 
@@ -139,11 +165,27 @@ class Library:
         return KIND_OF[type(shape)], self.shapes[key][0], -1
 
     def _add_hull(self, shape):
-        row = self.polygons.count
-        self.polygons.append()[:] = (self.corners.count, len(shape.points))
-        self.corners.append(len(shape.points))[:] = list(shape.points)
-        self.outlines.append(shape)
-        return row
+        return self._add_hulls([shape])[0]
+
+    def _add_hulls(self, shapes):
+        counts = np.array([len(each.points) for each in shapes], np.int64)
+        rows = np.arange(self.polygons.count, self.polygons.count + len(shapes))
+        spans = self.polygons.append(len(shapes))
+        spans["offset"], spans["count"] = self.corners.count + np.cumsum(counts) - counts, counts
+        points = chain.from_iterable(chain.from_iterable(each.points for each in shapes))
+        self.corners.append(int(counts.sum()))[:] = np.fromiter(points, np.float64).view(CORNER)
+        self.outlines += shapes
+        return rows
+
+    def _add_known_hulls(self, library, rows):
+        """Those in some rows of another library: all at once, and looked for later on if they were there."""
+        new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
+        place = dict(zip(rows.tolist(), new.tolist(), strict=True))
+        for key, (row, shape) in library.shapes.items():
+            if isinstance(shape, (Polygon, Capsule, Segment)) and row in place:
+                self.shapes[key] = (place[row], shape)
+        self.tables = self._tables()
+        return new
 
     def _add_chain(self, shape):
         row, count = self.chains.count, shape.links
@@ -206,18 +248,92 @@ class Library:
         self.add_raster(row, 0)
         return row
 
+    def add_parts(self, shapes: Sequence[Circle | Capsule | Polygon | Chain]) -> np.ndarray:
+        """(n, 3): what `add` tells. Convex shapes are new: they are not looked for among those there."""
+        kinds = [KIND_OF[type(shape)] for shape in shapes]
+        if CHAIN in kinds:
+            return np.array([self.add(shape) for shape in shapes], np.int64)
+        found = np.full((len(shapes), 3), -1)
+        found[:, 0] = kinds
+        hulls = [k for k, kind in enumerate(kinds) if kind != CIRCLE]
+        if hulls:
+            found[hulls, 1] = self._add_hulls([shapes[k] for k in hulls])
+            self.tables = self._tables()
+        return found
+
+    @classmethod
+    def of(cls, shapes: Geometries) -> "Library":
+        """With these shapes in these rows."""
+        library = cls()
+        library.add_parts(shapes.outlines)
+        for row, shape in reversed([*enumerate(shapes.outlines)]):
+            library.shapes[shape] = (row, shape)
+        for shape in (*shapes.chains, *shapes.grids, *shapes.masks):
+            library.add(shape)
+        return library
+
+    def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
+        """The row of a mask that takes the place of another in one of the SHAPE rows.
+
+        changed: the tiles in which they differ, None: any. Of a large mask that no other row has only these are
+        written, and its hull stays: turned, its box may be larger than what is left. O(words that change), or as add.
+        """
+        row = self.shapes[id(old)][0]
+        users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
+        if changed is None or not is_tiled(new) or id(new) in self.shapes or users.sum() > 1 or not new.snap:
+            return self.add(new)[1]
+        del self.shapes[id(old)]
+        self.shapes[id(new)] = (row, new)
+        self.masks[row] = new
+        self.raster_of[row, 1:] = -1
+        raster = self.rasters.data[self.raster_of[row, 0]]
+        stride, rows, left = int(raster["stride"]), new.size[1], int(raster["offset"])
+        words = self.words.data[left : left + rows * stride].reshape(rows, stride)
+        for tile in changed:
+            line, column = divmod(tile, new.tiles.columns)
+            part = words[line * TILE : (line + 1) * TILE, column]
+            part[:] = new.tiles.words[tile][: len(part)]
+        bounds = new.solid_box or (1, 1, 0, 0)
+        for name, value in zip(("set_left", "set_top", "set_right", "set_bottom"), bounds, strict=True):
+            raster[name] = value
+        raster["area"] = new.area
+        return row
+
+    def _add_exact(self, shape):
+        """What the exact test of a mask that is not snapped, and its tight box, read at the angle 0:
+        (halo, its stride, hull, corners)."""
+        hull = _hull_of(shape)
+        around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
+        first = -1 if shape.snap else self.words.count, around.shape[1], self.corners.count, len(hull)
+        self.words.append(around.size)[:] = around.ravel()
+        corners = self.corners.append(len(hull))
+        corners["x"], corners["y"] = hull.T
+        return first
+
     def add_raster(self, mask: int, bucket: int) -> None:
         """Add a mask at an angle bucket: turned from its source, once."""
         shape = self.masks[mask]
-        turned = shape.turned_to(bucket)
-        words = shape.words if bucket == 0 else packed(turned.solid)
-        rows, columns = np.nonzero(turned.solid)
-        bounds = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1) if len(rows) else (1, 1, 0, 0)
-        height, width = turned.solid.shape
+        words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
-        self.rasters.append()[:] = (self.words.count, width, height, words.shape[1], *turned.origin, *bounds, len(rows))
+        exact = self._add_exact(shape) if bucket == 0 else (-1, 0, 0, 0)
+        self.rasters.append()[:] = (
+            *(
+                self.words.count,
+                width,
+                height,
+                words.shape[1],
+                *origin,
+                *(box or (1, 1, 0, 0)),
+                int(np.bitwise_count(words).sum()),
+            ),
+            *exact,
+        )
         self.words.append(words.size)[:] = words.ravel()
         self.tables = self._tables()
+
+    def shapes_by_row(self) -> Geometries:
+        """Its shapes. Added in this order to another library they get the same rows there."""
+        return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
         """The shape that a SHAPE row stands for."""
@@ -255,3 +371,21 @@ class Library:
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
         return self.rasters.data[int(self.raster_of[mask, bucket])]
+
+
+def _drawn(shape, bucket):
+    """(words, size, origin, box of the solid pixels or None) of a mask at an angle bucket; at 0 as it is."""
+    if bucket == 0:
+        return shape.words, shape.size, shape.origin, shape.solid_box
+    turned = shape.turned_to(bucket)
+    rows, columns = np.nonzero(turned.solid)
+    box = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1) if len(rows) else None
+    return packed(turned.solid), turned.solid.shape[::-1], turned.origin, box
+
+
+def _hull_of(shape):
+    """Corners of a mask's hull; of a large one's box: that is known without a look at its pixels."""
+    if shape.area and is_tiled(shape) and shape.snap:
+        left, top, right, bottom = shape.bounds
+        return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
+    return mask_hull(shape) if shape.area else np.zeros((0, 2))

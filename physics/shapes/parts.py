@@ -1,7 +1,8 @@
 """Any shape as a union of rounded convex hulls: what distance and time of impact are measured between.
 
-A hull is one part; a chain has one per link; tiles and masks have a rectangle per block of solid cells or pixels, and a
-polygon per slope.
+A hull is one part; a chain has one per link; tiles have a rectangle per block of solid cells, and a polygon per slope.
+A mask has two answers: a rectangle per block of solid pixels, for who measures by pixels, and the parts of its outline,
+for all that is swept or cast.
 """
 
 from collections.abc import Sequence
@@ -13,34 +14,67 @@ import numpy as np
 from physics.raster.rotate import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.bounds import Bounds
+from physics.shapes.convex import Circle
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
+from physics.shapes.mask_pose import turn_of_mask
+from physics.shapes.outline import outline_of
 from physics.shapes.placement import write_hull
 from physics.shapes.tiles import TileGrid
 
+NEAR = 1e-9  # of its coordinates a box is asked for around itself: casts round as well
+
 
 class Parts(NamedTuple):
-    """Convex parts of one shape, all with the same rounding."""
+    """Convex parts of one shape."""
 
     corners: np.ndarray  # (n, 16, 2) [px]
     counts: np.ndarray  # (n,) corners of each
     boxes: np.ndarray  # (n, 4) min_x min_y max_x max_y of each with its rounding
-    radius: float  # [px]
+    radii: np.ndarray  # (n,) rounding of each [px]
 
 
 def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
-    """From a list of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px]."""
+    """From a list of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px], all with the same rounding."""
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
-    boxes = np.zeros((len(outlines), 4))
     for k, outline in enumerate(outlines):
         counts[k] = len(outline)
         corners[k, : len(outline)] = outline
-        boxes[k] = (
-            *(corners[k, : len(outline)].min(axis=0) - radius),
-            *(corners[k, : len(outline)].max(axis=0) + radius),
-        )
-    return Parts(corners, counts, boxes, float(radius))
+    return with_boxes(corners, counts, np.full(len(outlines), float(radius)))
+
+
+def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
+    """Parts of these corners (n, 16, 2), counts and roundings, with the boxes around them."""
+    used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
+    low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
+    return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
+
+
+def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
+    """Parts in body space, placed where the body is at (x, y) [px] and turned."""
+    corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
+    return with_boxes(corners, parts.counts, parts.radii)
+
+
+def outline_parts(mask: PixelMask) -> Parts:
+    """The parts of a mask's outline in body space, kept with the mask."""
+    mask = mask.bare
+    if "outline parts" not in mask.fitted:
+        shapes = [part.shape for part in outline_of(mask)]
+        points = [(shape.center,) if isinstance(shape, Circle) else shape.points for shape in shapes]
+        radii = np.array([shape.radius for shape in shapes], np.float64)
+        bare = parts_of(points)
+        mask.fitted["outline parts"] = with_boxes(bare.corners, bare.counts, radii)
+    return mask.fitted["outline parts"]
+
+
+def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
+    """Those of the parts whose boxes meet a closed box [px], by a rounding more."""
+    reach = NEAR * max(map(abs, (left, top, right, bottom)))
+    low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
+    keep = (low <= (right + reach, bottom + reach)).all(axis=1) & (high >= (left - reach, top - reach)).all(axis=1)
+    return Parts(*(column[keep] for column in parts))
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
@@ -79,6 +113,14 @@ def mask_outlines(mask: PixelMask, bucket: int, x: float, y: float) -> list:
     return [rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask.blocks(bucket)]
 
 
+def exact_outlines(mask: PixelMask, x: float, y: float, angle: float) -> list:
+    """Outlines of the pixels of a mask that is not snapped, whose body is at a pose."""
+    cosine, sine = turn_of_mask(angle)
+    turn = np.array([[cosine, sine], [-sine, cosine]])
+    blocks = mask_outlines(mask, 0, -mask.origin[0], -mask.origin[1])
+    return [np.array(block) @ turn + (x, y) for block in blocks]
+
+
 def chain_outlines(chain: Chain) -> list:
     """Both ends of each link in body space [px]."""
     points = list(chain.points) + ([chain.points[0]] if chain.loop else [])
@@ -88,7 +130,7 @@ def chain_outlines(chain: Chain) -> list:
 def placed_parts(
     library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
 ) -> Parts:
-    """Parts of a SHAPE row as it stands, seen from (x, y) [px].
+    """Parts of a SHAPE row as it stands, seen from (x, y) [px]; of a mask its pixels, as drawn where it is snapped.
     feet [px]: the lowest point of who asks, see tile_outlines."""
     shape, placed = library.shape_of(shapes[row]), shapes[row]
     body = bodies[placed["body_row"]]
@@ -97,6 +139,8 @@ def placed_parts(
         return parts_of([rectangle(placed["min_x"] - x, placed["min_y"] - y, placed["max_x"] - x, placed["max_y"] - y)])
     if isinstance(shape, TileGrid):
         return parts_of(tile_outlines(shape, at_x, at_y, feet - float(body["y"])))
+    if isinstance(shape, PixelMask) and not shape.snap:
+        return parts_of(exact_outlines(shape, at_x, at_y, float(body["angle"])))
     if isinstance(shape, PixelMask):
         bucket = bucket_of(float(body["angle"]), MASK_ANGLE_BUCKETS)
         return parts_of(mask_outlines(shape, bucket, float(placed["left"]) - x, float(placed["top"]) - y))
@@ -107,3 +151,15 @@ def placed_parts(
     corners = np.zeros((16, 2))
     count, radius = write_hull(library.tables, shapes, row, at_x, at_y, float(body["angle"]), corners)
     return parts_of([corners[:count]], radius)
+
+
+def swept_parts(
+    library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
+) -> Parts:
+    """As placed_parts, for who sweeps or casts: of a mask its outline at the exact pose."""
+    shape = library.shape_of(shapes[row])
+    if not isinstance(shape, PixelMask):
+        return placed_parts(library, bodies, shapes, row, x, y, feet)
+    body = bodies[shapes[row]["body_row"]]
+    cosine, sine = turn_of_mask(float(body["angle"]))
+    return turned_parts(outline_parts(shape), float(body["x"]) - x, float(body["y"]) - y, cosine, sine)

@@ -4,7 +4,8 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
-from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT, TILES
+from physics.shapes.mask_pose import exact_aabb
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 TAU = math.tau
 
@@ -37,6 +38,16 @@ def raster_aabb(geometry, raster, x, y):
     left = float(snapped(x, r.origin_x))
     top = float(snapped(y, r.origin_y))
     return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+
+
+@subkernel
+def upright_aabb(raster, x, y):
+    """AABB [px] of the solid pixels of a mask that is not turned, at its exact pose: as raster_aabb, unrounded."""
+    if raster.area == 0:
+        return x, y, x, y
+    left = x - raster.origin_x
+    top = y - raster.origin_y
+    return left + raster.set_left, top + raster.set_top, left + raster.set_right, top + raster.set_bottom
 
 
 @subkernel
@@ -118,7 +129,7 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Tight AABB (min_x, min_y, max_x, max_y) [px] of a shape when its body is at a pose. O(corners).
 
-    A mask's is that of its solid pixels as drawn; an empty mask's is the point of its origin.
+    A mask's is that of its solid pixels, as drawn if it is snapped; an empty mask's is the point of its origin.
     """
     s = shapes[row]
     kind = s.kind
@@ -137,6 +148,11 @@ def aabb_at(geometry, shapes, row, x, y, angle):
     if kind == TILES:
         g = geometry.grids[s.geometry]
         return x, y, x + g.columns * g.tile_size, y + g.rows * g.tile_size
+    exact = geometry.raster_of[s.geometry, 0]
+    if s.role == PIXELS and angle == 0.0:
+        return upright_aabb(geometry.rasters[exact], x, y)
+    if s.role == PIXELS or geometry.rasters[exact].halo >= 0:
+        return exact_aabb(geometry.rasters, geometry.corners, exact, x, y, angle)
     return raster_aabb(geometry, raster_at(geometry, s.geometry, angle), x, y)
 
 
@@ -197,6 +213,7 @@ def missing_rasters(
     rows,
     bodies,
     shapes,
+    rasters,
     raster_of,
     dt,
     # write
@@ -211,8 +228,10 @@ def missing_rasters(
     buckets = raster_of.shape[1]
     for k in range(len(rows)):
         s = shapes[rows[k]]
-        if s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK):
-            continue
+        if s.role == PIXELS or (s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK)):
+            continue  # PIXELS are drawn when they are asked: see rasters.draw_masks
+        if rasters[raster_of[s.geometry, 0]].halo >= 0:
+            continue  # tested at its exact pose, by how it was added
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
             continue  # as it was added
@@ -228,7 +247,7 @@ def missing_rasters(
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Write the raster of a MASK at its body's pose, where it is drawn, and the AABB of its solid pixels.
+    """Write the raster of a snapped MASK at its body's pose, where it is drawn, and the AABB of its solid pixels.
 
     rasters, raster_of: those of the geometry, by themselves: see polygon_at.
     """
@@ -247,6 +266,25 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 
 @kernel
+def place_masks(
+    # read
+    rows,
+    geometry,
+    bodies,
+    # write
+    shapes_inout,
+):
+    """Write where the masks in these rows are drawn, and by which raster, at their bodies' poses. O(rows)."""
+    for k in range(len(rows)):
+        s = shapes_inout[rows[k]]
+        b = bodies[s.body_row]
+        s.raster = raster_at(geometry, s.geometry, b.angle)
+        r = geometry.rasters[s.raster]
+        s.left = snapped(b.x, r.origin_x)
+        s.top = snapped(b.y, r.origin_y)
+
+
+@kernel
 def refresh_aabbs(
     # read
     rows,
@@ -255,7 +293,8 @@ def refresh_aabbs(
     # write
     shapes_inout,
 ):
-    """Write the tight AABB of the shapes in these rows at their bodies' poses, and where a mask is drawn. O(rows)."""
+    """Write the tight AABB of the shapes in these rows at their bodies' poses, and where a snapped mask is drawn.
+    O(rows)."""
     polygons = geometry.polygons
     table = geometry.corners
     rasters = geometry.rasters
@@ -265,7 +304,15 @@ def refresh_aabbs(
         s = shapes_inout[row]
         b = bodies[s.body_row]
         if s.kind == MASK:
-            place_mask(rasters, raster_of, b, s)
+            if s.role != PIXELS and s.snap:
+                place_mask(rasters, raster_of, b, s)
+            if s.role == PIXELS and b.angle == 0.0:
+                upright = rasters[raster_of[s.geometry, 0]]
+                s.min_x, s.min_y, s.max_x, s.max_y = upright_aabb(upright, b.x, b.y)
+            elif s.role == PIXELS or not s.snap:
+                s.min_x, s.min_y, s.max_x, s.max_y = exact_aabb(
+                    rasters, table, raster_of[s.geometry, 0], b.x, b.y, b.angle
+                )
         elif s.kind == CIRCLE:
             x, y = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
             s.min_x = b.x + x - s.radius

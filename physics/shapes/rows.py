@@ -6,17 +6,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.kinds import SHAPES, Shape, mass_of
 from physics.shapes.library import Library
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass
+from physics.shapes.outline import outline_of
 from physics.shapes.tiles import TileGrid
-from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, RAY, SWEPT
+from physics.tables.body import DYNAMIC, KINDS, STATIC
 
 
-def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> None:
-    """Refuse no shapes, dynamic chains, turned or dynamic tiles, swept masks. Raises TypeError, ValueError."""
+def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
+    """Refuse no shapes, dynamic chains, turned or dynamic tiles. Raises TypeError, ValueError."""
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
         raise ValueError(
             f"shapes of a dynamic body must hold one with mass, a Segment has none (got {checks.shown(shapes)})"
@@ -24,11 +25,6 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> 
     for shape in shapes:
         if not isinstance(shape, SHAPES):
             raise TypeError(f"shapes must be shapes such as Circle(8) (got {checks.shown(shape)})")
-        if isinstance(shape, PixelMask) and swept in (RAY, SWEPT):
-            raise ValueError(
-                f"continuous must be off or auto for a PixelMask (got {CONTINUOUS[swept]!r}): "
-                "masks are not swept, nor is anything against them"
-            )
         if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
             raise ValueError(
                 f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
@@ -36,6 +32,8 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike, swept: int) -> 
             )
         if isinstance(shape, Chain) and kind == DYNAMIC:
             raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
+        if isinstance(shape, PixelMask) and shape.one_way and kind == DYNAMIC:
+            raise ValueError(f"a mask with one_way=True needs kind static or kinematic (got dynamic, {shape})")
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
@@ -45,8 +43,33 @@ def rounding_of(shape: Shape) -> tuple[float, float, float]:
     return getattr(inner, "radius", 0.0), x, y
 
 
-def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape]) -> None:
-    """Write mass, inertia and size of BODY rows of one kind of body."""
+def is_snapped(shape: Shape) -> bool:
+    """Whether a shape is a mask that is tested as drawn, for its SHAPE row."""
+    return isinstance(shape, PixelMask) and shape.snap
+
+
+def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
+    """The mass of a body's shapes, sensors among them; mass: in place of what the densities make of it, 0: none."""
+    found = mass_of(tuple(shapes), density)
+    if mass == 0.0:
+        return found
+    return Mass(mass, found.center, found.inertia * (mass / found.mass) if found.mass > 0.0 else 0.0)
+
+
+def thin_half(shape: Shape, in_parts: bool) -> float:
+    """Half of how thin [px] a shape is where it is thinnest; in_parts: of a mask the parts that stand for it.
+
+    Thin arms would be over a wall before the middle is: measured, sprites of 3 px blocks passed 1 px walls at half
+    their size a step. A part thinner than a pixel lies beside one that makes it up.
+    """
+    if not (in_parts and isinstance(shape, PixelMask)):
+        return shape.smallest_half
+    return min((max(0.5, part.shape.smallest_half) for part in outline_of(shape)), default=shape.smallest_half)
+
+
+def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
+    """Write mass, inertia and size of BODY rows of one kind of body. in_parts: whether masks are pushed by parts."""
+    in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # how thin it is counts for what moves
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
     rows["local_center_x"], rows["local_center_y"] = mass.center
     moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
@@ -54,6 +77,7 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape]) -> None:
     rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
     rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
     rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
+    rows["thin_half"] = min((thin_half(shape, in_parts) for shape in shapes), default=0.0)
     rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
 
 
@@ -66,7 +90,8 @@ def place(
     s, b = shapes[row : row + 1], bodies[row : row + 1]
     s["id"], s["body"], s["body_row"], s["kind"], s["geometry"], s["wrapped"] = row, row, row, kind, geometry, wrapped
     s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
+    s["snap"] = is_snapped(shape)
     b["id"], b["x"], b["y"], b["angle"] = row, *pose
     b["previous_x"], b["previous_y"], b["previous_angle"] = pose
-    if geometry >= 0 and hasattr(inner, "turned"):
+    if is_snapped(inner):
         library.raster(geometry, pose[2])

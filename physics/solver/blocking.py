@@ -16,7 +16,6 @@ from physics.ccd.sweep import push_stopped
 from physics.collision.anchors import anchors_of
 from physics.collision.approach import closing_speed
 from physics.collision.detect import detect
-from physics.collision.final_poses import recount
 from physics.collision.persist import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
@@ -138,7 +137,6 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
         follow_bodies(bodies, np.concatenate(anchors), met)
         others = state.manifolds[~np.isin(state.manifolds["candidate"], met["candidate"])]
         state.manifolds = in_order(np.concatenate([others, met]))
-        recount(state)
     return state.dt
 
 

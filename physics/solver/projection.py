@@ -11,7 +11,6 @@ import numpy as np
 from physics.ccd.rotational import CORE
 from physics.ccd.sweep import shift_freely
 from physics.collision.approach import closing_speed
-from physics.collision.final_poses import recount
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
 from physics.settings import PROJECTION_PASSES
@@ -196,4 +195,3 @@ def projection(state: StepState) -> None:
     if state.dt > 0.0:
         solve(state, state.workspace.sets)
         place_shapes(state)
-        recount(state)

@@ -41,7 +41,8 @@ BODY = np.dtype(
         ("settled_x", np.float64),  # [px] last pose that was seen to be finite
         ("settled_y", np.float64),
         ("settled_angle", np.float64),
-        ("smallest_half", np.float64),  # [px] from the middle of a shape to its surface: what "fast" is measured by
+        ("smallest_half", np.float64),  # [px] from the middle of a shape to its surface
+        ("thin_half", np.float64),  # [px] the same of its thinnest part: what "fast" is measured by
         ("extent", np.float64),  # [px] of the furthest point of its shapes from the centre of mass
         ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
         ("bullet", np.bool_),  # swept against moving bodies too

@@ -71,6 +71,10 @@ RASTER = np.dtype(
         ("set_right", np.int64),  # exclusive
         ("set_bottom", np.int64),
         ("area", np.int64),  # [px2]
+        ("halo", np.int64),  # first word of its halo, see raster/exact.py; -1: none, as it is only drawn
+        ("halo_stride", np.int64),  # words per row
+        ("hull", np.int64),  # first of the corners of its convex hull, in body space
+        ("hull_count", np.int64),  # 0: none
     ],
     align=True,
 )

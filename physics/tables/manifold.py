@@ -12,6 +12,8 @@ MANIFOLD = np.dtype(
         ("body_b", np.int64),
         ("shape_a", np.int64),
         ("shape_b", np.int64),
+        ("owner_a", np.int64),  # ids of the shapes that these are parts of
+        ("owner_b", np.int64),
         ("body_row_a", np.int32),  # rows of BODY and SHAPE, this step
         ("body_row_b", np.int32),
         ("row_a", np.int32),

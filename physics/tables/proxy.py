@@ -12,6 +12,8 @@ PROXY = np.dtype(
         ("body", np.int64),  # id: two shapes of one body never pair
         ("membership", np.int64),
         ("mask", np.int64),
+        ("plane", np.int64),  # one bit: what it is there for, and …
+        ("avoids", np.int64),  # … what it never pairs with, whatever the filters say
         ("awake", np.bool_),  # in the rows that a step goes over: two that are not never pair
         ("still", np.bool_),  # static: two still proxies never pair
         ("changed", np.bool_),  # box, filter or existence changed since the last update

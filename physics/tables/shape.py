@@ -1,11 +1,25 @@
 """SHAPE: one row per shape of a body, in the order of ids; and the kinds of shapes."""
 
+import math
+
 import numpy as np
 
 CIRCLE, POLYGON, BOUNDS, TILES, MASK, CAPSULE, SEGMENT, CHAIN = 0, 1, 2, 3, 4, 5, 6, 7
+# What a row is there for. Where bodies are pushed a mask has two kinds of rows: itself for who asks for its pixels, and
+# the convex parts of its outline for all that is pushed, swept, cast and walked on.
+WHOLE, PIXELS, PART = 0, 1, 2
+SHARPEST = 0.5 * math.pi  # [rad] by how much an outline may turn at a blunt corner of one of its parts
+TURNS = 32766.0 / SHARPEST  # [1/rad] that is told in 15 bits
+WHOLE_MASK = -1  # the tile of what is not part of a tile
 SHAPE = np.dtype(
     [
         ("id", np.int64),
+        ("owner", np.int64),  # id of the shape that it is a part of; else its own
+        ("role", np.int64),  # WHOLE PIXELS PART
+        ("inner", np.int64),  # 16 bits each: the edges that lie inside its owner, as nothing may be pushed out through
+        # them; the corners that other parts cover; the corners that seem sharper than the outline is there; by how much
+        # it turns at them at most, see fitting.tile_seams
+        ("tile", np.int64),  # number of the tile of a large mask that a PART lies in, else WHOLE_MASK
         ("body", np.int64),  # id
         ("body_row", np.int64),
         ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
@@ -29,6 +43,7 @@ SHAPE = np.dtype(
         ("raster", np.int64),  # of a mask at its body's angle, and the pixel column and row it is drawn at
         ("left", np.int64),
         ("top", np.int64),
+        ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; else at its exact pose
         ("min_x", np.float64),  # [px] tight AABB at the final pose of the step
         ("min_y", np.float64),
         ("max_x", np.float64),

@@ -36,7 +36,7 @@ STAGE_FIELDS = (
     "queries",  # the look-up of shapes by boxes
     "pairs",  # the pair list: proxies and candidates
     "changed_count",  # slots whose rectangle changed
-    "impacts",  # (n, 6) candidate, fraction, normal, stops, feature: found before the bodies move
+    "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan: found before the bodies move
     "manifolds",  # MANIFOLD rows in the order of shape ids: of the step before, until the narrow phase
     "anchors",  # ANCHOR rows beside them, in worlds that stack
     "sensed",  # MANIFOLD rows with sensors; None where they stand among the others

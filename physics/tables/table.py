@@ -26,7 +26,7 @@ class Table:
         """Room for `count` new zeroed rows at the end; returns them."""
         self.reserve(self.count + count)
         added = self.data[self.count : self.count + count]
-        added[:] = np.zeros((), self.data.dtype)
+        added.view(np.uint8).fill(0)
         self.count += count
         return added
 

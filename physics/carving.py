@@ -1,0 +1,199 @@
+"""Carving: pixels of a body's masks go, and what comes loose by it becomes bodies."""
+
+import math
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from physics import checks, editing, reshaping
+from physics.body_settings import BodySettings
+from physics.mask_exchange import exchange_mask
+from physics.math2d import turned
+from physics.raster.cut import Cut, Loose, Tool, cut
+from physics.raster.erase import find_in_hull, find_in_pixels
+from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.shapes.kinds import mass_of
+from physics.shapes.mask import PixelMask
+from physics.shapes.rows import weigh
+from physics.tables.body import CONTINUOUS, DYNAMIC
+from physics.world_state import WorldState
+
+TOOLS = (Circle, Capsule, Polygon, PixelMask)
+
+
+class Carved(NamedTuple):
+    """What a carve did."""
+
+    removed: int  # pixels that the shape took
+    fragments: tuple  # the Bodies that pieces which came loose have become, in the order of their first pixels
+    crumbs: int  # pixels of smaller pieces: they are gone too
+
+
+def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
+    """Take the pixels of a body's masks whose centres are inside a shape, closed, at a pose in the world.
+
+    As Body.carve, with ids in place of Bodies. Raises TypeError, ValueError.
+    """
+    world._unlocked()
+    world._needs("carving", "carve", True)
+    if not isinstance(shape, TOOLS):
+        names = ", ".join(each.__name__ for each in TOOLS)
+        raise TypeError(f"shape must be one of {names} to carve with (got {checks.shown(shape)})")
+    pose, crumb = checks.pose("pose", pose), checks.whole("crumb", crumb, 0, 2**31)
+    shapes = world._shapes_of[identity]
+    if not any(isinstance(each, PixelMask) for each in shapes):
+        raise ValueError(f"body {identity} must have a PixelMask to be carved (got {checks.shown(shapes)})")
+    row = world._body_row(identity)
+    stays_in_pieces = row["kind"] != DYNAMIC
+    frame = tuple(row[name].item() for name in ("x", "y", "angle"))
+    cuts = {}
+    for at, mask in enumerate(shapes):
+        if isinstance(mask, PixelMask) and mask.area:
+            tool, box = _tool_in(mask, frame, shape, pose)
+            found = cut(mask.tiles, tool, box, not stays_in_pieces, crumb)
+            if found.removed:
+                cuts[at] = found
+    if not cuts:
+        return Carved(0, (), 0)
+    pieces = [(shapes[at], loose) for at, each in cuts.items() for loose in each.loose]
+    given, wanted = _motion_and_weight(world, identity), _values_of(world, identity) if pieces else None
+    _shrink(world, identity, cuts, given)
+    fragments = tuple(_add_fragment(world, *each, frame, given, wanted) for each in pieces) if wanted else ()
+    removed, crumbs = sum(each.removed for each in cuts.values()), sum(each.crumbs for each in cuts.values())
+    world._carved_pixels += removed + crumbs
+    return Carved(removed, fragments, crumbs)
+
+
+# --- the tool, as the mask sees it -----------------------------------------------------------------------------------
+
+
+def _tool_in(mask, frame, shape, pose):
+    """(what finds the pixels of a tile, the box [px] that it reaches in the mask's raster)."""
+    corners, radius = _outline_of(shape)
+    x, y, angle = pose
+    cosine, sine = math.cos(angle), math.sin(angle)
+    seen = [_in_raster(mask, frame, x + u, y + v) for u, v in (turned(*corner, cosine, sine) for corner in corners)]
+    across, down = zip(*seen, strict=True)
+    box = min(across) - radius, min(down) - radius, max(across) + radius, max(down) + radius
+    if isinstance(shape, PixelMask):
+        return _mask_tool(mask, frame, shape, pose), box
+    return partial(_find_in_hull, np.array(seen, np.float64), radius), box
+
+
+def _outline_of(shape):
+    """(corners in its own space, rounding) of a tool; of a mask those of its box."""
+    if isinstance(shape, PixelMask):
+        left, top, right, bottom = shape.bounds or (0.0, 0.0, 0.0, 0.0)
+        return [(left, top), (right, top), (right, bottom), (left, bottom)], 0.0
+    if isinstance(shape, Circle):
+        return [shape.center], shape.radius
+    return list(shape.points), shape.radius
+
+
+def _in_raster(mask, frame, x, y):
+    """A point of the world in the raster of a body's mask [px]."""
+    u, v = turned(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
+    return u + mask.origin[0], v + mask.origin[1]
+
+
+def _find_in_hull(points, radius, words, left, top, found):
+    return find_in_hull(words, left, top, points, radius, found)
+
+
+def _mask_tool(mask, frame, shape, pose) -> Tool:
+    """Finds the pixels in the squares of another mask at a pose."""
+    turn = frame[2] - pose[2]
+    cosine, sine = math.cos(turn), math.sin(turn)
+    # The mask's raster corner in the world, and from there in the tool's raster.
+    u, v = turned(-mask.origin[0], -mask.origin[1], math.cos(frame[2]), math.sin(frame[2]))
+    x, y = _in_raster(shape, pose, frame[0] + u, frame[1] + v)
+
+    def find(words, left, top, found):
+        along, down = turned(float(left), float(top), cosine, sine)
+        return find_in_pixels(words, shape.solid, x + along, y + down, cosine, sine, found)
+
+    return find
+
+
+# --- what is left ------------------------------------------------------------------------------------------------
+
+
+def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
+    """Give a body what is left of its masks; those without a pixel go, and a body without a mass left, too."""
+    shapes, ids = world._shapes_of[identity], reshaping.shape_ids(world, identity)
+    empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
+    rest = [shape for at, shape in enumerate(shapes) if at not in empty]
+    if not rest or (world._body_row(identity)["kind"] == DYNAMIC and mass_of(tuple(rest), 1.0).mass == 0.0):
+        world._remove([identity])
+        return
+    for at, each in cuts.items():
+        mask = shapes[at]
+        if at not in empty and isinstance(mask, PixelMask):
+            exchange_mask(world, identity, at, ids[at], mask.with_tiles(each.tiles), each.changed)
+    for at in empty:
+        reshaping.remove_shape(world, identity, ids[at])
+    if given.share:
+        left = weigh(world._shapes_of[identity], given.density, 0.0).mass
+        reshaping.set_mass_of(world, identity, given.share * left)
+    # What is left goes on as it moved, about its own centre.
+    row = world._body_row(identity)
+    row["vx"] -= given.spin * (row["center_y"].item() - given.center[1])
+    row["vy"] += given.spin * (row["center_x"].item() - given.center[0])
+
+
+class _Given(NamedTuple):
+    """What a body hands on to what comes loose of it."""
+
+    center: tuple[float, float]
+    velocity: tuple[float, float]
+    spin: float
+    share: float  # of what its shapes would weigh, when it was given a mass of its own; else 0
+    density: float
+
+
+def _motion_and_weight(world, identity) -> _Given:
+    row, given = world._body_row(identity), world._given.rows[world._row_number(identity)]
+    share, density = 0.0, given["density"].item()
+    if given["mass"] > 0.0:
+        share = given["mass"].item() / weigh(world._shapes_of[identity], density, 0.0).mass
+    center = (row["center_x"].item(), row["center_y"].item())
+    return _Given(center, (row["vx"].item(), row["vy"].item()), row["angular_velocity"].item(), share, density)
+
+
+def _values_of(world, identity) -> editing.Wanted:
+    """What is wanted for a body of a piece, but for its mass."""
+    body, row = BodySettings(world, identity), world._body_row(identity)
+    return editing.Wanted(
+        kind="dynamic",
+        angular_velocity=row["angular_velocity"].item(),
+        mass=None,
+        material=body.material,
+        filter=body.filter,
+        sensor=body.sensor,
+        bullet=bool(row["bullet"]),
+        continuous=CONTINUOUS[int(row["continuous"])],
+        fixed_rotation=bool(row["fixed_rotation"]),
+        gravity_scale=row["gravity_scale"].item(),
+        tier=None,
+        user=None,
+    )
+
+
+def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: editing.Wanted) -> int:
+    """A body of the pixels of a piece, where they are and as fast as they were. Returns its id."""
+    # Its origin lies on the mask's own grid, near its middle: what was drawn on whole pixels goes on so.
+    height, width = loose.solid.shape
+    shift_x = loose.left + width // 2 - math.floor(mask.origin[0])
+    shift_y = loose.top + height // 2 - math.floor(mask.origin[1])
+    origin = (mask.origin[0] - loose.left + shift_x, mask.origin[1] - loose.top + shift_y)
+    # What breaks off a mask that is open from below falls, and lies as any other.
+    piece = mask.like(loose.solid, origin).with_(mask.material, mask.filter, mask.sensor, one_way=False)
+    u, v = turned(float(shift_x), float(shift_y), math.cos(frame[2]), math.sin(frame[2]))
+    x, y = frame[0] + u, frame[1] + v
+    weight = piece.mass_of(given.density if mask.material is None else mask.material.density)
+    cx, cy = turned(*weight.center, math.cos(frame[2]), math.sin(frame[2]))
+    dx, dy = x + cx - given.center[0], y + cy - given.center[1]
+    velocity = (given.velocity[0] - given.spin * dy, given.velocity[1] + given.spin * dx)
+    heavy = wanted._replace(mass=weight.mass * given.share or None)
+    return int(editing.add_rows(world, (piece,), [(x, y)], [velocity], [frame[2]], heavy)[0])

@@ -1,0 +1,97 @@
+"""The forces of contacts whose shapes are replaced: where the new surface is the old one, they go on.
+
+Features name edges and corners of one shape, so nothing that is remembered fits another. What touches is found anew on
+the spot, and each new point takes over from the old one that stood where it stands, pushed the same way.
+"""
+
+import numpy as np
+
+from physics.collision.detect import BIAS
+from physics.collision.dispatch import SOLIDS, no_work
+from physics.collision.persist import carry_over
+from physics.dynamics.sleepers import order_of
+from physics.shapes.placement import refresh_aabbs
+from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.rows import joined, rows_of
+from physics.tables.shape import CHAIN, PIXELS
+from physics.tables.world_tables import WorldTables
+
+ALIKE = 0.9  # cosine between normals that push the same way: what an outline turns by where it is smoothed anew
+
+
+class KeptForces:
+    """The contacts of SHAPE rows that are about to go. In worlds that do not stack there are none to keep."""
+
+    def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
+        found = tables.manifolds
+        self.manifolds, self.anchors = found[:0], tables.anchors[:0]
+        if len(rows) and len(tables.anchors) == len(found) > 0:
+            going = np.zeros(len(tables.shapes), bool)
+            going[rows] = True
+            # Rows are those of the step before: what was added since stands behind them, what went took its contacts.
+            at_a = going[found["row_a"]]
+            kept = np.flatnonzero(at_a | going[found["row_b"]])
+            if len(kept):
+                self.manifolds, self.anchors = found[kept], tables.anchors[kept]
+                self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
+
+    def hand_on(self, tables: WorldTables, new: np.ndarray) -> None:
+        """Give the contacts of new SHAPE rows what is kept; the old ones are gone by now. O(pairs)."""
+        if not len(self.manifolds):
+            return
+        shapes = tables.shapes
+        rows, others = new[shapes["role"][new] != PIXELS], rows_of(shapes, self.others)
+        others = others[others >= 0]
+        refresh_aabbs(rows, tables.library.tables, tables.bodies, shapes)
+        pairs = np.array([sorted((row, other)) for row in rows.tolist() for other in others.tolist()], np.int64)
+        if not len(pairs):
+            return
+        pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+        slop, speculative = tables.tolerances.slop, tables.tolerances.speculative
+        found = tables.workspace.narrow.collide(
+            tables.library.tables,
+            tables.bodies,
+            shapes,
+            pairs,
+            speculative,
+            no_work(),
+            which=SOLIDS,
+            bias=BIAS * slop,
+            previous=self._stood_on(shapes, pairs),
+        ).copy()
+        anchors = np.zeros(len(found), ANCHOR)
+        none = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+        carry_over(tables.library.tables, tables.bodies, shapes, *none, found, anchors)
+        for manifold, anchor in zip(found, anchors, strict=True):
+            for k in range(1, int(manifold["count"]) + 1):
+                self._take(manifold, anchor, k, speculative)
+        known = joined([tables.manifolds, found])
+        order = order_of(known)
+        tables.manifolds, tables.anchors = known[order], joined([tables.anchors, anchors])[order]
+
+    def _stood_on(self, shapes, pairs):
+        """A manifold of each new surface and what touched the old one: who stood on it stands on, however deep."""
+        some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
+        found = np.zeros(len(some), MANIFOLD)
+        found["shape_a"], found["shape_b"] = some["id"].T
+        return found
+
+    def _take(self, manifold, anchor, k, reach):
+        """Give point k of a new manifold the forces of the old point nearest to it, within reach [px]."""
+        old = self.manifolds
+        same = (old["body_a"] == manifold["body_a"]) & (old["body_b"] == manifold["body_b"])
+        swapped = (old["body_a"] == manifold["body_b"]) & (old["body_b"] == manifold["body_a"])
+        along = old["normal_x"] * manifold["normal_x"] + old["normal_y"] * manifold["normal_y"]
+        fits = np.where(swapped & ~same, -along, along) > ALIKE
+        best = (np.inf, -1, 0)
+        for point in (1, 2):
+            there = fits & (same | swapped) & (old["count"] >= point)
+            gap = np.hypot(old[f"x_{point}"] - manifold[f"x_{k}"], old[f"y_{point}"] - manifold[f"y_{k}"])
+            for at in np.flatnonzero(there & (gap <= reach)).tolist():
+                best = min(best, (float(gap[at]), at, point))
+        _, at, point = best
+        if at >= 0:
+            for name in ("normal_force", "tangent_force"):
+                anchor[f"{name}_{k}"] = self.anchors[f"{name}_{point}"][at]
+            if k == point == 1:
+                anchor["rolling_force"] = self.anchors["rolling_force"][at]
