@@ -7,6 +7,7 @@ folder, so a forgotten line fails.
 SCENES = {
     "shooter": "scenes.shooter.scene:Shooter",
     "platformer": "scenes.platformer.scene:Platformer",
+    "lander": "scenes.lander.scene:Lander",
     # finding what touches
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",
@@ -19,10 +20,13 @@ SCENES = {
     "lab/card_house": "scenes.lab.card_house:CardHouse",
     "lab/dominoes": "scenes.lab.dominoes:Dominoes",
     "lab/tumbler": "scenes.lab.tumbler:Tumbler",
+    "lab/mask_stack": "scenes.lab.mask_stack:MaskStack",
+    "lab/carving": "scenes.lab.carving:Carving",
     # what collides and bounces
     "lab/cradle": "scenes.lab.cradle:Cradle",
     "lab/billiards": "scenes.lab.billiards:Billiards",
     "lab/tunnelling": "scenes.lab.tunnelling:Tunnelling",
+    "lab/mask_sweep": "scenes.lab.mask_sweep:MaskSweep",
     # what things stand on
     "lab/conveyor": "scenes.lab.conveyor:Conveyor",
     "lab/one_way": "scenes.lab.one_way:OneWay",

@@ -25,7 +25,7 @@ from game.run.picture import Picture
 from game.run.session import Session
 from game.run.sources import BotSource
 from scenes import SCENES
-from scenes.moments import MOMENTS, SEED, Moment, done, leader
+from scenes.moments import MOMENTS, SEED, Moment, done, landing, leader
 
 FRAME = (480, 270)  # [px] of the canvas
 SIZE = (160, 90)  # [px] of a menu picture
@@ -52,6 +52,7 @@ class Shot:
 SHOTS = {
     "shooter": Shot(Moment("the boss", leader("boss_a_0", 85)), 130, 20),
     "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
+    "lander": Shot(Moment("the canyon", landing("canyon", 60.0)), 90, 40),
     "lab/broadphases": Shot(60, 3, 158, 1, layers=("structure",)),
     "lab/masks": Shot(480, 0, 72),
     "lab/shapes": Shot(120, 24, 50, 1),
@@ -62,6 +63,9 @@ SHOTS = {
     "lab/card_house": Shot(240, 60, 32, 1),
     "lab/dominoes": Shot(120, 130, 51, 1),
     "lab/tumbler": Shot(240, 142, 70),
+    "lab/mask_stack": Shot(400, 0, 100, 1),
+    "lab/carving": Shot(250, 160, 76),
+    "lab/mask_sweep": Shot(150, 260, 106, 1),
     "lab/cradle": Shot(80, 227, 14, 1),
     "lab/billiards": Shot(150, 62, 20),
     "lab/tunnelling": Shot(240, 196, 142, 1),

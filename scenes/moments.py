@@ -60,6 +60,25 @@ def done(feat, times=1):
     return lambda scene: scene.feats.done[feat] >= times
 
 
+def flown(act, number):
+    """The lander's bot is on its way to a waypoint of an act."""
+    return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
+
+
+def landing(name, high):
+    """The lander comes down to a site, so many px above it."""
+    return lambda scene: (
+        scene.course.site.name == name
+        and abs(scene.ship.x - scene.course.site.x) < 30.0
+        and 16.0 < scene.course.site.y - scene.ship.y < 16.0 + high
+    )
+
+
+def landed(count, mode):
+    """So many sites are reached, and the course is in that mode."""
+    return lambda scene: scene.score.landings == count and scene.course.mode == mode
+
+
 MOMENTS = {
     "shooter": (
         Moment("weavers, and the first gun", flying("saucer", 6)),
@@ -92,5 +111,21 @@ MOMENTS = {
         Moment("jump from wall to wall", done("wall jumps", 2), 6),
         Moment("the keep: a lift takes all that stands on it", done("lift with an enemy", 40)),
         Moment("the flag", lambda scene: scene.phase == "won", 30),
+    ),
+    "lander": (
+        Moment("up from the base", lambda scene: scene.frame >= 40),
+        Moment("cargo on the line", lambda scene: scene.line.load is not None, 70),
+        Moment("down into Frost Canyon", flown(0, 8), 30),
+        Moment("soft and upright", landing("canyon", 34.0)),
+        Moment("the first site, and a full tank", landed(1, "landed"), 60),
+        Moment("ice has closed the cave", lambda scene: scene.pilot.aiming and scene.score.fired >= 1, 12),
+        Moment("shells carve their way", lambda scene: scene.pilot.aiming and scene.score.fired >= 4, 16),
+        Moment("into Crystal Cave", flown(1, 9), 50),
+        Moment("between teeth of stone", landing("cave", 70.0)),
+        Moment(
+            "out through the roof", lambda scene: scene.pilot.act == 2 and scene.pilot.aiming and scene.gun.shells, 26
+        ),
+        Moment("Storm Mesa in the gusts", landing("mesa", 70.0)),
+        Moment("a medal", lambda scene: scene.course.mode == "won", 30),
     ),
 }

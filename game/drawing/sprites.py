@@ -122,11 +122,11 @@ class RotatedSprites:
 
     def at(self, angle: float) -> tuple[pygame.Surface, tuple[float, float]]:
         """(image, origin in it) at the angle bucket nearest to `angle` [rad]."""
-        turned = self.mask.turned(angle)
-        if id(turned) not in self.cache:
-            # The mask keeps its Turned objects for good, so their ids stay theirs.
-            self.cache[id(turned)] = (pick_pixels(self.image, turned), turned.origin)
-        return self.cache[id(turned)]
+        bucket = self.mask.bucket_at(angle)
+        if bucket not in self.cache:
+            turned = self.mask.turned_to(bucket)
+            self.cache[bucket] = (pick_pixels(self.image, turned), turned.origin)
+        return self.cache[bucket]
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:

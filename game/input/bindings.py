@@ -39,7 +39,10 @@ SHELL_KEYS = ("tab", "f11", "f12")  # panel, full screen, screenshot
 FIXED_BUTTONS = {"confirm": ("a", "start"), "cancel": ("b", "back")}
 SHELL_BUTTONS = ("start", "back", "y", "guide")  # pause menu, freeze, panel
 # No game uses actions of two of these sets together.
-USED_TOGETHER = ({"left", "right", "up", "down", "fire", "focus", "bomb"}, {"left", "right", "up", "down", "jump"})
+USED_TOGETHER = (
+    {"left", "right", "up", "down", "fire", "focus", "bomb"},
+    {"left", "right", "up", "down", "jump", "focus"},
+)
 
 # Buttons by their place on an Xbox pad, as SDL names them on every pad it knows.
 CONTROLLER_NAMES = {
@@ -101,6 +104,8 @@ PICTURED = {
     "left stick": "L stick",
     "right stick": "R stick",
 }
+# What a game calls an action in its line of keys, where that is not its name.
+CALLED = {"line": "bomb", "throw": "focus"}
 _NAMES = {}  # key code -> name, made when first asked for
 
 
@@ -165,8 +170,9 @@ def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[s
     pairs = []
     steering = [table[action][0] for action in ("left", "right", "up", "down")]
     for key, what in actions:
-        if what in table:
-            key = shown(table[what][0])
+        action = CALLED.get(what, what)
+        if action in table:
+            key = shown(table[action][0])
         elif key.lower() == "arrows" and steering != ["left", "right", "up", "down"]:
             key = " ".join(shown(each) for each in steering)
         pairs.append((key, what))

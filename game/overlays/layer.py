@@ -36,13 +36,14 @@ class Layer:
     key: str
     color: Color
     on_canvas: bool = False  # exact to the canvas pixel: drawn before the canvas is scaled
+    on_frame: bool = True  # drawn at the window's resolution
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
         """Start a picture of so many views, which share the layer's budget evenly."""
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens, where `on_canvas` is False."""
+        """Draw one world through one lens, where `on_frame` is True."""
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
         """Draw one world on the canvas, where `on_canvas` is True."""

@@ -86,8 +86,8 @@ def _states(world, shapes):
     ids = np.ascontiguousarray(shapes["shape"])
     state = np.where(shapes["kind"] == 0, STILL, ALONE)
     state[shapes["sensor"].astype(bool)] = SENSOR
-    contacts = world.contacts
-    touching = np.concatenate((contacts["shape_a"], contacts["shape_b"]))
+    told = world.told_manifolds()
+    touching = np.concatenate((told["owner_a"], told["owner_b"]))
     for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
         rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)
         state[rows[ids[rows] == among]] = value  # what is gone since the step has no row

@@ -1,4 +1,4 @@
-"""Contacts: where two shapes touch or are about to, which way they are pushed apart, and how deep they are."""
+"""Contacts: where two shapes touch or are about to, which way they are pushed apart, how deep they are or how far."""
 
 import numpy as np
 import pygame
@@ -28,7 +28,7 @@ class Contacts(Layer):
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
-        self.labels = []  # (text, x, y, align), drawn when all fixed text has its place
+        self.labels = []  # (text, x, y, align, colour), drawn when all fixed text has its place
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
@@ -60,18 +60,24 @@ class Contacts(Layer):
         )
         hollow = 1 if state in (SPECULATIVE, SENSOR) else 0
         pygame.draw.circle(frame.surface, tone, (x, y), frame.scale + 1 + hollow, hollow)
-        if depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:
-            self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right"))
+        if separation > LEAST_DEPTH:  # the gap between the two surfaces, the point in its middle
+            half = separation / 2.0 * lens.scale
+            ends = (x - nx * half, y - ny * half), (x + nx * half, y + ny * half)
+            pygame.draw.line(frame.surface, tone, *ends, max(1, frame.scale - 1))
+            if len(self.labels) < LABEL_BUDGET:
+                self.labels.append((f"+{separation:.1f}", end_x, end_y, "left" if nx >= 0 else "right", FOG))
+        elif depth > LEAST_DEPTH and len(self.labels) < LABEL_BUDGET:
+            self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right", GOLD))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the depths where there is room."""
-        for text, x, y, align in self.labels:
-            frame.text_if_free(text, x, y, GOLD, SMALL, frame.text_scale, align, True)
+        """Write the depths, and the distances of what has not met yet, where there is room."""
+        for text, x, y, align, color in self.labels:
+            frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, align, True)
 
     def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
         states = [(COLORS[i], f"{count} {STATES[i]}") for i, count in enumerate(self.states.tolist()) if count]
-        return [(self.color, f"contacts {self.drawn} of {self.total}, px deep where room"), *states]
+        return [(self.color, f"contacts {self.drawn} of {self.total}, px deep, + px apart"), *states]
 
 
 def seen_points(lens: Lens, x: np.ndarray, y: np.ndarray) -> np.ndarray:

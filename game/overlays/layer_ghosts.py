@@ -7,10 +7,13 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, SKY, WHITE, faded
 from game.drawing.presenter import Frame, Lens
 from game.overlays.layer import Layer, LegendLine
+from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_outline, moved
 from physics import World, debug
+from physics.tables.shape import PART
 
 GHOST_BUDGET = 200  # bodies per picture; the note says how many there are
+ARC_SCALE = 3.0  # [frame px per px] as fine as arcs are drawn
 KEPT = 45  # pictures a ghost stays, fading
 
 
@@ -74,7 +77,11 @@ class Ghosts(Layer):
                 continue
             now = (float(bodies["x"][row]), float(bodies["y"][row]), float(bodies["angle"][row]))
             then = (float(ghost["x"]), float(ghost["y"]), float(ghost["angle"]))
-            outlines = debug.outlines(world, np.flatnonzero(shapes["body"] == ghost["body"]).tolist())
+            mine = np.flatnonzero(shapes["body"] == ghost["body"])
+            parts = mine[shapes["role"][mine] == PART]
+            outlines = debug.outlines(world, mine[shapes["role"][mine] != PART].tolist())
+            if len(parts):
+                outlines.append(("lines", mask_edges(world, parts, ARC_SCALE).outer.reshape(-1, 2)))
             pairs = [(each, moved(each, now, then)) for each in outlines if each[0] not in ("mask", "tiles")]
             found.append([0, pairs, float(ghost["fraction"]), now[:2], then[:2]])
         return found

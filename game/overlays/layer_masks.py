@@ -1,7 +1,7 @@
-"""Pixel masks as they are tested, and the pixels that the AND of two masks leaves.
+"""Pixel masks as they are tested, the pixels that the AND of two masks leaves, and the outlines that masks push with.
 
-Drawn on the canvas, before it is scaled: a mask pixel is a canvas pixel, so the overlay lies exactly on
-the sprite.
+Pixels are drawn on the canvas, before it is scaled: a mask pixel is a canvas pixel, so the overlay lies exactly on the
+sprite. Outlines are drawn over it at the window's resolution, for they stand at the exact pose.
 """
 
 from collections import OrderedDict
@@ -12,29 +12,52 @@ import pygame
 from game.drawing.blit import blit_many
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
-from game.drawing.colors import BLUE, YELLOW, toned
+from game.drawing.colors import BLUE, ORANGE, WHITE, YELLOW, faded, toned
+from game.drawing.presenter import Frame, Lens
 from game.overlays.layer import Layer, LegendLine
+from game.overlays.mask_edges import mask_edges
+from game.overlays.outlines import draw_lines
 from physics import World, debug
+from physics.tables.shape import PART
 
 FILL = 96  # opacity of 255 of a mask's inside
 EDGE = (150, 210, 255, 255)
 HIT = (255, 250, 150, 255)
+SEAM = faded(ORANGE, 0.25)
+PART_BUDGET = 1200  # parts of outlines per picture; the note says how many there are
+BLOCK = 160  # [px] larger masks are drawn in blocks of that size
 CACHE_SIZE = 512  # tinted masks kept; a turning sprite has one per angle bucket
 
 
 class Masks(Layer):
-    """Every mask in blue with a light edge; pixels that two masks share in yellow."""
+    """Every mask in blue with a light edge; pixels that two masks share in yellow.
 
-    name, title, key, color = "masks", "Masks, shared pixels", "5", BLUE
-    on_canvas = True
+    Where bodies are pushed also what of a mask pushes: its outline in white, the seams between its parts in orange.
+    """
+
+    name, title, key, color = "masks", "Masks, outlines", "5", BLUE
+    on_canvas = on_frame = True
 
     def __init__(self) -> None:
         self.tinted = OrderedDict()
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views."""
-        self.drawn = self.total = self.lit = 0
+        """Start a picture of so many views, which share the budget of parts evenly."""
+        self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
+        self.room = PART_BUDGET // views
+
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
+        """Draw the outlines of one world's masks through one lens."""
+        rows = np.flatnonzero(world.shapes["role"] == PART)
+        self.parts_in_all += len(rows)
+        if not len(rows):
+            return
+        rows = rows[lens.seen(debug.bounds(world)[rows])][: self.room]
+        self.parts += len(rows)
+        edges = mask_edges(world, rows, lens.scale)
+        draw_lines(frame.surface, lens, edges.inner, frame.tone(SEAM))
+        draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
         """Draw one world on the canvas. A zoomed-out view is left out: its pixels are not the mask's."""
@@ -43,16 +66,15 @@ class Masks(Layer):
         left, top = camera.view()
         view = camera.viewport
         found = debug.drawn_masks(world)
-        images = [self._tinted(solid, canvas.palette) for solid in found.solids]
-        sizes = np.array([image.get_size() for image in images], int).reshape(-1, 2)[found.which]
+        sizes = np.array([solid.shape[::-1] for solid in found.solids], int).reshape(-1, 2)[found.which]
         x, y = found.left.astype(int) - left + view.x, found.top.astype(int) - top + view.y
         seen = np.flatnonzero(
             (x < view.right) & (y < view.bottom) & (x + sizes[:, 0] > view.left) & (y + sizes[:, 1] > view.top)
         )
         self.total += len(x)
         self.drawn += len(seen)
-        places = zip(x[seen].tolist(), y[seen].tolist(), strict=True)
-        pairs = [(images[i], place) for i, place in zip(found.which[seen].tolist(), places, strict=True)]
+        places = zip(found.which[seen].tolist(), x[seen].tolist(), y[seen].tolist(), strict=True)
+        pairs = [pair for i, *at in places for pair in self._images(found.solids[i], at, view, canvas.palette)]
         canvas.surface.set_clip(view)
         blit_many(canvas.surface, pairs)
         canvas.surface.set_clip(None)
@@ -71,21 +93,54 @@ class Masks(Layer):
         pixels[x[seen], y[seen]] = surface.map_rgb(HIT)
         del pixels  # unlocks the surface
 
+    def _images(self, solid, place, view, palette):
+        """(image, place) pairs of a mask at a place of the canvas: of a large one those of its blocks that are seen."""
+        (height, width), (x, y) = solid.shape, place
+        if height <= BLOCK and width <= BLOCK:
+            yield self._tinted(solid, palette), (x, y)
+            return
+        for top in range(max(view.top - y, 0) // BLOCK * BLOCK, min(view.bottom - y, height), BLOCK):
+            for left in range(max(view.left - x, 0) // BLOCK * BLOCK, min(view.right - x, width), BLOCK):
+                image = self._block(solid, left, top, palette)
+                if image is not None:
+                    yield image, (x + left, y + top)
+
+    def _block(self, solid, left, top, palette):
+        """A block of a large mask, kept by its place and its pixels: carving changes a few. None where it is empty."""
+        # With a pixel more on each side, so that no edge is drawn where only the block ends.
+        part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
+        pixels = part.tobytes()
+        if True not in part:
+            return None
+        kept, image = self.tinted.get((solid.shape, left, top, palette), (None, None))
+        if kept != pixels:
+            cut = (min(left, 1), min(top, 1), *(min(BLOCK, n) for n in (solid.shape[1] - left, solid.shape[0] - top)))
+            image = mask_image(part, palette).subsurface(cut)
+            self._keep((solid.shape, left, top, palette), pixels, image)
+        return image
+
     def _tinted(self, solid, palette):
         """Masks hand out the same array for the same angle; it is kept with its image, so its id stays its own."""
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
             image = mask_image(solid, palette)
-            self.tinted[id(solid), palette] = (solid, image)
-            if len(self.tinted) > CACHE_SIZE:
-                self.tinted.popitem(last=False)
+            self._keep((id(solid), palette), solid, image)
         else:
             self.tinted.move_to_end((id(solid), palette))
         return image
 
+    def _keep(self, key, of, image):
+        self.tinted[key] = (of, image)
+        if len(self.tinted) > CACHE_SIZE:
+            self.tinted.popitem(last=False)
+
     def notes(self) -> list[LegendLine]:
         """(color, text) lines for the legend."""
-        return [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
+        lines = [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
+        if self.parts_in_all:
+            lines.append((WHITE, f"outlines, {self.parts} of {self.parts_in_all} parts"))
+            lines.append((SEAM, "seams between parts, never felt"))
+        return lines
 
 
 def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:

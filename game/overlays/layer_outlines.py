@@ -1,4 +1,4 @@
-"""Outlines: the exact shapes that collide, whatever is drawn over them. Masks have a layer of their own."""
+"""Outlines: the exact shapes that collide, whatever is drawn over them. Pixels of masks have a layer of their own."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -9,9 +9,10 @@ import pygame
 from game.drawing.colors import FOG, GREEN, ORANGE, PINK, SKY, faded
 from game.drawing.presenter import Frame, Lens
 from game.overlays.layer import Layer, LegendLine
-from game.overlays.outlines import draw_outline
+from game.overlays.mask_edges import mask_edges
+from game.overlays.outlines import draw_lines, draw_outline
 from physics import TileGrid, World, debug
-from physics.tables.shape import MASK
+from physics.tables.shape import CHAIN, MASK, PART
 
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
@@ -20,7 +21,10 @@ Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, open
 
 
 class Outlines(Layer):
-    """Every shape's outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor."""
+    """Every shape's outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor.
+
+    Of a mask it is the outline that pushes, the seams between its parts dark.
+    """
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
@@ -40,6 +44,15 @@ class Outlines(Layer):
         rows = debug.shape_rows(world)[seen]
         width = max(1, frame.scale - 1)
         tones = [frame.tone(color) for color in (STATIC, KINEMATIC, DYNAMIC)]
+        parts = world.shapes["role"][seen] == PART
+        for kind, tone in enumerate(tones):
+            for sensor in (False, True):
+                mine = seen[parts & (rows["kind"] == kind) & (rows["sensor"] == sensor)]
+                open_ones = world.shapes["kind"][mine] == CHAIN
+                self._draw_parts(frame, lens, world, mine[~open_ones], frame.tone(PINK) if sensor else tone, width)
+                # As the tops of tiles that are open from below.
+                self._draw_parts(frame, lens, world, mine[open_ones], frame.tone(PINK if sensor else ORANGE), width)
+        rows, seen = rows[~parts], seen[~parts]
         for outline, kind, sensor in zip(
             debug.outlines(world, seen.tolist()), rows["kind"].tolist(), rows["sensor"].tolist(), strict=True
         ):
@@ -48,6 +61,13 @@ class Outlines(Layer):
                 self._draw_tiles(frame, lens, world, outline[1], color, width)
             else:
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
+
+    def _draw_parts(self, frame, lens, world, rows, color, width):
+        """Parts of masks' outlines, which share their colour."""
+        if len(rows):
+            edges = mask_edges(world, rows, lens.scale)
+            draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
+            draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
         """The edge of a grid's solid cells; in orange the tops of cells that are open from below."""

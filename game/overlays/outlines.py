@@ -77,7 +77,7 @@ def clockwise(points: ArrayLike) -> list[list[float]]:
 
 
 def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
-    """The outline as it is when its body goes from pose to pose (x, y, angle)."""
+    """The outline as it is when its body goes from pose to pose (x, y, angle); also ("lines", (2n, 2))."""
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
 
@@ -90,7 +90,7 @@ def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
         return ("circle", *place(*outline[1:3]), outline[3])
     if kind == "capsule":
         return ("capsule", *place(*outline[1:3]), *place(*outline[3:5]), outline[5])
-    if kind in ("polygon", "segment", "chain", "rounded"):
+    if kind in ("polygon", "segment", "chain", "rounded", "lines"):
         points = np.array([place(x, y) for x, y in np.asarray(outline[1]).tolist()])
         return (kind, points, *outline[2:])
     return outline
@@ -101,6 +101,9 @@ def draw_outline(
 ) -> None:
     """Draw one outline through a lens; a chain with ticks on its solid side. scale: frame px per canvas px."""
     kind = outline[0]
+    if kind == "lines":
+        draw_lines(surface, lens, np.asarray(outline[1]).reshape(-1, 4), color, width)
+        return
     if kind == "circle":
         center = lens.points(outline[1], outline[2])
         pygame.draw.circle(surface, color, center, max(outline[3] * lens.scale, 1.0), width)
@@ -114,6 +117,15 @@ def draw_outline(
         pygame.draw.lines(surface, color, closed, points, width)
     if kind == "chain":
         _draw_ticks(surface, lens.clip, points, color, scale)
+
+
+def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Color, width: int = 1) -> None:
+    """Draw single lines (n, 4) of the world: ax ay bx by."""
+    ax, ay = lens.points(lines[:, 0], lines[:, 1])
+    bx, by = lens.points(lines[:, 2], lines[:, 3])
+    draw = pygame.draw.line
+    for x0, y0, x1, y1 in np.column_stack((ax, ay, bx, by)).tolist():
+        draw(surface, color, (x0, y0), (x1, y1), width)
 
 
 def _draw_ticks(surface, clip, points, color, scale):

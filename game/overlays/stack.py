@@ -66,7 +66,7 @@ class Overlays:
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
         """Layers that are exact to the canvas pixel; before the canvas is scaled."""
-        for layer in self._active(on_canvas=True):
+        for layer in self._active("on_canvas"):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 layer.draw_on_canvas(canvas, camera, world)
@@ -75,8 +75,9 @@ class Overlays:
         """Layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
-        for layer in self._active(on_canvas=False):
-            layer.begin(len(scene.views()))
+        for layer in self._active("on_frame"):
+            if not layer.on_canvas:  # else its picture has begun there
+                layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 lens = frame.lens(camera)
                 surface.set_clip(lens.clip)
@@ -85,7 +86,7 @@ class Overlays:
 
     def draw_labels(self, frame: Frame) -> None:
         """Text that follows things, last: it takes only the places that are left."""
-        for layer in self._active(on_canvas=False):
+        for layer in self._active("on_frame"):
             layer.draw_labels(frame)
 
     def legend(self) -> list[LegendLine]:
@@ -126,9 +127,9 @@ class Overlays:
                 draw_legend(frame, shown, place[0], place[1], scale)
                 return
 
-    def _active(self, on_canvas):
-        """Layers to draw, those that fill areas first."""
-        active = [layer for layer in self.layers if layer.name in self.on and layer.on_canvas == on_canvas]
+    def _active(self, where):
+        """Layers to draw there, "on_canvas" or "on_frame", those that fill areas first."""
+        active = [layer for layer in self.layers if layer.name in self.on and getattr(layer, where)]
         return sorted(active, key=lambda layer: not layer.under)
 
 

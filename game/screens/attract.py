@@ -14,7 +14,7 @@ from game.screens.parts.demo import Demo
 from game.screens.parts.status_line import draw_line
 from game.screens.screen import SceneScreen
 
-SCENES = ("shooter", "platformer", "lab/pyramid", "lab/masks")
+SCENES = ("shooter", "platformer", "lander", "lab/pyramid", "lab/masks")
 SECONDS = 25  # of each
 STEPS = SECONDS * 60
 AFTER_END = 180  # steps that an ended game is still shown

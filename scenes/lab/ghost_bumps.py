@@ -1,8 +1,8 @@
 """A floor of boxes, a floor of tiles, a chain: all equally flat. On which of them are the seams felt?
 
 What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Separate boxes know
-nothing of each other, so a corner that is sunk in by a hair catches on the next box's side. Tiles are merged and the
-links of a chain know their neighbours: there the speed stays the same to the last bits.
+nothing of each other, so what is round and sunk in by a hair is turned aside by the next box's corner. Tiles are merged
+and the links of a chain know their neighbours: there the speed stays the same to the last bits.
 """
 
 from collections import deque

@@ -42,7 +42,7 @@ class Masks(Scene):
     title = "Masks"
     about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
     effects = Effects()  # who meets whom; nobody is pushed, and how deep they are is asked of collide()
-    pieces = ("masks", "boxes", "circles")
+    pieces = ("masks", "boxes", "circles", "contacts")
     features = (
         "pixel masks by bitwise AND, as drawn, at any angle",
         "bounds, circle and turned box beside them",

@@ -117,3 +117,15 @@ def confetti(particles, x, y):
     """The level is won."""
     for ramp in CONFETTI:
         particles.burst(x, y, 34, ramp, speed=(60, 240), life=(0.8, 2.0), angle=UP, spread=2.2, drag=1.6, gravity=150.0)
+
+
+def fuse(particles, x, y):
+    """A fuse burns."""
+    particles.burst(x, y, 2, EMBER, speed=(20, 80), life=(0.1, 0.3), angle=UP, spread=3.0, size=(1, 1), gravity=120.0)
+
+
+def blast(particles, x, y):
+    """A bomb bursts: fire that is quick, stones that fall, dust that stays."""
+    particles.burst(x, y, 50, EMBER, speed=(60, 280), life=(0.25, 0.7), drag=3.0)
+    particles.burst(x, y, 40, GRIT, speed=(50, 220), life=(0.4, 0.9), angle=UP, spread=5.0, gravity=420.0)
+    particles.burst(x, y, 40, DUST, speed=(10, 70), life=(0.7, 1.6), drag=2.2, gravity=-8.0)

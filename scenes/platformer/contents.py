@@ -1,5 +1,7 @@
 """All that a level holds, by kind and by body id, and the step in which it moves by itself."""
 
+from scenes.platformer.blasting import CARRIED, BlastWall, Bomb, Rubble, shove
+from scenes.platformer.bridge import Bridge
 from scenes.platformer.enemies import Bat, Walker
 from scenes.platformer.things import TRIGGERS, Belt, Crate, Crumble, Platform, Trigger
 
@@ -19,6 +21,10 @@ class Contents:
         self.belts = [Belt(world, thing) for thing in level.map.things_of("belt")]
         self.crumbles = [Crumble(world, thing) for thing in level.map.things_of("crumble")]
         self.crates = [Crate(world, thing) for thing in level.map.things_of("crate")]
+        self.walls = [BlastWall(world, thing) for thing in level.map.things_of("blast_wall")]
+        self.bridges = [Bridge(world, thing) for thing in level.map.things_of("bridge")]
+        self.bombs = [Bomb(world, thing) for thing in level.map.things_of("bomb")]
+        self.rubble: list[Rubble] = []
         # Which way each walker sets out is the one thing that the seed decides.
         enemies = [
             Bat(world, thing) if thing.kind == "bat" else Walker(world, thing, random.choice((-1, 1)))
@@ -48,7 +54,8 @@ class Contents:
     @property
     def solid_boxes(self):
         """Boxes of all that is solid for the hero and no tile."""
-        return tuple(one.box for group in (self.crates, self.platforms, self.belts, self.crumbles) for one in group)
+        groups = (self.crates, self.platforms, self.belts, self.crumbles, self.walls)
+        return tuple(one.box for group in groups for one in group)
 
     def step(self, tick, seen):
         """Platforms, stones, enemies make one step. seen: the hero is there. Returns what happened: [(word, thing)]."""
@@ -60,6 +67,10 @@ class Contents:
             if word:
                 news.append((word, crumble))
         places, lost = self.places(), self.level.size[1] + BELOW
+        for bomb in self.bombs:
+            word = bomb.step(lost)
+            if word:
+                news.append((word, bomb))
         for identity, enemy in list(self.enemies.items()):
             x, y = places[identity]
             if abs(x - seen[0]) > NEARBY[0] or abs(y - seen[1]) > NEARBY[1]:
@@ -73,12 +84,32 @@ class Contents:
         for crate in self.crates:
             if places[crate.body.id][1] > lost:
                 self._send_home(crate)
+        for piece in [piece for piece in self.rubble if places[piece.body.id][1] > lost]:
+            self.world.remove_body(piece.body)
+            self.rubble.remove(piece)
         return news
 
     def places(self):
         """Position [px] of every body by its id: read at once, it is asked for often."""
         rows = self.world.bodies
         return dict(zip(rows["id"].tolist(), zip(rows["x"].tolist(), rows["y"].tolist(), strict=True), strict=True))
+
+    @property
+    def carried(self):
+        """The bomb in the hero's hands, or None."""
+        return next((bomb for bomb in self.bombs if bomb.phase == CARRIED), None)
+
+    def blast(self, x, y):
+        """A bomb bursts at a place [px]. Returns (what came loose of walls, whether any was hit)."""
+        loose, hit = [], False
+        for wall in self.walls:
+            pieces, struck = wall.blast(x, y)
+            loose += pieces
+            hit = hit or struck
+        self.rubble += loose
+        for one in (*self.rubble, *self.crates):
+            shove(one.body, x, y)
+        return loose, hit
 
     def press_stones(self, riding, begun):
         """Stones under the hero (`riding`, a body or None), under enemies, and under crates of pairs that touch now."""
@@ -108,6 +139,8 @@ class Contents:
             self._send_home(one)
         for crumble in self.crumbles:
             crumble.stand()
+        for bomb in self.bombs:
+            bomb.go_home()
 
     def _send_home(self, one):
         deck = self.decks[one.body.id]
@@ -124,4 +157,8 @@ class Contents:
             out += enemy.state()
         for crumble in self.crumbles:
             out += (crumble.count, crumble.shaking, crumble.body is None, *(age for _, age in crumble.bits))
+        for bomb in self.bombs:
+            out += bomb.state()
+        for piece in self.rubble:
+            out += (piece.body.id, piece.left, piece.top)
         return tuple(out)

@@ -13,6 +13,7 @@ WANTED = {
     "drops": (None, 1, 2100),
     "lift": ("platform", 60, 3000),
     "ladder": ("ladder", 60, 3300),
+    "walls blown": ("blast_wall", 1, 4500),
     "crumbled": ("crumble", 1, 4500),
     "belt": ("belt", 20, 5100),
     "crates thrown": ("spring", 1, 5100),

@@ -6,6 +6,8 @@ from typing import cast
 
 from game.scene import STEP_SECONDS
 from physics import Body, Character, Polygon
+from scenes.platformer.blasting import Rubble
+from scenes.platformer.bridge import Bridge
 from scenes.platformer.feel import (
     AIR_CONTROL,
     APEX_SPEED,
@@ -65,10 +67,10 @@ class Hero:
         self.character = Character(
             world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH
         )
-        self.crates: Sequence[Crate] = ()  # what he can push
-        self.solids: Sequence[
-            tuple
-        ] = ()  # boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step
+        self.crates: Sequence[Crate | Rubble] = ()  # what he can push
+        # Boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step.
+        self.solids: Sequence[tuple] = ()
+        self.bridges: Sequence[Bridge] = ()  # open from below, as planks are
         self.ladders = {}  # body id -> trigger of the ladders that he touches
         self.facing = 1
         self.news = []
@@ -84,7 +86,7 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
         self.locked_way = self.wall = self.sliding = 0
         self.grounded = self.pushing = self.crushed = False
-        self.pushed: Crate | None = None  # the crate beside him that he runs against
+        self.pushed: Crate | Rubble | None = None  # the crate beside him that he runs against
         self.peak = self.before[1]  # highest since he left the ground [px]
         self.riding: Body | None = None
         self.ladder: Trigger | None = None
@@ -168,8 +170,7 @@ class Hero:
             self.vy = min(self.vy, self.rise_speed) if self.rise else self.vy
 
     def _jump(self, way, down):
-        left, _, _, bottom = self.box
-        if self.grounded and down and self.level.on_plank(left, bottom, WIDTH):
+        if self.grounded and down and self.on_boards():
             self.buffer, self.drop, self.grounded, self.coyote = 0, steps(DROP_TIME), False, 0
             self.vy = DROP_SPEED
             self.news.append("drop")
@@ -204,6 +205,11 @@ class Hero:
         self.grounded = False
         self.ladder = None
         self.grip = steps(SLIDE_TIME)
+
+    def on_boards(self):
+        """Whether what he stands on is open from below, so that down and jump drop him through it."""
+        left, _, right, bottom = self.box
+        return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
 
     # --- ladders ---------------------------------------------------------------------------------------------------
 
@@ -320,7 +326,8 @@ class Hero:
         if self.vy > 0.0 or self.grounded:
             return False
         left, _, right, bottom = self.box
-        return self.level.plank_within(left, right, bottom, POP_REACH)
+        boards = (self.level.plank_within, *(one.holds for one in self.bridges))
+        return any(within(left, right, bottom, POP_REACH) for within in boards)
 
     def _bump(self, dy):
         """The head hit something: slip past its corner, or stop rising."""

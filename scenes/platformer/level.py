@@ -12,7 +12,7 @@ from physics import Filter
 from scenes.platformer.level_rules import check_level, tileset_picture
 
 # Who is who. Two shapes meet if each one's membership is in the other's mask.
-TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS = 1, 2, 4, 8, 16, 32, 64
+TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS, BOMB = 1, 2, 4, 8, 16, 32, 64, 128
 FILTER_NAMES = {
     TILES: "ground",
     HERO: "hero",
@@ -21,16 +21,18 @@ FILTER_NAMES = {
     PLATFORM: "platform",
     TRIGGER: "trigger",
     DEBRIS: "debris",
+    BOMB: "bomb",
 }
 SOLIDS = TILES | CRATE | PLATFORM
-TILE_FILTER = Filter(TILES, HERO | ENEMY | CRATE | DEBRIS)
+TILE_FILTER = Filter(TILES, HERO | ENEMY | CRATE | DEBRIS | BOMB)
 HERO_FILTER = Filter(HERO, SOLIDS | ENEMY | TRIGGER)
 ENEMY_FILTER = Filter(ENEMY, SOLIDS | HERO)
-CRATE_FILTER = Filter(CRATE, SOLIDS | HERO | ENEMY | TRIGGER)
-PLATFORM_FILTER = Filter(PLATFORM, HERO | ENEMY | CRATE)
+CRATE_FILTER = Filter(CRATE, SOLIDS | HERO | ENEMY | TRIGGER | BOMB)
+PLATFORM_FILTER = Filter(PLATFORM, HERO | ENEMY | CRATE | BOMB)
 TRIGGER_FILTER = Filter(TRIGGER, HERO)
 SPRING_FILTER = Filter(TRIGGER, HERO | CRATE)
 DEBRIS_FILTER = Filter(DEBRIS, TILES)
+BOMB_FILTER = Filter(BOMB, SOLIDS)
 
 EMPTY, SOLID, PLANK, SLOPE = "empty", "solid", "one_way", "slope"
 GLOWS = {

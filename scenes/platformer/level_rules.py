@@ -10,7 +10,7 @@ TILE_SIZE = 16
 SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; what is checked and painted in a moment
 MOST_THINGS = 1500
 ACTS = ("meadow", "cave", "keep")
-HINTS = ("run", "jump", "climb", "kick", "ride", "drop", "push", "fall", "spring")
+HINTS = ("run", "jump", "climb", "kick", "ride", "drop", "push", "fall", "spring", "throw")
 FAR = 1e5  # [px] beyond any map
 
 
@@ -38,6 +38,9 @@ KINDS = {
     "spikes": Kind(),
     "crate": Kind(),
     "crumble": Kind(),
+    "blast_wall": Kind(),
+    "bridge": Kind(),
+    "bomb": Kind(),
     "ladder": Kind(),
     "sign": Kind(properties=(("text", str, 1, 120, True),)),
     "walker": Kind(properties=(_number("range", 0.0, FAR),)),

@@ -11,7 +11,7 @@ AMBIENT = (136, 132, 180)  # what is left of each colour where the cave is darke
 STEPS = 12  # of darkness between day and that, each with light discs of its own
 GRAIN = 2  # [px] between the radii that a flickering light takes: so few pictures are kept
 BRIGHTEST = 0.62  # of a light's colour in the middle of its disc
-WARM = ("torch", "lantern", "window")  # these glow as they are drawn, the others in cold colours
+WARM = ("torch", "lantern", "window", "fuse")  # these glow as they are drawn, the others in cold colours
 # What shines: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
 SHINES = {
     "torch": (0.10, 11.0, 32, 92, (255, 206, 150)),
@@ -23,6 +23,8 @@ SHINES = {
     "hero": (0.02, 1.0, 0, 104, (226, 222, 240)),
     "secret": (0.12, 2.0, 22, 62, (150, 255, 240)),
     "goal": (0.04, 2.0, 0, 80, (255, 230, 190)),
+    "fuse": (0.30, 40.0, 14, 44, (255, 216, 150)),
+    "blast": (0.0, 1.0, 0, 150, (255, 220, 170)),
     "coin": (0.0, 1.0, 0, 22, (210, 180, 110)),
 }
 

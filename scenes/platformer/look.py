@@ -1,9 +1,10 @@
 """What is only seen and heard: squash and stretch, dust, trails, sparkles, an act's light. No rule reads any of it."""
 
-from math import exp
+from math import cos, exp, sin
 
 from game.scene import STEP_SECONDS
 from scenes.platformer import bursts
+from scenes.platformer.blasting import THROWN
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
@@ -45,6 +46,9 @@ QUICK, AFTERIMAGES = 250.0, 7  # [px/s] faster than this he leaves so many pictu
 DARKEN = 2.2  # [1/s] how quickly eyes and light get used to another act
 COVER_RATE = 7.0  # [1/s] a covered room is seen, and hidden again
 PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] how fast the jumps of the counters end
+BLAST_LIFE = 0.54  # [s] all frames of a burst
+FUSE_SOUND = 12  # steps between two sounds of a fuse that burns
+FUSE = (4.0, -7.5)  # [px] from the middle of a bomb to the end of its fuse
 PUFF_LIFE = 0.3  # [s] all frames of dust or a sparkle
 HELD_STEP = STEP_SECONDS / 4  # [s] that pass for lights and coins while the picture stands still
 SPLIT_TIME = 2.6  # [s] the time at a checkpoint against the best run's is shown
@@ -59,6 +63,7 @@ class Look:
         self.time = 0.0
         self.width = self.height = 1.0  # the hero's stretch
         self.run = self.climb = 0.0  # [px] way on the ground and on ladders, which drive the frames
+        self.blasts = []  # [x, y, age s]
         self.puffs = []  # [animation, x, y, age s]
         self.flat = []  # flattened enemies: [kind, x, bottom, way, age s]
         self.afterimages = []  # [x, bottom, frame, way, age steps]
@@ -140,9 +145,11 @@ class Look:
                 bursts.trickle(scene.particles, crumble.box)
 
     def _age(self, dt):
-        for aging in (self.puffs, self.flat):
+        self._burn_fuses()
+        for aging in (self.puffs, self.flat, self.blasts):
             for one in aging:
                 one[-1] += dt
+        self.blasts = [blast for blast in self.blasts if blast[2] < BLAST_LIFE]
         self.puffs = [puff for puff in self.puffs if puff[3] < PUFF_LIFE]
         for one in self.flat:
             if one[0] == "walker" and one[4] >= SQUASHED:
@@ -153,6 +160,14 @@ class Look:
         self.afterimages = [one for one in self.afterimages if one[4] <= AFTERIMAGES]
         if self.split is not None:
             self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
+
+    def _burn_fuses(self):
+        """Sparks and the hiss of every fuse that is lit."""
+        for bomb in self.scene.things.bombs:
+            if bomb.phase == THROWN:
+                bursts.fuse(self.scene.particles, *fuse_end(bomb))
+                if bomb.count % FUSE_SOUND == 0:
+                    self._sound_at("fuse", bomb.place[0], 0.5)
 
     def _follow_act(self, dt):
         act = self._act()
@@ -218,6 +233,9 @@ class Look:
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)
             return
+        if thing.kind == "bomb":
+            self._tell_bomb(word, *thing.place)
+            return
         x, y = thing.center
         if word == "shake":
             self._sound_at("crumble", x, 0.4)
@@ -228,6 +246,33 @@ class Look:
             scene.camera.shake(0.15)
         elif self._in_picture(x, y):
             self._puff("sparkle", x, y)
+
+    def _tell_bomb(self, word, x, y):
+        """It is taken, thrown, or back at its place."""
+        if word == "taken":
+            self._sound_at("hook", x, 0.5)
+            self._puff("sparkle", x, y)
+        elif word == "thrown":
+            self._sound_at("throw", x, 0.8)
+            self._sound_at("fuse", x, 0.6)
+        elif self._in_picture(x, y):
+            self._puff("sparkle", x, y)
+            self._sound_at("blip", x, 0.4)
+
+    def burst(self, x, y, loose, hit):
+        """A bomb bursts; what came loose of a wall throws dust about where it was."""
+        scene = self.scene
+        self.blasts.append([x, y, 0.0])
+        bursts.blast(scene.particles, x, y)
+        for piece in loose:
+            bursts.rubble(scene.particles, *piece.body.center)
+        if not self._in_picture(x, y):
+            return
+        scene.camera.shake(0.7 if hit else 0.4)
+        scene.flash.start(0.4, (255, 220, 160))
+        self._sound_at("blast", x, 1.0)
+        if loose:
+            self._sound_at("crumble", x, 1.0)
 
     def took(self, trigger):
         """A coin or a gem: sparkle and count."""
@@ -322,3 +367,10 @@ class Look:
     def _dust(self, count, dx, speed):
         x, bottom = self._feet()
         bursts.dust(self.scene.particles, x + dx, bottom - 1, count, speed)
+
+
+def fuse_end(bomb):
+    """Where the fuse of a bomb burns [px]."""
+    x, y = bomb.place
+    angle = 0.0 if bomb.body is None else bomb.body.angle
+    return x + cos(angle) * FUSE[0] - sin(angle) * FUSE[1], y + sin(angle) * FUSE[0] + cos(angle) * FUSE[1]

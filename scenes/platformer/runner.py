@@ -1,12 +1,13 @@
 """The scripted player: goes from hint to hint of the map and presses keys by rules.
 
 A hint says where to be next and how: run (and jump at what is in the way), jump at once, climb, kick from wall to
-wall, ride a platform, drop through a plank, push, fall, or let a spring throw it. When, it sees for itself: whether a
-platform is docked, where an enemy will be, whether there is ground ahead.
+wall, ride a platform, drop through a plank, push, fall, throw a bomb, or let a spring throw it. When, it sees for
+itself: whether a platform is docked, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
 
+from scenes.platformer.blasting import CARRIED, WAITING
 from scenes.platformer.feel import GRAVITY, RUN_SPEED
 
 NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18  # [px] beside, below and above a hint (on a crate) that count as there
@@ -19,6 +20,7 @@ CLOSE, FAST_CLOSE = 34, 54  # [px] the last chance to jump over an enemy, over o
 RUN_UP = 62  # [px] before what is to be jumped over at full speed
 PAUSE, LONGEST_PAUSE = 37, 90  # steps
 DOCK = 1.5  # [px] a platform that near its end is docked
+THROW_FROM, AWAY = 62, 96  # [px] it throws a bomb so far from where it is to burst, and then keeps away from it
 KICK_SPEED = -90.0  # [px/s] slower than this upwards, it kicks
 
 
@@ -76,6 +78,8 @@ class Runner:
         hero, act = scene.hero, hint.properties["act"]
         x, feet = hero.character.position[0], hero.box[3]
         near = abs(x - _middle(hint)) <= NEAR_X and -NEAR_UP <= feet - _foot(hint) <= NEAR_Y
+        if act == "throw":
+            return scene.feats.done["walls blown"] > 0
         if act == "push":
             return abs(x - _middle(hint)) <= NEAR_X
         return near and hero.grounded
@@ -88,7 +92,7 @@ class Runner:
             return _keys(self._landing_aside(scene, hero) or way), False
         left, _, right, feet = hero.box
         below = _foot(hint) > feet + NEAR_Y and abs(_middle(hint) - (left + right) / 2) < 24
-        if below and scene.level.on_plank(left, feet, right - left):
+        if below and hero.on_boards():
             return {"down"}, True
         if self._needs_a_run_up(scene, hero, way):
             return _keys(-way), False
@@ -189,6 +193,18 @@ class Runner:
         if not hero.grounded:
             return _keys(self._landing_aside(scene, hero) or way), False
         return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
+
+    def _throw(self, scene, hero, hint):
+        """Take the bomb, throw it from where it reaches the hint, and get away until the dust settles."""
+        bomb = min(scene.things.bombs, key=lambda one: abs(one.home[0] - _middle(hint)))
+        x = hero.character.position[0]
+        if bomb.phase == CARRIED:
+            if abs(x - _middle(hint)) > THROW_FROM:
+                return _keys(_way(hero, hint)), False
+            return _keys(_way(hero, hint)) | {"focus"}, False
+        if bomb.phase == WAITING:
+            return _keys(_way_to(hero, bomb.home[0], 2)), hero.wall != 0
+        return _keys(0 if abs(x - bomb.place[0]) > AWAY else 1 if x > bomb.place[0] else -1), False
 
     def _ride(self, scene, hero, hint):
         x, feet = hero.character.position[0], hero.box[3]

@@ -1,7 +1,10 @@
 """The platformer: a hero, one level, and the rules between them."""
 
+from math import hypot
+
 from game.scene import STEP_SECONDS, Result, Scene
 from physics import Effects
+from scenes.platformer.blasting import REACH, WAITING
 from scenes.platformer.contents import BELOW, Contents
 from scenes.platformer.feats import Feats
 from scenes.platformer.feel import GRAVITY, HEIGHT, steps
@@ -42,18 +45,21 @@ class Platformer(Scene):
         sensors=True,
         one_way=True,
         conveyor=True,
+        carving=True,
     )
-    pieces = ("boxes", "circles", "tiles", "masks", "characters", "queries")
+    pieces = ("boxes", "circles", "tiles", "masks", "one-way masks", "characters", "queries")
     features = (
         "whole-pixel motion with slopes, planks, ladders and lifts",
+        "a rope bridge that is open from below and walked by its curve",
         "coyote time, buffering, corner correction",
         "crates stack, topple, are pushed, ridden, thrown and carried by belts",
         "hits sound, shake and hurt by their impulse",
         "pick-ups are sensor events",
-        "three secrets, a ghost of the best run",
+        "a bomb carves a wall of pixels; its rubble is pushed and climbed",
+        "four secrets, a ghost of the best run",
     )
     filter_names = FILTER_NAMES
-    actions = (("Arrows", "run, climb"), ("Space", "jump"), ("Down + Space", "through planks"))
+    actions = (("Arrows", "run, climb"), ("Space", "jump"), ("Down + Space", "through planks"), ("Shift", "throw"))
     broadphase = "hash"
     music = "platformer"
     ranked_by = "seconds"
@@ -110,16 +116,19 @@ class Platformer(Scene):
         for word, thing in self.things.step(self.ticks, self.hero.character.position):
             if word == "squeezed":
                 self._flatten(thing)
+            elif word == "burst":
+                self._burst(thing)
             else:
                 self.look.tell(word, thing)
 
     def _move_hero(self, inputs):
         hero, things = self.hero, self.things
-        hero.crates = things.crates
-        hero.solids = things.solid_boxes
+        hero.crates = (*things.crates, *things.rubble)
+        hero.solids, hero.bridges = things.solid_boxes, things.bridges
         self.clock += self.phase != WON
         if self.phase == PLAYING:
             hero.step(inputs)
+            self._handle_bombs(inputs)
             if hero.grounded and hero.riding is None and hero.character.surface_speed == 0.0:
                 self.safe = hero.character.position
         elif self.phase == WON:
@@ -132,6 +141,35 @@ class Platformer(Scene):
             return
         if hero.crushed or hero.box[1] > self.level.size[1] + BELOW:
             self._lose()
+
+    def _handle_bombs(self, inputs):
+        """A bomb that he comes to is taken; a press throws it, or lays it down."""
+        hero, bomb = self.hero, self.things.carried
+        if bomb is None:
+            for each in self.things.bombs:
+                if each.phase == WAITING and each.is_reached(hero.box):
+                    each.take()
+                    self.look.tell("taken", each)
+                    break
+        elif bomb.carry(hero.character.position):
+            self.look.tell("back", bomb)
+        elif inputs.pressed("focus"):
+            bomb.throw(hero.facing, hero.vx, inputs.held("down"))
+            self.look.tell("thrown", bomb)
+
+    def _burst(self, bomb):
+        """A bomb bursts: walls give way, enemies are flat, and a hero who stands too near is thrown back, not hurt."""
+        x, y = bomb.place
+        loose, hit = self.things.blast(x, y)
+        self.feats.done["walls blown"] += bool(loose)
+        self.look.burst(x, y, loose, hit)
+        for enemy in list(self.things.enemies.values()):
+            if hypot(enemy.character.position[0] - x, enemy.character.position[1] - y) < REACH:
+                self._flatten(enemy)
+        me = self.hero.character.position
+        if self.phase == PLAYING and hypot(me[0] - x, me[1] - y) < REACH:
+            self.hero.throw(1 if me[0] >= x else -1)
+            self.look.hear(("thrown",))
 
     # --- what the world has seen -------------------------------------------------------------------------------------
 

@@ -14,13 +14,16 @@ from game.drawing.sprites import load_atlas, load_image
 from game.drawing.tile_picture import TilePicture
 from scenes.platformer import board
 from scenes.platformer.backdrop import Backdrops
+from scenes.platformer.blast_view import BlastView
+from scenes.platformer.blasting import THROWN
 from scenes.platformer.feel import APEX_SPEED, HEIGHT, steps
 from scenes.platformer.lighting import Lighting, wave
-from scenes.platformer.look import AFTERIMAGES
+from scenes.platformer.look import AFTERIMAGES, fuse_end
 from scenes.platformer.things import SHAKES
 
 STRIDE = 13.0  # [px] of way per frame of the run: feet do not slide
 PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
+ABOVE_BOARDS = 12  # [px] a bridge's ropes begin above the ends of its boards
 STANDING = 12.0  # [px/s] slower than this he is drawn standing
 FRAME = 24  # [px] width and height of the hero's pictures
 NEAR = 40  # [px] around the picture in which things are still drawn
@@ -49,6 +52,7 @@ class View:
         self.things, self.hero = load_atlas("things"), load_atlas("hero")
         self.crates = [RotatedPicture(self.things[name]) for name in ("crate", "crate_large")]
         self.bits = [RotatedPicture(self.things[f"crumble_bit_{number}"]) for number in range(3)]
+        self.blasts = BlastView(self)
         self.shaped = lru_cache(maxsize=512)(self._shaped)
         self.tinted = lru_cache(maxsize=512)(self._tinted)
         self._paint_ahead()
@@ -89,10 +93,14 @@ class View:
         self._draw_still_things(canvas, scene)
         self.layers["solid"].draw(canvas, scene.camera, alpha)
         self._draw_blocks(canvas, scene)
+        self._draw_bridges(canvas, scene)
+        self.blasts.draw_walls(canvas, scene)
         self._draw_moving_things(canvas, scene, alpha)
         self._draw_enemies(canvas, scene, alpha)
         self._draw_ghost(canvas, scene)
         self._draw_hero(canvas, scene, alpha)
+        self.blasts.draw_pieces(canvas, scene, alpha)
+        self.blasts.draw_bursts(canvas, scene.look)
         self._draw_covers(canvas, scene.look)
         scene.particles.draw(canvas, scene.camera, alpha)
         self._draw_puffs(canvas, scene.look)
@@ -147,6 +155,12 @@ class View:
                 worn = min(4 * crumble.count // steps(SHAKES), 3)
                 shift = (crumble.count // 2) % 2 * 2 - 1 if crumble.shaking else 0
                 canvas.surface.blit(things[f"crumble_{worn}"], (left + shift - self.left, top - self.top))
+
+    def _draw_bridges(self, canvas, scene):
+        for bridge in scene.things.bridges:
+            x, y = bridge.left - self.left, bridge.top - self.top
+            canvas.surface.blit(self.things["bridge_ropes"], (x, y - ABOVE_BOARDS))
+            canvas.surface.blit(self.things["bridge"], (x, y))
 
     def _draw_moving_things(self, canvas, scene, alpha):
         things, look = self.things, scene.look
@@ -222,6 +236,12 @@ class View:
                 yield trigger.foot[0] - self.left, trigger.foot[1] - 23 - self.top, "lantern"
             elif trigger.kind in SHINING and not scene.look.hidden(trigger.x, trigger.y):
                 yield trigger.x - self.left, trigger.y - self.top, trigger.kind
+        for bomb in scene.things.bombs:
+            if bomb.phase == THROWN:
+                x, y = fuse_end(bomb)
+                yield x - self.left, y - self.top, "fuse"
+        for x, y, _ in scene.look.blasts:
+            yield x - self.left, y - self.top, "blast"
         x, y = between(scene.hero.before, scene.hero.character.position, alpha)
         yield x - self.left, y - self.top, "hero"
 

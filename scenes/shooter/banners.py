@@ -50,12 +50,12 @@ def _draw_title(canvas, director):
     """STAGE 1 slides in from the left, its name from the right, and both out again."""
     share = eased(director.since, READY)
     middle, width = canvas.rect.centerx, canvas.rect.width
-    _band(canvas, 92, whole(58 * share))
+    band(canvas, 92, whole(58 * share))
     if share < 0.4:
         return
     off = (1.0 - share) * width
-    _text_inside(canvas, director.stage.title, middle - off, 104, GOLD, 3)
-    _text_inside(canvas, director.stage.name, middle + off, 134, PAPER, 1)
+    text_inside(canvas, director.stage.title, middle - off, 104, GOLD, 3)
+    text_inside(canvas, director.stage.name, middle + off, 134, PAPER, 1)
 
 
 def _draw_warning(canvas, scene):
@@ -63,7 +63,7 @@ def _draw_warning(canvas, scene):
     since = scene.director.since
     share = eased(since, WARNING)
     high = whole(56 * share)
-    _band(canvas, 100, high)
+    band(canvas, 100, high)
     shift = since * 2 % (2 * STRIPE)
     for y in (100 + HALF - high // 2 - 8, 100 + HALF + high // 2):
         canvas.surface.blit(stripes(canvas.rect.width + 2 * STRIPE), (shift - 2 * STRIPE, y))
@@ -88,7 +88,7 @@ def _draw_bonuses(canvas, scene):
     """The end of the stage: one line after another."""
     ending = scene.ending
     share = eased(ending.since - SMOKE, inf)
-    _band(canvas, 70, whole(112 * share))
+    band(canvas, 70, whole(112 * share))
     if share < 0.9:
         return
     canvas.text("STAGE CLEAR", canvas.rect.centerx, 82, GOLD, TEXT, 3, "center", True)
@@ -118,7 +118,7 @@ def _summary(scene):
     return [f"{points_text(score.points)} points", "   ".join(counts), "fire: go on"]
 
 
-def _band(canvas, top, high):
+def band(canvas, top, high):
     """A dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
     if high > 0:
         canvas.surface.blit(
@@ -126,7 +126,7 @@ def _band(canvas, top, high):
         )
 
 
-def _text_inside(canvas, text, x, y, color, scale):
+def text_inside(canvas, text, x, y, color, scale):
     """Text that slides: written only while it is all inside of the picture."""
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
     if canvas.rect.contains(rect):

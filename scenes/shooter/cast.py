@@ -6,7 +6,7 @@ lost comes back as a ghost: for a while nothing but pick-ups meets it, and nobod
 
 from physics import Filter
 
-CORE, HULL, RING, ENEMY, SHOT, BULLET, ITEM, BLAST = (1 << bit for bit in range(8))
+CORE, HULL, RING, ENEMY, SHOT, BULLET, ITEM, BLAST, WRECK = (1 << bit for bit in range(9))
 
 FILTER_NAMES = {
     CORE: "core",
@@ -17,6 +17,7 @@ FILTER_NAMES = {
     BULLET: "bullet",
     ITEM: "pick-up",
     BLAST: "bomb",
+    WRECK: "wreckage",
 }
 
 # The player: a small core, the hull that is drawn, and a ring that bullets graze and pick-ups are taken by.
@@ -26,9 +27,10 @@ AT_RISK = {
     "ring": Filter(RING, BULLET | ITEM),
 }
 GHOST = {"core": Filter(CORE, 0), "hull": Filter(HULL, 0), "ring": Filter(RING, ITEM)}
-HOSTILE = Filter(ENEMY, CORE | HULL | SHOT | BLAST)
+HOSTILE = Filter(ENEMY, CORE | HULL | SHOT | BLAST | WRECK)
 GROUNDED = Filter(ENEMY, SHOT | BLAST)  # what is on the ground: planes fly over it
-FALLING = Filter(ENEMY, 0)  # a wreck: nothing meets it any more
+FALLING = Filter(WRECK, 0)  # what burns or falls: nothing meets it any more
+WRECKED = Filter(WRECK, ENEMY)  # pieces of a plane, as long as they are where planes fly
 FIRED = Filter(SHOT, ENEMY)  # what the player fires
 INCOMING = Filter(BULLET, CORE | HULL | RING | BLAST)  # what is fired at the player
 LOOT = Filter(ITEM, RING)

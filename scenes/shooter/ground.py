@@ -22,6 +22,7 @@ SHADES = 6  # of dark clouds
 DARKEST = (96, 104, 138)  # factors, of 255, on clouds of a storm
 STREAKS = 16  # wisps of air that show the speed
 DROPS = 70  # of rain in the picture
+BLUER = 20  # more blue than red is in the colour of water; rock is grey
 CONTRAST = (150, 150, 158)  # factors, of 255, on the ground where the player wants more contrast
 
 
@@ -42,6 +43,23 @@ def draw_ground(surface, scene, alpha, left, top):
     _draw_air(surface, time, off, share)
     if scene.accessibility.palette == "contrast":
         surface.fill(CONTRAST, special_flags=pygame.BLEND_RGB_MULT)
+
+
+def is_water(scene, x, y):
+    """Whether what is seen of the ground at a place of the picture [px] is water."""
+    since, name = scene.director.grounds[-1]
+    line = scene.scrolled - since - BORDER / 2
+    if y > line and len(scene.director.grounds) > 1:
+        name = scene.director.grounds[-2][1]
+    picture = stretch(name)
+    width, height = picture.get_size()
+    near = [
+        picture.get_at((whole(x + dx) % width, whole(y + dy - scene.scrolled) % height))
+        for dx in (-2, 0, 2)
+        for dy in (-2, 0, 2)
+    ]
+    red, green, blue = (sum(color[part] for color in near) for part in range(3))
+    return blue >= green and blue > red + BLUER * len(near)
 
 
 def storm_share(grounds, scrolled):

@@ -20,6 +20,7 @@ from scenes.shooter.score import Score
 from scenes.shooter.spectacle import Spectacle
 from scenes.shooter.stage import load_stage
 from scenes.shooter.view import the_view
+from scenes.shooter.wreckage import DRAG, STRIKE, Wreckage
 
 FREEZE = 3  # steps that the game stands still when the player is hit or a phase ends: 50 ms
 LAST_MOMENT = 6  # steps after a hit in which a bomb still saves the plane
@@ -36,12 +37,13 @@ class Shooter(Scene):
     about = (
         "One stage, five kinds of planes, a boss. What your eye calls a miss is a miss: exact shapes decide every hit."
     )
-    effects = Effects(sensors=True)
-    pieces = ("masks", "circles", "boxes", "queries")
+    effects = Effects(rotation=True, drag=True, wind=True, sensors=True, carving=True)
+    pieces = ("masks", "exact masks", "circles", "boxes", "queries")
     features = (
         "pixel masks and a small core: both are tested, you choose which hurts",
         "sensors: grazing, pick-ups, and a bomb that grows through the bullets",
         "filters: bullets never pair with bullets or with their own side",
+        "carving: heavy planes break along cracks, and their pieces tumble",
         "bullets are rows, added and removed in batches: 1,500 at once",
     )
     filter_names = FILTER_NAMES
@@ -60,11 +62,12 @@ class Shooter(Scene):
         draw_turned()
         self.music = type(self).music
         stage = load_stage(self.level_file)
-        world = self.add_world()
+        world = self.add_world(drag=DRAG, wind=(0.0, GROUND_SPEED), gravity=(0.0, 0.0))
         self.incoming, self.shots = Bullets(world, INCOMING), Bullets(world, FIRED)
         self.incoming.make_room(ROOM)
         self.fleet, self.loot, self.bomb = Fleet(world, self.tier), Loot(world), Bomb(world)
         self.plane = Plane(world, self.tier)
+        self.wreckage = Wreckage(world)
         self.blows, self.hits = Blows(world), Hits()
         self.director, self.score, self.ending = Director(stage), Score(KINDS), Ending()
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
@@ -140,6 +143,9 @@ class Shooter(Scene):
         self.director.step(self)
         self.fleet.step(self)
         self.loot.step(self.frame, plane)
+        for identity, piece in self.wreckage.step():
+            self.gone.append(identity)
+            self.spectacle.piece_down(identity, piece)
         self.shots.launch()
         self.incoming.launch()
         self.scrolled += GROUND_SPEED * STEP_SECONDS
@@ -162,6 +168,8 @@ class Shooter(Scene):
         begun, met = self.world.events.begin, self.world.events.sensor_begin
         if len(begun):
             self._shots_that_hit(begun, begun["body_a"], begun["body_b"])
+        if self.wreckage.pieces:
+            self._pieces_that_strike(begun)
         if self.bomb.body is not None:
             self._blast(partners(met, self.bomb.body.id))
         if not self.plane.here:
@@ -169,11 +177,15 @@ class Shooter(Scene):
         self._take_loot(partners(met, self.plane.bodies["ring"].id))
         grazed = self.hits.read(self.world, self.plane, self.incoming, self.fleet)
         # What a shot or a bomb has just done away with hits nobody any more: in doubt, for the player.
-        hit_by = [identity for identity in self.hits.now[self.hurts] if identity not in self.gone]
+        hit_by = [identity for identity in self.hits.now[self.hurts] if not self._is_lost(identity)]
         if hit_by and not self.stricken:
             self._hit(hit_by)
         elif len(grazed) and not self.stricken:
             self.spectacle.grazed(self.plane, self.world, grazed, self.score.graze(len(grazed)))
+
+    def _is_lost(self, identity):
+        """Whether a body goes, or breaks, when the next step begins."""
+        return identity in self.gone or self.wreckage.is_marked(identity)
 
     def _hit(self, hit_by):
         if self.assist["invincible"]:
@@ -214,7 +226,13 @@ class Shooter(Scene):
         elif enemy.leads:
             self.end_phase(enemy, beaten=True)
         else:
-            self._destroy(enemy, blow)
+            self._destroy(enemy, blow, place)
+
+    def _pieces_that_strike(self, begun):
+        """What falls on a small plane damages it."""
+        for piece, enemy, place in self.wreckage.strikes(begun, self.fleet):
+            if enemy.health > 0.0:
+                self._damage(enemy, self.blows.on(enemy.id, piece), place, STRIKE)
 
     def _blast(self, met):
         """The bomb met bullets and planes."""
@@ -235,9 +253,12 @@ class Shooter(Scene):
         rows, bodies = self.world.rows(bullets), self.world.bodies
         self.spectacle.bullets_burnt(bodies["x"][rows], bodies["y"][rows])
 
-    def _destroy(self, enemy, blow):
+    def _destroy(self, enemy, blow, place):
         enemy.health = 0.0
-        self.gone.append(enemy.id)
+        if enemy.heavy:
+            self.wreckage.mark(enemy, place[0], place[1], blow)
+        else:
+            self.gone.append(enemy.id)
         self.spectacle.destroyed(enemy, self.score.kill(enemy), blow)
         if self.director.shot_down(enemy):
             self.spectacle.wave_done(enemy, self.score.whole_wave())
@@ -272,7 +293,8 @@ class Shooter(Scene):
         for identity in self.hit_by:
             enemy = self.fleet.planes.get(identity)
             if enemy is not None and not enemy.heavy and enemy.health > 0.0:
-                self._destroy(enemy, Blow(-self.hit_blow.x, -self.hit_blow.y, self.hit_blow.mass))
+                back = Blow(-self.hit_blow.x, -self.hit_blow.y, self.hit_blow.mass)
+                self._destroy(enemy, back, (enemy.x, enemy.y))
         self.hit_by = []
         self.clear_bullets()
 
@@ -303,7 +325,7 @@ class Shooter(Scene):
 
     def bury(self, leader):
         """A leader has burnt out."""
-        self.gone.append(leader.id)
+        self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
@@ -316,7 +338,9 @@ class Shooter(Scene):
     # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
-        """Remove, in one batch, all that was hit and all that has left the sky."""
+        """Break what is to break; remove, in one batch, all that was hit and all that has left the sky."""
+        for plane, x, y in self.wreckage.break_due(self.fleet):
+            self.spectacle.broke(plane, x, y)
         bodies = self.world.bodies
         gone = np.array(self.gone, np.int64)
         if self.frame % SWEEP_EVERY == 0:
@@ -325,7 +349,7 @@ class Shooter(Scene):
         if not len(gone):
             return
         gone = np.unique(gone)
-        groups = (self.shots, self.incoming, self.fleet, self.loot)
+        groups = (self.shots, self.incoming, self.fleet, self.loot, self.wreckage)
         for group in groups:
             group.forget(gone)
         self.world.remove_bodies(gone)
@@ -345,7 +369,7 @@ class Shooter(Scene):
     def state(self):
         """All that is not in the world."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
-        parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending)
+        parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (
             self.frame,
             self.freeze,

@@ -2,8 +2,9 @@
 
 from math import pi
 
-from scenes.shooter.cast import WIDTH
-from scenes.shooter.fireworks import BLUE, DUST, FIRE, GOLD, SPARK, VAPOUR, Fireworks
+from scenes.shooter.cast import GROUND_SPEED, WIDTH
+from scenes.shooter.fireworks import BLUE, DUST, FIRE, FOAM, GOLD, SPARK, VAPOUR, Fireworks
+from scenes.shooter.ground import is_water
 from scenes.shooter.plane import TOP_POWER
 
 SMOKE_EVERY = 5  # steps between puffs of something large that is damaged
@@ -13,6 +14,8 @@ NEWS = 130  # steps that the name of a wave is shown
 BONUS_SHOWN = 120  # steps that what a phase gave is shown
 PULSE_FADE, GAIN_FADE = 5.0, 2.0  # [1/s] how fast the score's jump and the weapon's icon's end
 HEALTH_RATE = 0.12  # share of the way to the real health that the leader's bar goes in a step
+SMALL, LARGE = 30, 160  # [px] pieces of wreckage that do not trail fire, and those that are heard
+BURNING = 0.8  # of its fall a piece burns
 SHOT_SOUND = 6  # steps at least between two sounds of a leader's guns
 GRAZE_WORDS = 45  # steps between two words about grazes
 MOST_EMBERS = 100  # bullets that burn with sparks at once; more would hide the picture
@@ -22,7 +25,7 @@ DEATHS = {
     "saucer": ("explosion_small", "explosion", 0.7, 0.10, 24, 5),
     "hornet": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
     "turret": ("explosion_large", "explosion", 0.85, 0.18, 36, 7),
-    "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 12),
+    "gunship": ("explosion_large", "big_explosion", 0.9, 0.38, 60, 5),
 }
 PAINT = {
     "dart": (1, 0),
@@ -87,9 +90,23 @@ class Spectacle:
                 particles.burst(enemy.x, enemy.y, 1, VAPOUR, speed=(0, 6), life=(0.3, 0.6), size=(1, 1))
             elif enemy.kind == "dart" and enemy.mode == "dive" and enemy.age % 2 == 0:
                 particles.burst(enemy.x, enemy.y, 2, FIRE, speed=(0, 24), life=(0.15, 0.35), size=(1, 2))
+        self._trail_pieces()
         if plane.here and abs(plane.velocity[0]) > 150.0 and int(self.time * 60) % 2 == 0:
             for side in (-13, 13):
                 particles.burst(plane.x + side, plane.y + 6, 1, VAPOUR, speed=(0, 4), life=(0.2, 0.4), size=(1, 1))
+
+    def _trail_pieces(self):
+        """Flames, then smoke, behind what falls."""
+        world, pieces = self.scene.world, self.scene.wreckage.pieces
+        for identity, piece in pieces.items():
+            burns = piece.age < BURNING * piece.life
+            if piece.age % (3 if burns else 8) or piece.mask.area < SMALL:
+                continue
+            x, y = world.body(identity).center
+            if burns:
+                self.scene.particles.burst(x, y, 2, FIRE, speed=(2, 16), life=(0.2, 0.55), size=(1, 2))
+            if piece.age % 12 == 0 and piece.mask.area > LARGE:
+                self.works.burst("smoke", x, y, 0.0, 10.0)
 
     def lean_at(self, alpha):
         """The parallax' shift between two steps [px]."""
@@ -182,6 +199,26 @@ class Spectacle:
         self.pulse = 1.0
         self.scene.camera.shake(shake * blow.strength)
         self.scene.play(sound, x, min(volume * (0.8 + 0.2 * blow.strength), 1.0))
+
+    def broke(self, plane, x, y):
+        """A plane breaks along its cracks, which cross at a place."""
+        self.works.burst("spark", x, y)
+        self.works.sparks(x, y, 18, SPARK, 220)
+        self.scene.play("tear", x, 1.0 if plane.leads else 0.7)
+
+    def piece_down(self, identity, piece):
+        """A piece falls into water or on the ground: the larger, the more of it is seen and heard."""
+        x, y = self.scene.world.body(identity).center
+        count, loud = min(4 + piece.mask.area // 12, 24), min(0.2 + piece.mask.area / 900, 0.7)
+        if is_water(self.scene, x, y):
+            self.works.burst("splash_large" if piece.mask.area > LARGE else "splash", x, y, 0.0, GROUND_SPEED)
+            self.works.sparks(x, y, count, FOAM, 50)
+            self.scene.play("splash", x, loud)
+        else:
+            self.works.scar(x, y, 4 + min(piece.mask.area // 60, 6))
+            self.works.burst("explosion_small" if piece.mask.area > LARGE else "smoke", x, y, 0.0, GROUND_SPEED)
+            self.works.sparks(x, y, count, DUST, 60)
+            self.scene.play("land", x, loud)
 
     # --- the player --------------------------------------------------------------------------------------------------
 

@@ -22,6 +22,7 @@ from scenes.shooter.fireworks import BURNING
 from scenes.shooter.ground import draw_ground
 from scenes.shooter.loot import PICTURES
 from scenes.shooter.plane import RING_RADIUS, SPEED
+from scenes.shooter.wreck_view import WreckView
 
 SHADOW_AT = (15, 24)  # [px] from a plane to its shadow on the ground
 SHADOW = (8, 12, 30, 84)
@@ -66,6 +67,7 @@ class View:
         self.ghostly = lru_cache(maxsize=16)(ghostly)
         self.stretched = lru_cache(maxsize=64)(stretched)
         self.tumbled = lru_cache(maxsize=64)(tumbled)
+        self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
         """(image, origin in it) of a frame at an angle: exactly the pixels of the mask of the frame that collides."""
@@ -89,6 +91,7 @@ class View:
         blit_many(
             self.surface, [(self.shaded(image), (x + SHADOW_AT[0], y + SHADOW_AT[1])) for image, (x, y), _ in air]
         )
+        self.wrecks.draw(scene, shaded=True)
         self._draw_loot(scene)
         self._draw_bullets(scene, scene.shots)
         self._draw_exhaust(scene)
@@ -98,6 +101,7 @@ class View:
         self._draw_health(scene)
         self._draw_debris(works)
         self._draw_bursts(works)
+        self.wrecks.draw(scene)
         light.draw_rings(self, works)
         light.draw_bomb(self, scene)
         scene.particles.draw(canvas, scene.camera, alpha)
@@ -121,6 +125,14 @@ class View:
     def at(self, x, y, origin):
         """Canvas place of a picture whose origin is at a world point."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
+
+    def shadow(self, image, place, high=1.0):
+        """(picture, canvas place) of the shadow of a picture whose middle is at a world point, so high over the ground
+        as a share of the planes' height.
+        """
+        dark = shade(image)
+        x, y = place[0] + SHADOW_AT[0] * high, place[1] + SHADOW_AT[1] * high
+        return dark, self.at(x, y, middle(dark))
 
     def add_light(self, image, x, y):
         """Add a picture to what is there, its middle at a world point."""

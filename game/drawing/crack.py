@@ -1,0 +1,26 @@
+"""Cracks: jagged lines of pixels right through something, to be carved out of it as a mask."""
+
+from math import cos, hypot, sin
+
+import numpy as np
+
+JAG, SIDEWAYS = 5.0, 2.6  # [px] from corner to corner of a crack, and how far these lie off its line
+FINE = 0.25  # [px] between the places that are drawn
+
+
+def draw_crack(solid: np.ndarray, at: tuple[float, float], heading: float, random: np.random.Generator) -> None:
+    """Set the pixels of a crack in solid[row, column], through a place (x, y) [px] and about along a heading [rad].
+
+    It leads from side to side of the raster and is two pixels wide, so that no corners touch across it.
+    """
+    height, width = solid.shape
+    reach = JAG * (1 + int(hypot(height, width) // JAG))
+    corners = np.arange(-reach, reach + JAG, JAG)
+    along = np.arange(-reach, reach, FINE)
+    aside = np.interp(along, corners, random.uniform(-SIDEWAYS, SIDEWAYS, len(corners)))
+    columns = np.floor(at[0] + along * cos(heading) - aside * sin(heading)).astype(np.int64)
+    rows = np.floor(at[1] + along * sin(heading) + aside * cos(heading)).astype(np.int64)
+    for dx in (0, 1):
+        for dy in (0, 1):
+            inside = (columns + dx >= 0) & (columns + dx < width) & (rows + dy >= 0) & (rows + dy < height)
+            solid[rows[inside] + dy, columns[inside] + dx] = True

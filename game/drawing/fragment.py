@@ -1,0 +1,72 @@
+"""Pictures of what broke off: a fragment is its own pixels, cut out of the picture that it was a part of."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import whole
+from physics import PixelMask
+
+ANGLES = 64  # pictures of a full turn that are kept: a 40 px piece moves by 2 px at its tips from one to the next
+
+
+def cut_out(
+    source: pygame.Surface, mask: PixelMask, left: int, top: int, edge: tuple[int, int, int], share: float = 0.75
+) -> pygame.Surface:
+    """The solid pixels of a mask, whose raster begins at (left, top) in a picture, and no others.
+
+    Where the picture goes on beside them they broke off: so much of these pixels' colour, 0..1, is `edge`, and half as
+    much of those behind them.
+    """
+    width, height = mask.size
+    wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
+    wide.blit(source, (0, 0), (left - 1, top - 1, width + 2, height + 2))
+    solid = np.pad(mask.solid, 1)
+    gone = (pygame.surfarray.array_alpha(wide).T > 127) & ~solid
+    first = _beside(gone) & solid
+    second = _beside(first) & solid & ~first
+    out = wide.subsurface((1, 1, width, height)).copy()
+    pixels = pygame.surfarray.pixels3d(out)
+    for ring, part in ((first, share), (second, share / 2)):
+        there = ring[1:-1, 1:-1].T
+        pixels[there] = (pixels[there] * (1.0 - part) + np.array(edge) * part).astype(np.uint8)
+    del pixels  # unlocks the surface
+    alpha = pygame.surfarray.pixels_alpha(out)
+    alpha[:] = np.where(mask.solid.T, 255, 0)
+    del alpha
+    return out
+
+
+class FragmentPicture:
+    """A fragment at any angle, about its body's origin."""
+
+    def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
+        # From the body's origin to the middle of the picture.
+        self.off = (mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1])
+        self.image, self.kept = image, {0: image}
+
+    def at(self, angle: float) -> pygame.Surface:
+        """Its picture turned clockwise by the nearest angle kept [rad]."""
+        number = round(angle / (2.0 * pi) * ANGLES) % ANGLES
+        if number not in self.kept:
+            self.kept[number] = pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
+        return self.kept[number]
+
+    def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
+        """Where the picture's middle is, of a body at a place and an angle."""
+        c, s = cos(angle), sin(angle)
+        return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
+
+    def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
+        """Draw it with the body's origin at a place of the surface."""
+        image = self.at(angle)
+        across, down = self.middle(x, y, angle)
+        width, height = image.get_size()
+        surface.blit(image, (whole(across - width / 2), whole(down - height / 2)))
+
+
+def _beside(pixels):
+    """What has one of these pixels on one of its four sides."""
+    padded = np.pad(pixels, 1)
+    return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -1,0 +1,63 @@
+"""The outlines of masks as lines: the edge that is felt, and the seams between its parts, which are not."""
+
+from math import ceil, pi
+from typing import NamedTuple
+
+import numpy as np
+
+from game.overlays.outlines import ARC_STEP, corners_of
+from physics import World, debug
+from physics.tables.shape import PART, POLYGON
+
+
+class MaskEdges(NamedTuple):
+    """Lines in the world, (n, 4) [px]: ax ay bx by."""
+
+    outer: np.ndarray  # what is pushed out through, met by what is swept, and walked on
+    inner: np.ndarray  # between two parts of one mask
+
+
+def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
+    """The lines of the parts of masks' outlines among these rows of world.shapes.
+
+    A rounded part is drawn round: its edges lie `radius` outside the polygon, with arcs about the corners; scale [frame
+    px per px] says how fine these are.
+    """
+    edges = debug.part_edges(world, rows)
+    outer, inner = [], []
+    dx, dy = edges["bx"] - edges["ax"], edges["by"] - edges["ay"]
+    length = np.maximum(np.sqrt(dx * dx + dy * dy), np.finfo(float).tiny)
+    out_x, out_y = dy / length, -dx / length
+    lines = np.column_stack([edges[name] for name in ("ax", "ay", "bx", "by")])
+    lines += edges["radius"][:, None] * np.column_stack((out_x, out_y, out_x, out_y))
+    outer.append(lines[~edges["inner"]])
+    inner.append(lines[edges["inner"]])
+    for arc, hidden in _arcs(edges, np.arctan2(out_y, out_x), scale):
+        (inner if hidden else outer).append(arc)
+    round_ones = rows[(world.shapes["role"][rows] == PART) & (world.shapes["kind"][rows] != POLYGON)]
+    for outline in debug.outlines(world, round_ones):
+        found = corners_of(outline, scale)
+        if found is not None:
+            points, closed = np.array(found[0]), found[1]
+            lines = np.column_stack((points, np.roll(points, -1, axis=0)))
+            outer.append(lines if closed else lines[:-1])
+    return MaskEdges(np.concatenate(outer), np.concatenate(inner) if inner else np.zeros((0, 4)))
+
+
+def _arcs(edges, facing, scale):
+    """(lines, whether it lies inside) about each corner of a rounded part."""
+    rounded = np.flatnonzero(edges["radius"] > 0.0)
+    if not len(rounded):
+        return
+    row = edges["row"]
+    before = np.arange(len(edges)) - 1
+    starts = np.flatnonzero(np.concatenate([[True], row[1:] != row[:-1]]))
+    before[starts] = np.append(starts[1:], len(edges)) - 1  # the last edge of the same part
+    for k in rounded.tolist():
+        start, radius = facing[before[k]], edges["radius"][k]
+        turn = (facing[k] - start) % (2.0 * pi)
+        steps = max(1, ceil(turn * radius * scale / ARC_STEP))
+        angles = start + turn * np.arange(steps + 1) / steps
+        points = np.column_stack((edges["ax"][k] + radius * np.cos(angles), edges["ay"][k] + radius * np.sin(angles)))
+        hidden = edges["covered"][k] or edges["inner"][k] or edges["inner"][before[k]]
+        yield np.column_stack((points[:-1], points[1:])), bool(hidden)

@@ -1,0 +1,286 @@
+"""Ground of 480 x 240 pixels to blast and dig: what is undermined falls, rolls and comes to rest by its own pixels.
+
+What to see: only the tiles that a carve touches are made anew, so it costs the same in large ground as in small. What
+comes loose is a body at once, with its own pixels, mass and spin. Pixels are counted all the way: whatever is gone from
+the ground lies about as a piece, was taken by the tool, or was a crumb. With the overlay of masks on you see the tiles.
+"""
+
+from math import hypot
+from time import perf_counter
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
+from game.drawing.rotated import Cast
+from game.drawing.sprites import load_atlas, load_backdrop
+from game.drawing.typical import Typical
+from game.scene import Goal, Scene, Slider
+from physics import Circle, Effects, Material, PixelMask, Polygon
+from physics.tables.shape import PART
+from scenes.lab.digging_plan import plan
+from scenes.lab.prints import Prints
+from scenes.lab.tools import TOOLS, Tool
+from scenes.lab.yard import HEAD, draw_head, plate
+
+TOP, BOTTOM = 24, 264  # [px] of the ground
+CRUMB = 12  # pixels: what is smaller goes when it comes loose
+BLAST_REACH, BLAST_SPEED = 2.6, 190.0  # radii; [px/s] that a blast gives to what is nearest
+EARTH, IRON = Material(density=1.0, friction=0.7, rolling_resistance=0.02), Material(3.0, 0.5, 0.2, 0.03)
+DUST = ((226, 200, 160), (176, 140, 108), (120, 92, 80), (70, 56, 60))
+SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
+# What lies about: the picture, x, y [px]. Those of iron are circles and are not carved.
+MASKS = (
+    *(("lab", "crate_16_1", x, y) for x, y in ((22, 140), (40, 140), (31, 123), (420, 126), (438, 126), (429, 109))),
+    ("lab", "bracket_teal", 86, 138),
+    ("lab", "star_gold", 168, 144),
+    ("lab", "disc_large", 204, 145),
+    ("hero", "idle_0", 142, 147),
+    ("lab", "bracket_purple", 268, 86),
+    ("lab", "crate_16_0", 294, 84),
+    ("lab", "disc_large", 460, 114),
+)
+BALLS = (("ball_2", 5.0, 56, 148), ("ball_5", 5.0, 188, 152), ("ball_1", 5.0, 364, 124), ("steel_ball", 14.0, 390, 112))
+KNOCK = 70.0  # [px/s] a softer one is not heard
+PLATE = (4, 19, 122, 93)
+
+
+class Carving(Scene):
+    """One world: the ground, what lies on it, and what becomes of both."""
+
+    name = "lab/carving"
+    title = "Carving"
+    about = "Blast and dig with the mouse: pieces come loose, fall, roll and rest by their own pixels."
+    effects = Effects(
+        response=True,
+        gravity=True,
+        rotation=True,
+        friction=True,
+        restitution=True,
+        stacking=True,
+        sleeping=True,
+        carving=True,
+    )
+    pieces = ("masks", "circles", "boxes", "queries")
+    features = (
+        "ground, crates and sprites carved by discs, boxes and sprites",
+        "what comes loose is a body of its own pixels",
+        "pixels, pieces, tiles and the cost of the last carve",
+    )
+    sliders = (Slider("tool", 0, len(TOOLS) - 1, 0, choices=TOOLS), Slider("radius", 3, 40, 14, "px"))
+    actions = (("mouse", "blast, dig"), ("wheel", "radius"), ("left right", "tool"))
+    broadphase = "tree"
+    head = HEAD
+    legend_at = (4, 198)
+    hides_pointer = False
+
+    def build(self):
+        """Ground, bedrock, walls beyond the picture's sides, and toys."""
+        self.sky, self.wall = load_backdrop("sky_dusk"), load_backdrop("lab_earth_wall")
+        world = self.add_world()
+        for shape, place in (
+            (Polygon.box(680, 40), (240, BOTTOM + 20)),
+            (Polygon.box(40, 900), (-21, -100)),
+            (Polygon.box(40, 900), (501, -100)),
+        ):
+            world.add_body(shape, position=place, kind="static")
+        self.prints, self.cast, self.tool = Prints(), Cast(load_atlas("lab")), Tool()
+        picture = load_backdrop("lab_earth")
+        mask = PixelMask.from_surface(picture, origin=(0, 0))
+        ground = world.add_body(mask, position=(0, TOP), kind="static", material=EARTH)
+        self.ground = self.prints.add(ground, picture).id
+        for sheet, name, x, y in MASKS:
+            atlas = load_atlas(sheet)
+            body = world.add_body(atlas.mask(name), position=(x, y), material=EARTH)
+            self.prints.add(body, atlas[name])
+        for name, radius, x, y in BALLS:
+            self.cast.add(world.add_body(Circle(radius), position=(x, y), material=IRON), name)
+        self.whole = self.left = self.solid()  # pixels before anything was carved, and now
+        self.removed = self.crumbs = self.carves = self.made = self.unequal = 0
+        self.fell = 0.0  # [px] that a piece has fallen since it came loose, the most of all
+        self.loose_at = {}  # body id -> height of its centre when it came loose [px]
+        self.pointed = (240, 100)
+        self.spent, self.usual, self.anew = 0.0, Typical(), 0  # [us] of the last carve; tiles of the ground made anew
+        self._take_tool()
+
+    def _take_tool(self):
+        self.tool.choose(TOOLS[int(self.values["tool"])], int(self.values["radius"]))
+        self.draggable = self.tool.name == "hand"
+
+    def change_slider(self, name, value):
+        """Another tool, or another size."""
+        super().change_slider(name, value)
+        self._take_tool()
+
+    def solid(self):
+        """Pixels of all masks, counted one by one."""
+        masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
+        return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
+
+    def update(self, inputs):
+        """Keys, the tool, one step."""
+        for name, back, forth in (("tool", "left", "right"), ("radius", "down", "up")):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way)
+        if inputs.wheel:
+            self.change_slider("radius", self.values["radius"] + inputs.wheel)
+        self.pointed = inputs.pointer
+        cut = self.tool.cut(inputs)
+        if cut is not None and inputs.pointer[1] > HEAD:
+            self._carve(*cut)
+            if self.tool.name == "blast":
+                self._blast(*self.pointed)
+        self.world.step()
+        self._follow()
+
+    def _carve(self, shape, pose):
+        """All masks in reach lose what the tool covers; what that cost is only shown, and no part of the state."""
+        x, y = self.pointed
+        tiles = self._tiles()
+        taken, spent = 0, 0.0
+        for body in sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id):
+            if body.id in self.prints.of:
+                removed, seconds = self._carve_one(body, shape, pose)
+                taken, spent = taken + removed, spent + seconds
+        if taken:
+            self.spent = spent * 1e6
+            self.usual.note(self.spent)
+            self.carves += 1
+            self.left = self.solid()
+            self.unequal += self.left + self.removed + self.crumbs != self.whole
+            now = self._tiles()
+            self.anew = sum(now.get(tile) != tiles.get(tile) for tile in now.keys() | tiles.keys())
+            self.particles.burst(x, y, min(10 + taken // 12, 90), DUST, (10, 110), (0.3, 0.9), gravity=200.0)
+
+    def _carve_one(self, body, shape, pose):
+        """(pixels taken, seconds) of one body."""
+        identity, place, (before,) = body.id, (*body.position, body.angle), body.shapes
+        parent = (self.prints.of[identity], before, place)
+        began = perf_counter()
+        carved = body.carve(shape, pose, crumb=CRUMB)
+        spent = perf_counter() - began
+        for piece in carved.fragments:
+            self.prints.add_piece(piece, parent)
+            self.loose_at[piece.id] = piece.center[1]
+        if identity not in self.world:
+            self.prints.forget(identity)
+            self.loose_at.pop(identity, None)
+        self.removed += carved.removed
+        self.crumbs += carved.crumbs
+        self.made += len(carved.fragments)
+        return carved.removed, spent if carved.removed else 0.0
+
+    def _tiles(self):
+        """{tile of the ground: ids of its parts}; those of a tile made anew are others."""
+        shapes = self.world.shapes
+        mine = shapes[(shapes["body"] == self.ground) & (shapes["role"] == PART)]
+        found = {}
+        for tile, identity in zip(mine["tile"].tolist(), mine["id"].tolist(), strict=True):
+            found.setdefault(tile, []).append(identity)
+        return found
+
+    def _blast(self, x, y):
+        """Whatever can move is thrown away from a blast, the nearer the faster."""
+        reach = BLAST_REACH * self.tool.radius
+        self.play("explosion", x, 0.5)
+        self.camera.shake(0.18 + self.tool.radius / 120)
+        self.particles.burst(x, y, 30, SPARKS, (30, 40 + 6 * self.tool.radius), (0.15, 0.5))
+        for body in self.world.overlap(Circle(reach), (x, y)):
+            if body.kind == "dynamic":
+                dx, dy = body.center[0] - x, body.center[1] - y
+                far = hypot(dx, dy)
+                if far > 0.0:
+                    gain = BLAST_SPEED * max(0.15, 1.0 - far / reach) * body.mass / far
+                    body.apply_impulse((gain * dx, gain * dy - 0.25 * gain * far))
+
+    def _follow(self):
+        """How far what came loose has fallen; and what knocks is heard."""
+        for identity, height in self.loose_at.items():
+            self.fell = max(self.fell, self.world.body(identity).center[1] - height)
+        hits = self.world.events.hits
+        loud = hits[hits["speed"] > KNOCK]
+        if len(loud):
+            first = loud[int(np.argmax(loud["normal_impulse"]))]
+            self.play("land", float(first["point_x"]), 0.35)
+
+    @property
+    def awake(self):
+        """Bodies that move."""
+        bodies = self.world.bodies
+        return int(np.count_nonzero(bodies["awake"] & (bodies["inverse_mass"] > 0.0)))
+
+    def draw(self, canvas, alpha):
+        """The sky, the wall behind what is gone, everything that has pixels, and the figures."""
+        canvas.surface.blit(self.sky, (0, 0))
+        camera = self.camera
+        left, top = camera.view(alpha)
+        canvas.surface.blit(self.wall, (-left, TOP - top))
+        canvas.surface.fill(INK, (0, BOTTOM - top, 480, 270 - BOTTOM + top + 8))
+        canvas.surface.fill(SLATE, (0, BOTTOM - top, 480, 1))
+        self.prints.draw(canvas, camera, self.world, alpha)
+        self.cast.draw(canvas, camera, self.world, alpha)
+        self.particles.draw(canvas, camera, alpha)
+        draw_head(canvas, "CARVING", "what is undermined falls, by its own pixels")
+        plate(canvas, PLATE)
+        x, y = PLATE[:2]
+        canvas.text(f"{self.tool.name}", x + 5, y + 4, GOLD)
+        canvas.text(f"{self.tool.radius} px" if self.tool.name != "hand" else "", x + 116, y + 4, GOLD, align="right")
+        shapes = self.world.shapes
+        rows = (
+            ("pixels carved", f"{self.removed:,}"),
+            ("in crumbs", f"{self.crumbs:,}"),
+            ("pieces", f"{self.made}"),
+            ("last carve", f"{self.spent:,.0f} us" if self.carves else "none yet"),
+            ("typical", f"{self.usual.value:,.0f} us" if self.carves else ""),
+            ("tiles made anew", f"{self.anew} of {len(self._tiles())}"),
+            ("parts", f"{int(np.count_nonzero(shapes['role'] == PART)):,}"),
+            ("awake", f"{self.awake} of {int(np.count_nonzero(self.world.bodies['inverse_mass'] > 0.0))}"),
+            ("pixels", f"{self.whole - self.removed - self.crumbs:,}"),
+        )
+        for number, (word, value) in enumerate(rows):
+            canvas.text(word, x + 5, y + 17 + number * 8, FOG, SMALL)
+            canvas.text(value, x + 116, y + 17 + number * 8, PAPER, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """The tool about the pointer."""
+        if self.tool.name == "hand":
+            return
+        lens = frame.lens(self.camera)
+        x, y = self.pointed
+        points = [lens.points(x + dx, y + dy) for dx, dy in self.tool.ring()]
+        pygame.draw.lines(frame.surface, INK, True, points, 3 * max(1, frame.scale - 1))
+        pygame.draw.lines(frame.surface, GOLD, True, points, max(1, frame.scale - 1))
+
+    def check(self):
+        """No pixel is lost, what was undermined fell, and all comes to rest."""
+        bodies = self.world.bodies
+        finite = all(np.isfinite(bodies[name]).all() for name in ("x", "y", "angle", "vx", "vy"))
+        inside = bool((bodies["y"][bodies["inverse_mass"] > 0.0] < BOTTOM).all())
+        return [
+            Goal(
+                "no pixel is lost: left, carved and crumbs are all there were",
+                60,
+                self.carves > 0 and self.unequal == 0 and self.left + self.removed + self.crumbs == self.whole,
+                f"{self.left} + {self.removed} + {self.crumbs} of {self.whole}, {self.unequal} carves differ",
+            ),
+            Goal("pieces came loose", 240, self.made >= 3, f"{self.made}"),
+            Goal("what was undermined fell", 400, self.fell > 30.0, f"{self.fell:.0f} px"),
+            Goal("everything is finite, and inside", 600, finite and inside, f"{len(bodies)} bodies"),
+            Goal("all sleep in the end", 600, self.awake == 0, f"{self.awake} awake"),
+        ]
+
+    def bot(self):
+        """Cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a sprite."""
+        return plan(self.frame)
+
+    def state(self):
+        """The tallies; the world holds the pixels."""
+        return (
+            self.frame,
+            *self.values.values(),
+            *(self.removed, self.crumbs, self.made, self.carves, self.left, self.unequal, self.fell),
+            *(self.tool.last or (0.0, 0.0)),
+            *(value for pair in sorted(self.loose_at.items()) for value in pair),
+        )

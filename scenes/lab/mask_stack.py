@@ -1,0 +1,284 @@
+"""The same sprites in five worlds, pushed by their box, hull, parts, outline and by every single pixel: what is felt?
+
+What to see: boxes and hulls hold the air beside a bracket or under an arm, so what is drawn hovers. Separate parts fit,
+but their inner edges are felt. The outline is as near as half a pixel, its seams are never felt and round sprites stay
+round. With every pixel's edge kept a disc has fifty corners to roll over. Under each pile stands what it costs.
+"""
+
+import numpy as np
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, YELLOW, faded
+from game.drawing.rotated import Cast
+from game.drawing.sprites import load_atlas
+from game.drawing.typical import Typical
+from game.input.inputs import InputFrame
+from game.overlays.mask_edges import mask_edges
+from game.overlays.outlines import draw_lines, draw_outline
+from game.scene import Goal, Scene, Slider
+from physics import Effects, PixelMask, Polygon, debug, fit, measure
+from physics.settings import SMOOTH
+from physics.tables.shape import PART, WHOLE
+from scenes.lab.piles import step_seconds
+from scenes.lab.yard import HEAD, Yard, plate
+
+WAYS = ("box", "hull", "parts", "outline", "exact")
+COLORS = {"box": RED, "hull": ORANGE, "parts": YELLOW, "outline": GREEN, "exact": SKY}
+PUSHED_AS_MASKS = ("outline", "exact")
+SPRITES = {
+    "crates": ("lab", "crate_24_0"),
+    "brackets": ("lab", "bracket_teal"),
+    "stars": ("lab", "star_gold"),
+    "discs": ("lab", "disc_large"),
+    "heroes": ("hero", "idle_0"),
+}
+CHOICES = ("mixed", *SPRITES)
+WIDTH, VIEW_TOP, FLOOR = 96, 16, 190  # [px] of a column; [canvas px] the top of a view and of the floor in it
+TOWER, BESIDE, NOTCH = 28.0, 70.0, 33.0  # [px] middles of piles in a column, and of the bracket's notch
+HIGH = 6.0  # [px] above a tower from where somebody drops into the notch
+NUDGE = 30.0  # [px/s]
+WARM = 30  # steps after which times are noted, and sinking and swaying count
+WINDOW = 60  # steps over which the sway is measured
+SLEPT_BY = 480
+FALLEN = 8.0  # [px] that a pile's top has sunk when it has fallen
+
+
+class MaskStack(Scene):
+    """One world per way to be pushed, with the same sprites on the same floor of pixels."""
+
+    name = "lab/mask_stack"
+    title = "Mask stack"
+    about = (
+        "The same sprites as box, hull, parts, outline and exact pixels: how they lie, sink, sway and what they cost."
+    )
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
+    pieces = ("masks", "boxes", "circles")
+    features = (
+        "sprites pushed by their outlines, beside four other ways",
+        "corners, pixels too many and too few",
+        "sinking, swaying, sleep and the cost of a step, measured live",
+    )
+    sliders = (Slider("sprites", 0, len(CHOICES) - 1, 0, choices=CHOICES), Slider("high", 2, 5, 3))
+    actions = (("Space", "nudge"), ("left right", "sprites"), ("up down", "high"))
+    draggable = True
+    head = HEAD
+    legend_at = (4, 20)
+
+    def build(self):
+        """The yard, then five worlds."""
+        self.yard = Yard(270)
+        self.cameras = [
+            Camera((number * WIDTH, VIEW_TOP, WIDTH, FLOOR + 24 - VIEW_TOP), y=VIEW_TOP) for number in range(5)
+        ]
+        self.fill()
+
+    def fill(self):
+        """Five new worlds with the same sprites."""
+        self.worlds, self.casts, self.tops, self.figures = [], [], [], []
+        self.since = 0
+        self.nudged = 0
+        self.starts = dict.fromkeys(WAYS, 0.0)  # height of the top when it was laid down [px]
+        self.sinks, self.sways = dict.fromkeys(WAYS, 0.0), dict.fromkeys(WAYS, 0.0)
+        self.track = {way: [] for way in WAYS}
+        self.asleep = dict.fromkeys(WAYS, False)
+        self.changed = dict.fromkeys(WAYS, 0)  # the step since which it is so
+        self.cost = {way: Typical() for way in WAYS}  # [us] of a step
+        for way in WAYS:
+            self._lay(way)
+
+    def _lay(self, way):
+        lab = load_atlas("lab")
+        pictures = {"tray": lab["tray"]}
+        world, cast = self.add_world(), Cast(pictures)
+        floor = world.add_body(PixelMask.from_surface(lab["tray"]), position=(WIDTH / 2, FLOOR + 2.0), kind="static")
+        for x in (-20.0, WIDTH + 18.0):  # nothing leaves its column
+            world.add_body(Polygon.box(40, 2000), position=(x, 0.0), kind="static")
+        cast.add(floor, "tray")
+        totals, top = np.zeros(3), None
+        for kind, x, y in self._places():
+            sheet, name = SPRITES[kind]
+            pictures[name] = load_atlas(sheet)[name]
+            mask, shapes = shapes_of(pictures[name], way)
+            body = world.add_body(*(shapes if way not in PUSHED_AS_MASKS else (mask,)), position=(x, y))
+            cast.add(body, name)
+            fitted = measure(mask, shapes)
+            totals += fitted.corners, fitted.over, fitted.missed
+            if x == TOWER:
+                top, self.starts[way] = body, y
+        self.casts.append(cast)
+        self.tops.append(top)
+        self.figures.append(tuple(totals.tolist()))
+
+    def _places(self):
+        """(kind, x, y) of each sprite: its box touches that of the one below."""
+        kinds = list(self._kinds())
+        heights, found = {}, []
+        for kind, x in kinds:
+            sheet, name = SPRITES[kind]
+            _, top, _, bottom = bounds_of(load_atlas(sheet).mask(name))
+            below = heights[TOWER] - HIGH if x == NOTCH else heights.get(x, FLOOR + 0.0)
+            found.append((kind, x, below - bottom))
+            heights[x] = below - bottom + top
+        return found
+
+    def _kinds(self):
+        """(kind, middle of its pile) from below."""
+        high, choice = int(self.values["high"]), CHOICES[int(self.values["sprites"])]
+        if choice != "mixed":
+            return ((choice, TOWER),) * high
+        tower = (*(("crates", TOWER),) * (high - 1), ("brackets", TOWER), ("heroes", NOTCH))
+        return (*tower, ("discs", BESIDE), ("stars", BESIDE))
+
+    def change_slider(self, name, value):
+        """Other piles are laid at once."""
+        super().change_slider(name, value)
+        self.fill()
+
+    def update(self, inputs):
+        """Keys, five steps, five measurements."""
+        for name, forth, back in (("sprites", "right", "left"), ("high", "up", "down")):
+            way = inputs.pressed(forth) - inputs.pressed(back)
+            if way:
+                self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("fire"):
+            self.nudged += 1
+            self.play("hit", None, 0.5)
+            for top in self.tops:
+                top.wake()
+                top.apply_impulse((NUDGE * top.mass, 0.0))
+        self.since += 1
+        for way, world, top in zip(WAYS, self.worlds, self.tops, strict=True):
+            world.step()
+            self._measure(way, world, top)
+
+    def _measure(self, way, world, top):
+        x, y = top.position
+        self.sinks[way] = y - self.starts[way]
+        self.track[way] = [*self.track[way][-WINDOW + 1 :], x]
+        self.sways[way] = max(self.track[way]) - min(self.track[way])
+        bodies = world.bodies
+        asleep = not bool(bodies["awake"][bodies["inverse_mass"] > 0.0].any())
+        if asleep != self.asleep[way]:
+            self.asleep[way], self.changed[way] = asleep, self.since
+
+    def observe(self):
+        """What each world's step took, once it is warm."""
+        if self.since > WARM:
+            for way, world in zip(WAYS, self.worlds, strict=True):
+                self.cost[way].note(step_seconds(world) * 1e6)
+
+    def stands_now(self, way):
+        """True while the top of the pile is about where it was laid."""
+        return self.sinks[way] < FALLEN
+
+    @property
+    def offer(self):
+        """When no pile is left to be nudged."""
+        return "" if any(self.stands_now(way) for way in WAYS) else "piles them up again"
+
+    def views(self):
+        """One picture per way."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """The piles, and under each its figures."""
+        self.yard.draw(canvas, "MASK STACK", "who hovers, who fits, and what does fitting cost?")
+        for number, (way, cast) in enumerate(zip(WAYS, self.casts, strict=True)):
+            cast.draw(canvas, self.cameras[number], self.worlds[number], alpha)
+            self._draw_figures(canvas, number, way)
+        for number in range(1, 5):
+            x = number * WIDTH - 1
+            pygame.draw.line(canvas.surface, faded(PAPER, 0.75), (x, HEAD), (x, 269))
+
+    def _draw_figures(self, canvas, number, way):
+        box = pygame.Rect(number * WIDTH + 1, FLOOR + 14, WIDTH - 3, 270 - FLOOR - 15)
+        plate(canvas, box)
+        canvas.surface.fill(COLORS[way], (box.x, box.y, box.width, 2))
+        canvas.text(way, box.x + 3, box.y + 5, COLORS[way])
+        asleep, seconds = self.asleep[way], (self.since - self.changed[way]) / 60.0
+        canvas.text(
+            f"{'sleeps' if asleep else 'awake'} {seconds:.0f} s",
+            *(box.right - 3, box.y + 7, GREEN if asleep else GOLD, SMALL),
+            align="right",
+        )
+        corners, over, missed = self.figures[number]
+        cost = self.cost[way]
+        rows = (
+            ("corners", f"{corners:.0f}"),
+            ("air held", f"{over:,.0f} px"),
+            ("missed", f"{missed:,.0f} px"),
+            ("sinks", f"{self.sinks[way]:.2f} px"),
+            ("sways", f"{self.sways[way]:.2f} px"),
+            ("a step", f"{cost.value:,.0f} us" if cost.last else "warming up"),
+        )
+        for row, (word, value) in enumerate(rows):
+            canvas.text(word, box.x + 3, box.y + 16 + row * 8, FOG, SMALL)
+            canvas.text(value, box.right - 3, box.y + 16 + row * 8, PAPER, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """Thin lines: what is felt of each sprite."""
+        width = max(1, frame.scale - 2)
+        for way, world, camera in zip(WAYS, self.worlds, self.cameras, strict=True):
+            lens = frame.lens(camera)
+            frame.surface.set_clip(lens.clip)
+            moving = world.bodies["inverse_mass"][world.shapes["body_row"]] > 0.0
+            rows = np.flatnonzero(moving & (world.shapes["role"] == WHOLE))
+            for outline in debug.outlines(world, rows.tolist()):
+                draw_outline(frame.surface, lens, outline, COLORS[way], width, frame.scale)
+            edges = mask_edges(world, np.flatnonzero(moving & (world.shapes["role"] == PART)), lens.scale)
+            draw_lines(frame.surface, lens, edges.outer, COLORS[way], width)
+            frame.surface.set_clip(None)
+
+    def check(self):
+        """Outlines stand and sleep; boxes and hulls hold air that no outline holds."""
+        air = dict(zip(WAYS, (each[1] for each in self.figures), strict=True))
+        corners = dict(zip(WAYS, (each[0] for each in self.figures), strict=True))
+        finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
+        return [
+            Goal("the outlines stand", SLEPT_BY, self.stands_now("outline"), f"sinks {self.sinks['outline']:.2f} px"),
+            Goal("the outlines sleep", SLEPT_BY, self.asleep["outline"], f"since step {self.changed['outline']}"),
+            Goal(
+                "an outline holds less air than hull and box",
+                60,
+                air["outline"] < 0.5 * air["hull"] and air["hull"] < air["box"],
+                ", ".join(f"{way} {air[way]:.0f} px" for way in WAYS),
+            ),
+            Goal(
+                "and has fewer corners than the pixels",
+                60,
+                corners["outline"] < corners["exact"],
+                f"{corners['outline']:.0f} and {corners['exact']:.0f}",
+            ),
+            Goal("everything is finite", 600, finite),
+        ]
+
+    def bot(self):
+        """Watch them come to rest, nudge once, watch again."""
+        return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
+
+    def state(self):
+        """The measurements; the worlds hold the rest."""
+        measured = (self.sinks, self.sways, self.asleep, self.changed)
+        return (
+            self.frame,
+            self.since,
+            self.nudged,
+            *self.values.values(),
+            *(row[way] for row in measured for way in WAYS),
+        )
+
+
+def shapes_of(image, way):
+    """(the mask of a sprite, the convex shapes by which it is pushed)."""
+    mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
+    if way == "box":
+        left, top, right, bottom = bounds_of(mask)
+        return mask, (Polygon.box(right - left, bottom - top, ((left + right) / 2, (top + bottom) / 2)),)
+    return mask, mask.outline if way in PUSHED_AS_MASKS else fit(mask, way)
+
+
+def bounds_of(mask):
+    """(left, top, right, bottom) [px] of a sprite's pixels about its middle."""
+    return mask.bounds or (0.0, 0.0, 0.0, 0.0)

@@ -1,0 +1,291 @@
+"""Bullets and spinning swords fly at walls of one pixel, swept and not: which of them come through?
+
+What to see: a step moves a shot by sixty pixels, a wall is one. Tested only where they stand, most shots are on one
+side now and on the other then. Swept to the time of impact, none passes: each stops where its own outline first meets
+the wall's, turning included. The white mark is that place, the number the share of the step at which it was reached.
+"""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL, TEXT
+from game.drawing.colors import FOG, GOLD, GREEN, NIGHT, PAPER, RED, SLATE, WHITE, faded
+from game.drawing.rotated import RotatedPicture
+from game.drawing.sprites import load_atlas, load_backdrop
+from game.overlays.mask_edges import mask_edges
+from game.overlays.outlines import draw_lines, moved
+from game.scene import Goal, Scene, Slider
+from physics import Effects, PixelMask, debug
+from scenes.lab.thin_walls import SHAPES, is_beyond, wall_of
+from scenes.lab.yard import HEAD, draw_head, plate
+
+WAYS = ("off", "toi")
+TITLES = {"off": "continuous off", "toi": "time of impact"}
+COLORS = {"off": RED, "toi": GREEN}
+SHOTS = ("both", "bullets", "swords")
+PICTURES = {"bullets": "shot", "swords": "sword"}
+LANE_TOP, LANE_HEIGHT, LANE_WIDTH = 30, 76, 238  # [canvas px]
+WALL_X, GUN_X = 150.0, 16.0  # [px] in a lane
+MIDDLE = 38.0  # [px] of a lane's height
+ASIDE = 9.0  # [px] off the middle: whatever flies there meets the wall
+SPIN = (20.0, 50.0)  # [rad/s]
+EVERY = 9  # steps between two shots of a lane
+END_X = 226.0  # [px]
+GLOW_STEPS = 30  # steps that a mark of an impact stays
+TRAIL_STEPS, LABEL_STEPS = 12, 14
+COUNTS = 40  # [canvas px] on the right of a lane, for its figures
+SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
+WORDS = "white: the sprite's outline where it met the wall; gold: at which share of the step; dim: where it was going"
+
+
+class MaskSweep(Scene):
+    """Two worlds with three lanes each: a straight wall, an aslant one, a ring."""
+
+    name = "lab/mask_sweep"
+    title = "Mask sweep"
+    about = "Bullets and spinning swords at walls of one pixel, with and without continuous collision."
+    effects = Effects(response=True, rotation=True, stacking=True, continuous=True)
+    pieces = ("masks", "boxes", "circles")
+    features = (
+        "time of impact of sprites, their turning included",
+        "walls one pixel thin: straight, aslant, a ring",
+        "what passes is counted, with and without",
+    )
+    sliders = (Slider("speed", 300, 9000, 3600, "px/s", step=100), Slider("shots", 0, len(SHOTS) - 1, 0, choices=SHOTS))
+    actions = (("left right", "speed"), ("Space", "bullets, swords"))
+    broadphase = "sweep"
+    head = HEAD
+    legend_at = (4, 218)
+
+    def build(self):
+        """Two worlds, three walls in each."""
+        self.sky, atlas = load_backdrop("sky_dusk"), load_atlas("lab")
+        self.masks = {kind: PixelMask.from_surface(atlas[name]) for kind, name in PICTURES.items()}
+        self.pictures = {kind: RotatedPicture(atlas[name]) for kind, name in PICTURES.items()}
+        self.gun = pygame.transform.rotate(load_atlas("planes")["player"], -90)
+        self.walls = {shape: wall_of(shape) for shape in SHAPES}
+        self.wall_pictures = {shape: picture_of(wall) for shape, wall in self.walls.items()}
+        self.cameras, self.shots, self.spent = [], [], []
+        self.trails, self.marks = [], []  # only seen: [way, kind, pose, age], and what _mark keeps
+        keys = [(way, shape) for way in WAYS for shape in SHAPES]
+        self.fired, self.hit, self.passed = (dict.fromkeys(keys, 0) for _ in range(3))
+        for column in range(len(WAYS)):
+            world = self.add_world()
+            left = 1 + column * (LANE_WIDTH + 2)
+            self.cameras.append(Camera((left, LANE_TOP, LANE_WIDTH, 3 * LANE_HEIGHT)))
+            for lane, shape in enumerate(SHAPES):
+                world.add_body(self.walls[shape], position=(WALL_X, middle(lane)), kind="static")
+
+    def update(self, inputs):
+        """Keys, guns, two steps, the counts."""
+        way = inputs.pressed("right") - inputs.pressed("left")
+        if way:
+            self.change_slider("speed", self.values["speed"] + 300 * way)
+        if inputs.pressed("fire"):
+            self.change_slider("shots", (int(self.values["shots"]) + 1) % len(SHOTS))
+        for _, _, body in self.spent:  # seen for one more step
+            body.remove()
+        self.spent = []
+        for lane in range(len(SHAPES)):
+            if self.frame % EVERY == 3 * lane:
+                self._fire(lane)
+        for world in self.worlds:
+            world.step()
+        for seen in (self.trails, self.marks):
+            for each in seen:
+                each[-1] += 1
+        self.trails = [each for each in self.trails if each[-1] < TRAIL_STEPS]
+        self.marks = [each for each in self.marks if each[-1] < GLOW_STEPS]
+        for column in range(len(WAYS)):
+            self._count(column)
+
+    def _fire(self, lane):
+        """The same shot in both worlds, from anywhere within a step's way, so that steps fall anywhere."""
+        speed = float(self.values["speed"])
+        chosen = SHOTS[int(self.values["shots"])]
+        kind = self.random.choice(SHOTS[1:]) if chosen == "both" else chosen
+        x = GUN_X - self.random.uniform(0.0, speed / 60.0)
+        y, angle, spin = self.random.uniform(-ASIDE, ASIDE), 0.0, 0.0
+        if kind == "swords":
+            angle, spin = self.random.uniform(0.0, 2 * pi), self.random.choice((-1, 1)) * self.random.uniform(*SPIN)
+        for column, way in enumerate(WAYS):
+            body = self.worlds[column].add_body(
+                self.masks[kind],
+                position=(x, middle(lane) + y),
+                velocity=(speed, 0.0),
+                angle=angle,
+                angular_velocity=spin,
+                continuous=way,
+            )
+            self.shots.append((column, lane, kind, body))
+            self.fired[way, SHAPES[lane]] += 1
+
+    def _count(self, column):
+        """Who met a wall in this step, and who is beyond it without."""
+        world, way = self.worlds[column], WAYS[column]
+        begun = world.events.begin
+        met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
+        fractions = {int(row["body"]): row for row in debug.impact_ghosts(world)}
+        left = []
+        for shot in self.shots:
+            of, lane, kind, body = shot
+            if of != column:
+                left.append(shot)
+                continue
+            x, y = body.position
+            self.trails.append([way, kind, (x, y, body.angle), 0])
+            beyond = is_beyond(SHAPES[lane], x - WALL_X, y - middle(lane))
+            if body.id in met and not beyond:
+                self.hit[way, SHAPES[lane]] += 1
+                self._mark(column, body, fractions.get(body.id))
+                self.spent.append((column, kind, body))
+            elif x > END_X or body.id in met:
+                self.passed[way, SHAPES[lane]] += 1
+                self.spent.append((column, kind, body))
+            else:
+                left.append(shot)
+        self.shots = left
+
+    def _mark(self, column, body, ghost):
+        """Where a shot met a wall; `ghost`: where it would have been, as debug.impact_ghosts tells, or None."""
+        world = self.worlds[column]
+        rows = np.flatnonzero(world.shapes["body"] == body.id)
+        lines = mask_edges(world, rows, 3.0).outer
+        x, y = body.position
+        aim = None
+        if ghost is not None:
+            pose = (float(ghost["x"]), float(ghost["y"]), float(ghost["angle"]))
+            aim = moved(("lines", lines.reshape(-1, 2)), (x, y, body.angle), pose)[1].reshape(-1, 4)
+        fraction = None if ghost is None else float(ghost["fraction"])
+        self.marks.append([column, lines, aim, (x, y), fraction, 0])
+        self.play("hit", self.cameras[column].viewport.x + x, 0.2)
+        self.particles.burst(
+            self.cameras[column].viewport.x + x, LANE_TOP + y, 8, SPARKS, (20, 110), (0.1, 0.4), pi, 2.2
+        )
+
+    def views(self):
+        """Both worlds."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """Six lanes with what flies in them, and the counts."""
+        canvas.surface.fill(NIGHT)
+        step = float(self.values["speed"]) / 60.0
+        draw_head(canvas, "MASK SWEEP", f"{step:.0f} px a step at walls of one pixel: who comes through?")
+        for column, way in enumerate(WAYS):
+            camera = self.cameras[column]
+            canvas.surface.set_clip(camera.viewport)
+            for lane in range(len(SHAPES)):
+                self._draw_lane(canvas.surface, camera.viewport, lane)
+            self._draw_shots(canvas.surface, column)
+            canvas.surface.set_clip(None)
+            self._draw_counts(canvas, camera.viewport, way)
+        canvas.text(WORDS, 240, 261, FOG, SMALL, align="center")
+        self.particles.draw(canvas, self.camera, alpha)
+
+    def _draw_lane(self, surface, view, lane):
+        rect = pygame.Rect(view.x, view.y + lane * LANE_HEIGHT, LANE_WIDTH, LANE_HEIGHT - 3)
+        surface.blit(self.sky, rect, (60, 20 + 40 * lane, *rect.size))
+        pygame.draw.rect(surface, SLATE, rect, 1)
+        gun_width, gun_height = self.gun.get_size()
+        surface.blit(self.gun, (view.x + GUN_X - gun_width / 2, view.y + middle(lane) - gun_height / 2))
+        picture = self.wall_pictures[SHAPES[lane]]
+        width, height = picture.get_size()
+        surface.blit(picture, (view.x + WALL_X - width / 2, view.y + middle(lane) - height / 2))
+
+    def _draw_shots(self, surface, column):
+        view = self.cameras[column].viewport
+        for way, kind, (x, y, angle), age in self.trails:
+            if way == WAYS[column] and age > 0:
+                dx, dy = (8.0, 0.0) if kind == "bullets" else (15.0 * cos(angle), 15.0 * sin(angle))
+                color = faded(COLORS[way], 0.35 + 0.6 * age / TRAIL_STEPS)
+                at_x, at_y = view.x + x, view.y + y
+                pygame.draw.line(surface, color, (at_x - dx, at_y - dy), (at_x + dx, at_y + dy))
+        stopped = [(kind, body) for of, kind, body in self.spent if of == column]
+        for kind, body in [*stopped, *((kind, body) for of, _, kind, body in self.shots if of == column)]:
+            (x, y), angle = body.position, body.angle
+            self.pictures[kind].draw(surface, view.x + x, view.y + y, angle)
+
+    def _draw_counts(self, canvas, view, way):
+        canvas.text(TITLES[way], view.x + 3, 19, COLORS[way])
+        passed, fired = (sum(each[way, shape] for shape in SHAPES) for each in (self.passed, self.fired))
+        canvas.text(f"{passed} of {fired} pass", view.right - 3, 19, PAPER, align="right")
+        for lane, shape in enumerate(SHAPES):
+            y = view.y + lane * LANE_HEIGHT + 3
+            count = self.passed[way, shape]
+            plate(canvas, (view.right - COUNTS, y - 1, COUNTS - 3, 37))
+            plate(canvas, (view.x + 2, y - 1, 36, 9))
+            canvas.text(f"{count}", view.right - 4, y, RED if count else GREEN, TEXT, 2, align="right", outline=True)
+            canvas.text("passed", view.right - 4, y + 20, FOG, SMALL, align="right")
+            canvas.text(f"{self.hit[way, shape]} hit", view.right - 4, y + 28, PAPER, SMALL, align="right")
+            canvas.text(shape, view.x + 4, y, FOG, SMALL)
+
+    def draw_on_frame(self, frame):
+        """Each impact: white where it was, dim where the shot was going; the share of the step beside it."""
+        for column, lines, aim, (x, y), fraction, age in self.marks:
+            lens = frame.lens(self.cameras[column])
+            clip = lens.clip.copy()
+            clip.width -= COUNTS * frame.scale
+            frame.surface.set_clip(clip)
+            fading = age / GLOW_STEPS
+            if aim is not None:
+                draw_lines(frame.surface, lens, aim, faded(COLORS[WAYS[column]], 0.4 + 0.6 * fading))
+            draw_lines(frame.surface, lens, lines, faded(WHITE, fading), max(1, frame.scale - 1) if age < 6 else 1)
+            frame.surface.set_clip(None)
+            if fraction is not None and age < LABEL_STEPS:
+                at = lens.points(x - 18.0, y - 14.0)
+                frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
+
+    def check(self):
+        """None passes where it is swept; without many do."""
+        passed, fired, hit = self.passed, self.fired, self.hit
+        flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
+        told = all(
+            sum(fired[way, shape] - hit[way, shape] - passed[way, shape] for shape in SHAPES) == flying[way]
+            for way in WAYS
+        )
+        goals = [
+            Goal(
+                f"none passes the wall, {shape}",
+                300,
+                passed["toi", shape] == 0 and hit["toi", shape] > 10,
+                f"{passed['toi', shape]} of {fired['toi', shape]} pass",
+            )
+            for shape in SHAPES
+        ]
+        return [
+            *goals,
+            Goal(
+                "without it some pass each wall",
+                300,
+                all(passed["off", shape] > 0 for shape in SHAPES),
+                ", ".join(f"{passed['off', shape]} of {fired['off', shape]}" for shape in SHAPES),
+            ),
+            Goal("every shot has passed, hit, or flies", 300, told, f"{flying}"),
+        ]
+
+    def bot(self):
+        """Watch; later only swords, faster."""
+        return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
+
+    def state(self):
+        """The counts; the worlds hold the shots."""
+        counts = (self.fired, self.hit, self.passed)
+        return (self.frame, *self.values.values(), len(self.shots), *(v for count in counts for v in count.values()))
+
+
+def middle(lane):
+    """The height of a lane's middle [px] in its world."""
+    return lane * LANE_HEIGHT + MIDDLE - 1.0
+
+
+def picture_of(wall):
+    """A wall as it is: its pixels."""
+    solid = wall.solid
+    image = pygame.Surface(solid.shape[::-1], pygame.SRCALPHA, 32)
+    for y, x in np.argwhere(solid).tolist():
+        image.set_at((x, y), (*PAPER, 255))
+    return image

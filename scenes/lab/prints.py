@@ -1,0 +1,115 @@
+"""Pictures of masks that are carved: each is drawn from its own pixels and from no others, cut out of one print.
+
+A print is the picture that a mask had when it was whole. A piece that comes loose goes on showing its part of it.
+"""
+
+from functools import lru_cache
+from math import cos, pi, sin
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import whole
+
+ANGLES = 128  # pictures of a full turn
+KEPT = 300  # pictures of pieces, each at all its angles
+EDGE = (24, 18, 30)  # the new edge of what was cut
+
+
+class Print(NamedTuple):
+    """`image`: of the whole; `left`, `top`: the place in it [px] where the mask's raster begins."""
+
+    image: pygame.Surface
+    left: int
+    top: int
+
+
+class Prints:
+    """`of`: body id -> Print. What is drawn of it is kept as long as the body's mask is the same."""
+
+    def __init__(self):
+        self.of = {}
+        self.kept = {}  # body id -> (mask, Piece)
+
+    def add(self, body, image):
+        """A body whose mask is all of a picture. Returns the body."""
+        self.of[body.id] = Print(image, 0, 0)
+        return body
+
+    def add_piece(self, piece, parent):
+        """A body that has come loose of another, and has not moved since. parent: (Print, mask, pose) it had."""
+        (image, left, top), mask, (x, y, angle) = parent
+        (own,) = piece.shapes
+        dx, dy = piece.position[0] - x, piece.position[1] - y
+        c, s = cos(angle), sin(angle)
+        u, v = c * dx + s * dy, c * dy - s * dx
+        shift = (round(u + mask.origin[0] - own.origin[0]), round(v + mask.origin[1] - own.origin[1]))
+        self.of[piece.id] = Print(image, left + shift[0], top + shift[1])
+
+    def forget(self, identity):
+        """A body that is gone."""
+        self.of.pop(identity, None)
+        self.kept.pop(identity, None)
+
+    def draw(self, canvas, camera, world, alpha):
+        """All bodies that have a print, between the last two steps."""
+        bodies = world.bodies
+        rows = world.rows(np.array(sorted(self.of), np.int64))
+        x, y, angle = (
+            (bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha)[rows]
+            for name in ("x", "y", "angle")
+        )
+        x, y = camera.to_canvas(x, y, alpha)
+        columns = (bodies["id"][rows].tolist(), x.tolist(), y.tolist(), angle.tolist())
+        for identity, *pose in zip(*columns, strict=True):
+            self._draw_one(canvas.surface, world.body(identity), *pose)
+
+    def _draw_one(self, surface, body, x, y, angle):
+        (mask,) = body.shapes
+        kept = self.kept.get(body.id)
+        if kept is None or kept[0] is not mask:
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            kept = self.kept[body.id] = (mask, Piece(cut_out(self.of[body.id], mask.solid)))
+        image = kept[1].at(angle)
+        # The picture's middle, seen from the body's origin.
+        u, v = mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1]
+        c, s = cos(angle), sin(angle)
+        width, height = image.get_size()
+        surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
+
+
+class Piece:
+    """One picture at any angle."""
+
+    def __init__(self, image):
+        self.image = image
+        self.turned = lru_cache(maxsize=ANGLES)(self._turned)
+
+    def __deepcopy__(self, memo):
+        """A copy of a scene draws with the same pictures."""
+        return self
+
+    def at(self, angle):
+        """The picture turned clockwise by the nearest angle kept [rad]."""
+        return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
+
+    def _turned(self, number):
+        return self.image if number == 0 else pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
+
+
+def cut_out(part, solid):
+    """The solid pixels of a print, dark along the edges where something is gone."""
+    height, width = solid.shape
+    out = pygame.Surface((width, height), pygame.SRCALPHA, 32)
+    out.blit(part.image, (0, 0), (part.left, part.top, width, height))
+    alpha = pygame.surfarray.pixels_alpha(out)
+    gone = np.pad((alpha > 0).T & ~solid, 1)
+    beside = (gone[:-2, 1:-1] | gone[2:, 1:-1] | gone[1:-1, :-2] | gone[1:-1, 2:]) & solid
+    alpha[:] = np.where(solid.T, 255, 0)
+    del alpha  # unlocks the surface
+    pixels = pygame.surfarray.pixels3d(out)
+    pixels[beside.T] = EDGE
+    del pixels
+    return out

@@ -1,0 +1,66 @@
+"""What lab/carving digs with: round, square or star-shaped, as large as the player wants."""
+
+from math import cos, hypot, pi, sin
+
+from game.drawing.sprites import load_atlas
+from physics import Capsule, Circle, PixelMask, Polygon
+
+TOOLS = ("blast", "dig", "box", "sprite", "hand")
+STAMP_EVERY = 0.5  # radii that the pointer moves between two stamps of a box or sprite
+STAR = 12.0  # [px] from the middle of the sprite to its points
+
+
+class Tool:
+    """`name`: one of TOOLS; `radius` [px]. shape_at() says what is cut while the pointer is held."""
+
+    def __init__(self):
+        self.name, self.radius = TOOLS[0], 0
+        self.last = None  # where it cut last, while the pointer stays down
+        self.stamp: Circle | Polygon | PixelMask = Circle(1.0)
+        self.reach = ((0.0, 0.0), (0.0, 0.0))  # a box that holds what was cut last
+
+    def choose(self, name, radius):
+        """Another tool, or another size of it."""
+        if (name, radius) != (self.name, self.radius):
+            self.name, self.radius = name, radius
+            self.last, self.stamp = None, self._make()
+
+    def _make(self):
+        if self.name == "box":
+            return Polygon.box(2.0 * self.radius, 2.0 * self.radius)
+        if self.name == "sprite":
+            whole = PixelMask.from_surface(load_atlas("lab")["star_gold"])
+            return whole.scaled(self.radius / STAR)
+        return Circle(self.radius)
+
+    def cut(self, inputs):
+        """(shape, pose) to carve in this step, or None. A blast comes once a press; digging follows the pointer."""
+        if not inputs.pointer_down:
+            self.last = None
+            return None
+        now = (float(inputs.pointer[0]), float(inputs.pointer[1]))
+        before = self.last or now
+        fresh, far = self.last is None, hypot(now[0] - before[0], now[1] - before[1])
+        if self.name == "hand" or (self.name == "blast" and not fresh):
+            return None
+        if not fresh and far < (1.0 if self.name == "dig" else STAMP_EVERY * self.radius):
+            return None
+        self.last = now
+        reach = 1.5 * self.radius
+        self.reach = (
+            (min(before[0], now[0]) - reach, min(before[1], now[1]) - reach),
+            (max(before[0], now[0]) + reach, max(before[1], now[1]) + reach),
+        )
+        if self.name == "dig" and far > 0.0:  # all that the pointer has passed over
+            return Capsule(before, now, self.radius), (0.0, 0.0)
+        return self.stamp, now
+
+    def ring(self):
+        """Points around it, its middle at (0, 0) [px]."""
+        if isinstance(self.stamp, Polygon):
+            return list(self.stamp.points)
+        angles = [2.0 * pi * k / 40 for k in range(40)]
+        if self.name != "sprite":
+            return [(self.radius * cos(a), self.radius * sin(a)) for a in angles]
+        points = [(pi / 5 * k - pi / 2, self.radius * (0.52 if k % 2 else 1.0)) for k in range(10)]
+        return [(far * cos(a), far * sin(a)) for a, far in points]

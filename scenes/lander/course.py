@@ -1,0 +1,131 @@
+"""The course: three sites as three acts, what a landing is, and how a game ends.
+
+`scene.result` is set once, at the very end; the world goes on behind it.
+"""
+
+from game.drawing.number_text import count_text
+from game.scene import Result
+from scenes.lander.feel import FUEL, HULL, REARM, REFUEL, REPAIR, SETTLED, SHELLS, STRANDED, steps
+
+FORGOTTEN = steps(0.6)  # steps in the air after which a knock belongs to no landing
+TITLE = steps(4.2)  # steps that the name of an act is shown
+CHEER = steps(3.2)  # steps that a landing's points are shown
+FIRST_BONUS, NEXT_BONUS, SHOWN = steps(2.2), steps(0.5), steps(2.0)  # after the last landing; between two; at the end
+FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost"
+
+
+class Course:
+    """`act` 0..2 chooses the site; `mode` is one of the five above, `since` counts its steps; `rest` those at rest."""
+
+    def __init__(self, moon):
+        self.moon = moon
+        self.act, self.mode, self.since, self.rest, self.stranded = 0, FLYING, 0, 0, 0
+        self.touchdown = 0.0  # [px/s] the fastest that it came upon something since it was in the air last
+        self.airborne = 0  # [steps] that it touches nothing
+        self.clock = 0  # [steps] of the run, until the last landing
+        self.counted = []  # (what for, points) of the last landing, or of the end so far
+
+    @property
+    def site(self):
+        """The Pad to land on."""
+        return self.moon.pads[self.act + 1]
+
+    @property
+    def over(self):
+        """True when there is nothing left to fly for."""
+        return self.mode in (CLEARED, WON, LOST)
+
+    def _enter(self, mode):
+        self.mode, self.since = mode, 0
+
+    def step(self, scene):
+        """After the world's step."""
+        self.since += 1
+        self.clock += self.mode in (FLYING, LANDED)
+        if self.mode == LANDED and self.since >= CHEER:
+            self.act += 1
+            self._enter(FLYING)
+            scene.spectacle.act_begins()
+        elif self.mode == CLEARED:
+            self._count_bonuses(scene)
+        if self.mode in (FLYING, LANDED):
+            self._watch(scene)
+
+    def touched(self, speed):
+        """The ship came upon something at a speed [px/s]."""
+        self.touchdown = max(self.touchdown, speed)
+
+    def _watch(self, scene):
+        """Has it landed, and where; is it stuck."""
+        ship = scene.ship
+        self.airborne = 0 if ship.touching else self.airborne + 1
+        if self.airborne == FORGOTTEN:
+            self.touchdown = 0.0
+        pad = scene.pad_below() if ship.quiet else None
+        self.rest = self.rest + 1 if pad is not None else 0
+        if pad is not None and self.rest >= SETTLED:
+            ship.pad = pad
+            self._serve(scene, ship)
+            if pad is self.site and self.mode == FLYING:
+                self._land(scene, ship, pad)
+        helpless = ship.here and pad is None and ship.fuel <= 0.0 and bool(ship.touching)
+        self.stranded = self.stranded + 1 if helpless else 0
+        if self.stranded == STRANDED:
+            scene.give_up()
+        if not ship.here and not ship.lives and not ship.away:
+            self._enter(LOST)
+            scene.result = self._result(scene, won=False)
+
+    def _serve(self, scene, ship):
+        """A pad fills, mends and loads."""
+        filling = ship.fuel < FUEL or ship.hull < HULL
+        ship.fuel, ship.hull = min(ship.fuel + REFUEL, FUEL), min(ship.hull + REPAIR, HULL)
+        if self.rest % REARM == 0 and ship.shells < SHELLS:
+            ship.shells += 1
+            filling = True
+        if filling:
+            scene.spectacle.served(self.rest)
+
+    def _land(self, scene, ship, pad):
+        self.counted = scene.score.land(self.act + 1, self.touchdown, abs(ship.x - pad.x), ship.fuel, ship.hull)
+        last = self.act == len(self.moon.pads) - 2
+        self._enter(CLEARED if last else LANDED)
+        scene.spectacle.landed(pad, last)
+        if last:
+            self.landing, self.counted = self.counted, []
+
+    def _count_bonuses(self, scene):
+        bonuses = self.landing + scene.score.final(self.clock / 60, scene.ship.lives, scene.yard.in_all)
+        number = len(self.counted)
+        if number < len(bonuses):
+            if self.since == FIRST_BONUS + NEXT_BONUS * number:
+                self.counted.append(bonuses[number])
+                if number >= len(self.landing):
+                    scene.score.add(bonuses[number][1])
+                scene.play("coin", volume=0.6)
+        elif self.since >= FIRST_BONUS + NEXT_BONUS * number + SHOWN:
+            self._enter(WON)
+            scene.result = self._result(scene, won=True)
+
+    def _result(self, scene, won):
+        score = scene.score
+        lines = (
+            f"{score.medal.lower()} medal" if won else f"{count_text(score.landings, 'site')} of 3 reached",
+            f"cargo {score.delivered} of {scene.yard.in_all}, {count_text(score.lost, 'ship')} lost",
+            f"softest touchdown {score.softest:.0f} px/s" if score.landings else "no touchdown that counts",
+        )
+        return Result(won, score.points, self.clock / 60, lines)
+
+    def state(self):
+        """For the digest."""
+        return (
+            self.act,
+            self.mode,
+            self.since,
+            self.rest,
+            self.stranded,
+            self.touchdown,
+            self.airborne,
+            self.clock,
+            len(self.counted),
+        )

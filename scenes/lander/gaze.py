@@ -1,0 +1,38 @@
+"""Where the camera looks: at the ship, and ahead of it."""
+
+from game.drawing.canvas import CANVAS_SIZE
+
+AHEAD_X, AHEAD_Y = 0.55, 0.45  # [s] of the ship's way that it looks ahead
+MOST_X, MOST_Y = 96.0, 62.0  # [px] and no farther
+BELOW = 14.0  # [px] more is seen under the ship than over it
+EASE, RATE = 2.6, 7.0  # [1/s] of the look ahead, and of the way there
+TOP = -150.0  # [px] the highest that is seen
+
+
+class Gaze:
+    """Moves the scene's camera."""
+
+    def __init__(self, camera, ship, moon):
+        self.camera, self.ship = camera, ship
+        self.ahead_x = self.ahead_y = 0.0
+        camera.keep_within(0.0, TOP, moon.width, moon.height)
+        camera.center_on(ship.x, ship.y + BELOW)
+
+    def step(self, dt):
+        """Once per step."""
+        ship = self.ship
+        if ship.here:
+            share = min(EASE * dt, 1.0)
+            self.ahead_x += (limited(ship.vx * AHEAD_X, MOST_X) - self.ahead_x) * share
+            self.ahead_y += (limited(ship.vy * AHEAD_Y, MOST_Y) - self.ahead_y) * share
+        self.camera.follow(ship.x + self.ahead_x, ship.y + self.ahead_y + BELOW, dt, RATE)
+
+
+def limited(value, most):
+    """No farther from 0 than `most`."""
+    return max(-most, min(value, most))
+
+
+def sees(camera, x, y, margin):
+    """Whether a place is in the picture, or so near to it [px]."""
+    return -margin < x - camera.x < CANVAS_SIZE[0] + margin and -margin < y - camera.y < CANVAS_SIZE[1] + margin

@@ -1,0 +1,60 @@
+"""The gun: shells fly from the nose and burst where they touch. What is near a burst is thrown away from it."""
+
+from math import hypot
+
+from physics import Circle
+from scenes.lander.feel import MUZZLE, PUSH, PUSH_REACH, SHELL, SHELL_LIFE, SHELL_MASS, SHELL_RADIUS, SHELL_SPEED
+
+
+class Gun:
+    """`shells`: body id -> steps it still flies."""
+
+    def __init__(self, world):
+        self.world = world
+        self.shells = {}
+
+    def fire(self, ship):
+        """One shell, and its recoil."""
+        x, y = ship.nose
+        body = self.world.add_body(
+            Circle(SHELL_RADIUS),
+            position=(ship.x + MUZZLE * x, ship.y + MUZZLE * y),
+            velocity=(ship.vx + SHELL_SPEED * x, ship.vy + SHELL_SPEED * y),
+            mass=SHELL_MASS,
+            filter=SHELL,
+            gravity_scale=0.4,
+            user="shell",
+        )
+        self.shells[body.id] = SHELL_LIFE
+        ship.body.apply_impulse((-SHELL_MASS * SHELL_SPEED * x, -SHELL_MASS * SHELL_SPEED * y))
+
+    def step(self):
+        """They grow old. Returns the ids of those whose time is over."""
+        self.shells = {identity: left - 1 for identity, left in self.shells.items()}
+        return [identity for identity, left in self.shells.items() if left <= 0]
+
+    def bursts(self, begun):
+        """{shell id: place [px]} of those that touched something, from the step's events."""
+        found = {}
+        columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
+        for a, b, x, y in zip(*columns, strict=True):
+            for identity in (a, b):
+                if identity in self.shells:
+                    found.setdefault(identity, (x, y))
+        return found
+
+    def state(self):
+        """For the digest."""
+        return (*self.shells, *self.shells.values())
+
+
+def blown(body, x, y):
+    """The velocity [px/s] that a burst at a place gives a body: (vx, vy, speed), all 0 out of its reach."""
+    dx, dy = body.center.x - x, body.center.y - y
+    far = hypot(dx, dy)
+    speed = PUSH * max(1.0 - far / PUSH_REACH, 0.0)
+    if speed == 0.0:
+        return 0.0, 0.0, 0.0
+    if far == 0.0:
+        return 0.0, -speed, speed
+    return speed * dx / far, speed * dy / far, speed

@@ -1,0 +1,63 @@
+"""The line: a rope with a claw that pulls and never pushes. What hangs on it swings.
+
+Its pull is a damped spring once it is longer than LINE. It acts at both centres of mass, so it tips no ship over.
+"""
+
+from math import hypot, pi
+from typing import Any
+
+from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
+
+
+class Line:
+    """`load`: the body that hangs on it, None while it is rolled up. `torn`: it broke in this step."""
+
+    def __init__(self):
+        self.load: Any = None
+        self.torn = False
+
+    def toggle(self, ship, loose):
+        """Catch the nearest of some bodies within reach, or let go. Returns "caught", "let go" or "missed"."""
+        if self.load is not None:
+            self.load = None
+            return "let go"
+        near = [(hypot(body.center.x - ship.x, body.center.y - ship.y), body.id, body) for body in loose]
+        near = [each for each in near if each[0] < REACH]
+        if not near:
+            return "missed"
+        self.load = min(near)[2]
+        self.load.wake()
+        return "caught"
+
+    def pull(self, ship):
+        """Add the rope's force for the coming step."""
+        self.torn = False
+        load = self.load
+        if load is None or not ship.here:
+            self.load = None
+            return
+        body = ship.body
+        dx, dy = load.center.x - body.center.x, load.center.y - body.center.y
+        length = hypot(dx, dy)
+        if length > SNAP:
+            self.load, self.torn = None, True
+            return
+        if length <= LINE:
+            return
+        ux, uy = dx / length, dy / length
+        mass = body.mass * load.mass / (body.mass + load.mass)
+        rate = 2.0 * pi * LINE_RATE
+        parting = (load.velocity.x - body.velocity.x) * ux + (load.velocity.y - body.velocity.y) * uy
+        force = mass * (rate * rate * (length - LINE) + 2.0 * LINE_DAMPING * rate * parting)
+        if force > 0.0:
+            body.apply_force((force * ux, force * uy))
+            load.apply_force((-force * ux, -force * uy))
+
+    def drop(self, identity):
+        """Let go of a body that is about to be removed."""
+        if self.load is not None and self.load.id == identity:
+            self.load = None
+
+    def state(self):
+        """For the digest."""
+        return (-1 if self.load is None else self.load.id,)

@@ -1,0 +1,92 @@
+"""The moon's plan: its pictures, the pads, and where all that is loose lies. Nothing here changes in a game."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import pygame
+
+from game.drawing.sprites import load_backdrop
+from game.files.json_file import read_json
+from game.places import LEVELS
+from physics import PixelMask
+
+PLAN = LEVELS / "lander.json"
+
+
+@dataclass(frozen=True)
+class Pad:
+    """A place to land: x of its middle, y of its deck [px]. The first one is the base."""
+
+    name: str
+    title: str
+    hint: str
+    more: str
+    x: float
+    y: float
+    width: float
+
+    @property
+    def look(self):
+        """Its frame in the sheet."""
+        return f"pad_{self.name}"
+
+
+@dataclass(frozen=True)
+class Wind:
+    """From the left up to the column `until`: a steady wind and the most that a gust adds [px/s]."""
+
+    until: float
+    steady: float
+    gust: float
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """A place [px] on the bot's way; `until`: the place up to where the way must be free before it goes on;
+    `take`: the number of the cargo that it takes along from there."""
+
+    at: tuple
+    until: tuple = ()
+    take: int = -1
+
+
+class Moon:
+    """`mask`: the ground as one PixelMask with its origin at the world's; `solid` and `massif` bool [row, column]."""
+
+    def __init__(self):
+        plan = read_json(PLAN)
+        self.width, self.height = plan["size"]
+        self.pads = tuple(
+            Pad(pad["name"], pad["title"], pad.get("hint", ""), pad.get("more", ""), pad["x"], pad["y"], pad["width"])
+            for pad in plan["pads"]
+        )
+        self.winds = tuple(Wind(**wind) for wind in plan["winds"])
+        self.cargo = tuple((each["look"], each["x"], each["y"]) for each in plan["cargo"])
+        self.rocks = tuple((x, y, f"rock_{kind}") for x, y, kind in plan["rocks"])
+        self.cans = tuple((x, y) for x, y in plan["cans"])
+        self.flight = tuple(tuple(Waypoint(**each) for each in act) for act in plan["flight"])
+        self.picture, self.wall = load_backdrop("lander_ground"), load_backdrop("lander_wall")
+        self.mask = PixelMask.from_surface(self.picture, origin=(0, 0))
+        self.solid = self.mask.solid
+        self.tiles = self.mask.tiles  # made here, or the first shell would have to wait for them
+        self.massif = np.ascontiguousarray(pygame.surfarray.array_alpha(self.wall).T > 0)
+
+    def __deepcopy__(self, memo):
+        """A copy of a scene lies on the same moon."""
+        return self
+
+    def is_inside(self, x, y):
+        """Whether a place [px] is in the mountain, in rock or in a cave: no wind is felt there."""
+        column, row = int(x), int(y)
+        return 0 <= column < self.width and 0 <= row < self.height and bool(self.massif[row, column])
+
+    def wind_at(self, x):
+        """The Wind of a column."""
+        return next((wind for wind in self.winds if x < wind.until), self.winds[-1])
+
+
+@lru_cache(maxsize=1)
+def the_moon():
+    """The one Moon; made when a scene is."""
+    return Moon()

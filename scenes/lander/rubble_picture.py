@@ -1,0 +1,78 @@
+"""Pictures of rubble: each piece is its own pixels, cut out of the picture of what it was a part of, at any angle."""
+
+from functools import lru_cache
+from math import cos, pi, sin
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import whole
+from game.drawing.sprites import load_atlas
+
+ANGLES = 128  # pictures of a full turn
+KEPT = 300  # pieces
+
+
+class RubblePictures:
+    """Kept by the mask that they show: a piece that is carved has another."""
+
+    def __init__(self, moon):
+        self.moon = moon
+        self.kept = {}  # body id -> (mask, Cut)
+
+    def draw(self, surface, piece, body, x, y, angle):
+        """Draw a piece whose body's origin is at a place of the surface."""
+        (mask,) = body.shapes
+        kept = self.kept.get(body.id)
+        if kept is None or kept[0] is not mask:
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            kept = self.kept[body.id] = (mask, Cut(self._cut_out(piece, mask)))
+        image = kept[1].at(angle)
+        # The picture's middle, seen from the body's origin.
+        u, v = mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1]
+        c, s = cos(angle), sin(angle)
+        width, height = image.get_size()
+        surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
+
+    def _cut_out(self, piece, mask):
+        """Its pixels and no others, dark and lit where they broke off."""
+        width, height = mask.size
+        source = self.moon.picture if piece.look == "ground" else load_atlas("lander")[piece.look]
+        wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
+        left, top = piece.source
+        wide.blit(source, (0, 0), (left - 1, top - 1, width + 2, height + 2))
+        out = wide.subsurface((1, 1, width, height)).copy()
+        whole_before = pygame.surfarray.array_alpha(wide).T > 0
+        solid, gone = np.pad(mask.solid, 1), whole_before & ~np.pad(mask.solid, 1)
+        broken = (_beside(gone) & solid)[1:-1, 1:-1]
+        lit = gone[:-2, 1:-1] & solid[1:-1, 1:-1]
+        pixels = pygame.surfarray.pixels3d(out)
+        pixels[broken.T] = pixels[broken.T] // 2
+        pixels[lit.T] = np.minimum(pixels[lit.T].astype(np.uint16) * 2 + 40, 225).astype(np.uint8)
+        del pixels
+        alpha = pygame.surfarray.pixels_alpha(out)
+        alpha[:] = np.where(mask.solid.T, 255, 0)
+        del alpha
+        return out
+
+
+class Cut:
+    """One piece at any angle."""
+
+    def __init__(self, image):
+        self.image = image
+        self.turned = lru_cache(maxsize=ANGLES)(self._turned)
+
+    def at(self, angle):
+        """Its picture turned clockwise by the nearest angle kept [rad]."""
+        return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
+
+    def _turned(self, number):
+        return self.image if number == 0 else pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
+
+
+def _beside(gone):
+    """The pixels that have one of these on one of their four sides."""
+    padded = np.pad(gone, 1)
+    return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -1,0 +1,98 @@
+"""The picture of the ground, in tiles that are kept as long as their pixels stay: rock, the wall behind, fresh edges.
+
+A tile is drawn from the pixels that are still there and from nothing else, so it is right after a restart or a rewind
+too. Where rock has gone, what is left beside it is scorched, and its new edge is lit or dark as the old ones are.
+"""
+
+import numpy as np
+import pygame
+
+from game.drawing.blit import blit_many
+from game.drawing.canvas import CANVAS_SIZE
+from scenes.lander.ground import TILE
+
+SCORCH = ((22, 16, 26), (52, 36, 40), (30, 24, 36))  # colours of the first three px beside a hole
+SCORCH_SHARE = (0.75, 0.62, 0.40)
+LIT, SHADED = (186, 196, 222), (20, 18, 34)  # the new edge, towards the light and away from it
+KEPT = 420  # tiles: a screen holds fifty
+BORDER = 3  # [px] around a tile that its edges depend on
+
+
+class TerrainPicture:
+    """Draws the tiles in view; one is enough for all games on one moon."""
+
+    def __init__(self, moon):
+        self.moon = moon
+        self.kept = {}  # (column, row) -> (pixels it was drawn from, surface or None where nothing is)
+        self.columns, self.rows = moon.width // TILE, moon.height // TILE
+        self.plain = {}
+
+    def draw(self, surface, ground, left, top):
+        """Draw for a picture whose top left is at (left, top) of the world."""
+        pairs = []
+        for row in range(max(top // TILE, 0), min((top + CANVAS_SIZE[1]) // TILE + 1, self.rows)):
+            for column in range(max(left // TILE, 0), min((left + CANVAS_SIZE[0]) // TILE + 1, self.columns)):
+                picture = self.tile(ground, column, row)
+                if picture is not None:
+                    pairs.append((picture, (column * TILE - left, row * TILE - top)))
+        blit_many(surface, pairs)
+
+    def tile(self, ground, column, row):
+        """The picture of one tile as its pixels are now."""
+        around = ground.around(column, row, BORDER)
+        version = None if around is None else around.tobytes()
+        kept = self.kept.get((column, row))
+        if kept is None or kept[0] != version:
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            kept = self.kept[column, row] = (version, self._drawn(column, row, around))
+        return kept[1]
+
+    def _drawn(self, column, row, around):
+        area = (column * TILE, row * TILE, TILE, TILE)
+        wall, rock = self.moon.wall.subsurface(area), self.moon.picture.subsurface(area)
+        out = pygame.Surface((TILE, TILE), pygame.SRCALPHA)
+        out.blit(wall, (0, 0))
+        if around is None:
+            out.blit(rock, (0, 0))
+        else:
+            out.blit(self._holed(rock, column, row, around), (0, 0))
+        covered = pygame.mask.from_surface(out).count()
+        if not covered:
+            return None
+        return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
+
+    def _holed(self, rock, column, row, around):
+        """The rock that is left of a tile, scorched and lit along its new edges."""
+        before = padded(self.moon.solid, column, row)
+        hole = before & ~around
+        inner = np.s_[BORDER:-BORDER, BORDER:-BORDER]
+        picture = rock.copy()
+        pixels = pygame.surfarray.pixels3d(picture)
+        view = pixels.swapaxes(0, 1)
+        burnt, left = hole.copy(), around.copy()
+        for color, share in zip(SCORCH, SCORCH_SHARE, strict=True):
+            grown = burnt.copy()
+            for step in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+                grown |= np.roll(burnt, step, (0, 1))
+            ring = (grown & left)[inner]
+            view[ring] = (view[ring] * (1.0 - share) + np.array(color) * share).astype(np.uint8)
+            left &= ~grown
+            burnt = grown
+        open_above, open_left = np.roll(hole, 1, 0), np.roll(hole, 1, 1)
+        lit = ((open_above | open_left) & around)[inner]
+        view[lit] = (view[lit] * 0.45 + np.array(LIT) * 0.55).astype(np.uint8)
+        dark = (np.roll(hole, -1, 0) & around)[inner] & ~lit
+        view[dark] = SHADED
+        del pixels, view
+        alpha = pygame.surfarray.pixels_alpha(picture)
+        alpha[:] = np.where(around[inner].T, alpha, 0)
+        del alpha
+        return picture
+
+
+def padded(solid, column, row):
+    """Pixels of a tile and BORDER around it; beyond the moon's edge as at the edge."""
+    rows = np.clip(np.arange(row * TILE - BORDER, (row + 1) * TILE + BORDER), 0, solid.shape[0] - 1)
+    columns = np.clip(np.arange(column * TILE - BORDER, (column + 1) * TILE + BORDER), 0, solid.shape[1] - 1)
+    return solid[np.ix_(rows, columns)]

@@ -1,0 +1,42 @@
+"""The wind: steady by region, with gusts that come and go. Two slow waves, whose phases the seed chooses."""
+
+from math import pi, sin
+
+PERIODS = (7.3, 4.1)  # [s] of the two waves; together they repeat after minutes
+FIRST_SHARE = 0.65
+CALMING = 0.04  # share of the way to the wind that it takes in a step when it changes
+
+
+class Weather:
+    """`wind` [px/s] at the ship, to the right, of which `steady` stays in its region; `gust` 0..1 of its strongest.
+
+    The steady part is the world's own wind. A world whose wind changes lets nothing sleep, so gusts, which change in
+    every step, are forces on what is in the air.
+    """
+
+    def __init__(self, random, moon):
+        self.moon = moon
+        self.phases = tuple(random.uniform(0.0, 2.0 * pi) for _ in PERIODS)
+        self.wind = self.steady = self.gust = 0.0
+
+    def step(self, seconds, x, y):
+        """The wind at a time and place."""
+        region, inside = self.moon.wind_at(x), self.moon.is_inside(x, y)
+        first, second = (
+            sin(2.0 * pi * seconds / period + phase) for period, phase in zip(PERIODS, self.phases, strict=True)
+        )
+        self.gust = max(FIRST_SHARE * first + (1.0 - FIRST_SHARE) * second, 0.0)
+        self.steady = 0.0 if inside else region.steady
+        wanted = 0.0 if inside else region.steady + region.gust * self.gust
+        self.wind += (wanted - self.wind) * CALMING
+
+    def blow(self, world, *bodies):
+        """Set the world's wind, and push bodies by the gust for the coming step."""
+        if world.wind.x != self.steady:
+            world.wind = (self.steady, 0.0)
+        for body in bodies:
+            body.apply_force((body.mass * world.drag * (self.wind - self.steady), 0.0))
+
+    def state(self):
+        """For the digest."""
+        return (*self.phases, self.wind, self.steady, self.gust)

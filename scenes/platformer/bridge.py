@@ -1,0 +1,36 @@
+"""A rope bridge: its picture is its shape, open from below. He jumps up through it and walks along its curve."""
+
+import numpy as np
+
+from game.drawing.sprites import load_atlas
+from physics import PixelMask
+from scenes.platformer.level import TILE_FILTER
+
+NEAR = 2  # [px] his box stands on the highest point under it, as whole pixels go
+
+
+class Bridge:
+    """`left`, `top` [px]: where the upper side of its boards begins."""
+
+    def __init__(self, world, thing):
+        self.left, self.top = int(thing.x), int(thing.y)
+        mask = PixelMask.from_surface(load_atlas("things")["bridge"], origin=(0, 0), one_way=True)
+        self.heights = self.top + np.argmax(mask.solid, axis=0)  # [px] of the boards, by column
+        self.body = world.add_body(
+            mask, position=(self.left, self.top), kind="static", filter=TILE_FILTER, user="bridge"
+        )
+
+    def height(self, left, right):
+        """Height [px] of the highest board within some columns, or None beside the bridge."""
+        under = self.heights[max(left - self.left, 0) : max(right - self.left, 0)]
+        return int(under.min()) if len(under) else None
+
+    def bears(self, left, right, bottom):
+        """Whether feet at the height `bottom` stand on it."""
+        height = self.height(left, right)
+        return height is not None and abs(bottom - height) <= NEAR
+
+    def holds(self, left, right, bottom, reach):
+        """Whether feet at the height `bottom` are in it, by at most `reach` px."""
+        height = self.height(left, right)
+        return height is not None and 0 < bottom - height <= reach

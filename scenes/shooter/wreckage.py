@@ -1,0 +1,160 @@
+"""Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall, each a body of its own pixels.
+
+A piece is drawn with its pixels and tested by them, exactly, at whatever angle it tumbles. It goes on as the plane
+flew, turns as it was torn off, and the air, which stands over the ground, slows it down; seen from above, nothing falls
+across the picture. While it is still up where planes fly it damages small ones that it strikes; nothing that it does
+ever hurts the player.
+"""
+
+from dataclasses import dataclass
+from math import hypot, pi
+
+import numpy as np
+
+from game.drawing.crack import draw_crack
+from game.drawing.sprites import load_atlas
+from physics import PixelMask, fit
+from scenes.shooter.blows import Blow
+from scenes.shooter.cast import FALLING, WRECKED, steps
+
+STRIKE = 4.0  # times a blow of a piece on a small plane counts: it is lighter than it looks
+DRAG = 0.9  # [1/s] of the air on pieces; planes have engines
+CRUMB = 14  # [px] smaller pieces burn at once
+CROSSING = (0.9, 1.9)  # [rad] between the two cracks that cross where the last hit was
+INWARD = 0.6  # of the way from a plane's middle to the hit, where its cracks cross: a hit on the rim chips nothing off
+APART = 24.0  # [px] between further cracks of something large
+TORN = (26.0, 62.0)  # [px/s] away from the crossing
+KEPT, KICKED = 0.6, 0.25  # of the plane's velocity, and of what the last blow gives to debris
+SPIN = (0.8, 3.4)  # [rad/s]
+LIFE = (1.5, 2.3)  # [s] until a piece is down
+HARMLESS = 0.55  # of the height at which planes fly: pieces below it strike nothing
+
+
+@dataclass
+class Due:
+    """A plane that breaks when the next step begins: what was hit can be looked at until then."""
+
+    identity: int
+    x: float  # [px] where the last blow struck
+    y: float
+    blow: Blow
+
+
+@dataclass
+class Piece:
+    """Its pixels; `frame`: what it was a part of; `left`, `top` [px]: where its raster begins in that picture; `life`,
+    `age` [steps]."""
+
+    mask: PixelMask
+    frame: str
+    left: int
+    top: int
+    life: int
+    age: int = 0
+    strikes: bool = True
+
+    @property
+    def high(self):
+        """Its height, of that at which planes fly: at first it hardly falls."""
+        return 1.0 - (self.age / self.life) ** 2
+
+
+class Wreckage:
+    """`pieces` by body id; `due`: planes that break when the next step begins."""
+
+    def __init__(self, world):
+        self.world = world
+        self.pieces, self.due = {}, []
+
+    def __len__(self):
+        return len(self.pieces)
+
+    def mark(self, plane, x, y, blow):
+        """A plane is to break, struck last at a place [px]."""
+        self.due.append(Due(plane.id, x, y, blow))
+
+    def is_marked(self, identity):
+        """Whether a body is a plane that is about to break."""
+        return any(due.identity == identity for due in self.due)
+
+    def break_due(self, fleet):
+        """Break what was marked. Returns [(plane, x, y)] of what did, with the places where the cracks cross [px]."""
+        broken = []
+        for due in self.due:
+            plane = fleet.planes.pop(due.identity)
+            broken.append((plane, *self._break(plane, due)))
+        self.due.clear()
+        return broken
+
+    def _break(self, plane, due):
+        body, mask = self.world.body(plane.id), load_atlas("planes").mask(plane.frame)
+        x, y = body.position
+        hub = (x + INWARD * (due.x - x), y + INWARD * (due.y - y))
+        body.set_shapes(*fit(mask, "mask"))
+        body.set_kind("dynamic")
+        body.filter = WRECKED
+        body.velocity = (KEPT * plane.vx + KICKED * due.blow.kick[0], KEPT * plane.vy + KICKED * due.blow.kick[1])
+        crossing = body.to_local(hub)
+        crack = cracks(mask, crossing.x, crossing.y, self.world.random)
+        parts = body.carve(crack, (x, y, body.angle), CRUMB).fragments
+        for part in (body, *parts):
+            self._tear_off(part, (x, y), mask, plane.frame, hub)
+        return hub
+
+    def _tear_off(self, part, place, mask, frame, hub):
+        random, (own,) = self.world.random, part.shapes
+        left = round(part.position.x - place[0] + mask.origin[0] - own.origin[0])
+        top = round(part.position.y - place[1] + mask.origin[1] - own.origin[1])
+        dx, dy = part.center.x - hub[0], part.center.y - hub[1]
+        far, torn = max(hypot(dx, dy), 1.0), random.uniform(*TORN)
+        part.velocity += (torn * dx / far, torn * dy / far)
+        part.angular_velocity = random.uniform(*SPIN) * (1.0 if random.random() < 0.5 else -1.0)
+        self.pieces[part.id] = Piece(own, frame, left, top, steps(random.uniform(*LIFE)))
+
+    def step(self):
+        """All fall. Returns [(id, piece)] of those that are down."""
+        for identity, piece in self.pieces.items():
+            piece.age += 1
+            if piece.strikes and piece.high < HARMLESS:
+                piece.strikes = False
+                self.world.body(identity).filter = FALLING
+        return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
+
+    def strikes(self, begun, fleet):
+        """(id of a piece, small plane, place [px]) of all that they met in a step, by its events."""
+        columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
+        for a, b, x, y in zip(*columns, strict=True):
+            piece, struck = (a, b) if a in self.pieces else (b, a)
+            enemy = fleet.planes.get(struck)
+            if piece in self.pieces and enemy is not None and not enemy.heavy:
+                yield piece, enemy, (x, y)
+
+    def forget(self, ids):
+        """Drop pieces whose bodies are removed."""
+        for identity in ids.tolist():
+            self.pieces.pop(identity, None)
+
+    def state(self):
+        """For the digest; how they fly is in the world's."""
+        out: list = []
+        for due in self.due:
+            out += (due.identity, due.x, due.y, due.blow.x, due.blow.y, due.blow.mass)
+        for identity, each in self.pieces.items():
+            out += (identity, each.frame, each.left, each.top, each.age, each.life, each.strikes)
+        return tuple(out)
+
+
+def cracks(mask, x, y, random):
+    """A mask of jagged lines right through another one: two that cross at a place [px, from its origin], more through
+    what is large. It stands on the same pixels at the same pose.
+    """
+    height, width = mask.solid.shape
+    solid = np.zeros((height, width), bool)
+    at, heading = (x + mask.origin[0], y + mask.origin[1]), random.uniform(0.0, pi)
+    draw_crack(solid, at, heading, random)
+    draw_crack(solid, at, heading + random.uniform(*CROSSING), random)
+    for number in range(round(width / (2 * APART))):
+        for side in (-1, 1):
+            place = (at[0] + side * APART * (number + random.uniform(0.7, 1.1)), height * random.uniform(0.3, 0.7))
+            draw_crack(solid, place, pi / 2 + random.uniform(-0.5, 0.5), random)
+    return PixelMask(solid, mask.origin)
