@@ -1,10 +1,20 @@
 """Every test runs without a display and without sound; several workers find their kernels compiled."""
 
+import importlib.util
 import os
 import sys
 from pathlib import Path
 
 import pytest
+
+# Its figures are oracles: without it what needs them is not collected.
+NEEDS_SHAPELY = ("import shapely", "from shapely", "from tests.fitting")
+if importlib.util.find_spec("shapely") is None:
+    collect_ignore = [
+        str(path)
+        for path in Path(__file__).parent.rglob("test_*.py")
+        if any(line.startswith(NEEDS_SHAPELY) for line in path.read_text(encoding="utf-8").splitlines())
+    ]
 
 # `pytest -m quick`: the promises of the sources, the units of each folder, one scene through lockstep; a minute.
 QUICK = {

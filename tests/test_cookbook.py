@@ -23,7 +23,7 @@ def test_a_recipe_runs_and_says_what_it_found(path):
 
 
 def test_the_page_shows_exactly_the_code_of_each():
-    assert len(RECIPES) == 15
+    assert len(RECIPES) == 19
     shown = re.findall(r"```python\n(.*?)```\n\n\[cookbook/(\w+)\.py\]\(cookbook/(\w+)\.py\)", PAGE, re.S)
     assert sorted(name for _, name, _ in shown) == [path.stem for path in RECIPES]
     for code, name, target in shown:

@@ -14,6 +14,7 @@ FAST = (
     "images/planes",
     "images/hero",
     "images/tiles",
+    "images/lander",
     "levels/platformer",
 )
 
@@ -51,6 +52,15 @@ def test_every_made_kind_of_file_in_the_folder_has_a_product():
         "clouds",
         "cave_far",
         "cave_near",
+        "lab_earth",
+        "lab_earth_wall",
+        "lander_sky",
+        "lander_clouds",
+        "lander_far",
+        "lander_mid",
+        "lander_near",
+        "lander_ground",
+        "lander_wall",
     }
     assert kept - products == {f"images/{layer}" for layer in layers}  # their products make several at once
 

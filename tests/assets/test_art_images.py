@@ -66,7 +66,7 @@ SHEETS = {
     ),
     "things": (
         "crate crate_large spikes sign platform checkpoint_off walker_squashed crumble_0 crumble_1 crumble_2 "
-        "crumble_3 crumble_bit_0 crumble_bit_1 crumble_bit_2",
+        "crumble_3 bridge bridge_ropes crumble_bit_0 crumble_bit_1 crumble_bit_2",
         {
             "coin": 4,
             "spring": 3,
@@ -84,6 +84,11 @@ SHEETS = {
         },
     ),
     "tiles": ("ladder ladder_top rock_0 rock_255 rock_255_3 back_cave_0 stalactite crystal_1 banner window chain", {}),
+    "lander": (
+        "ship hook pad_base pad_canyon pad_cave pad_mesa crate drum rock_0 rock_1 rock_2 icon_lander icon_shell "
+        "icon_fuel icon_hull icon_cargo glow_flame glow_lamp glow_goal glow_ship",
+        {"flame": 4, "shell": 2, "mast": 2, "can": 4},
+    ),
     "ui": (
         "logo panel panel_selected icon_heart icon_coin icon_life icon_cursor icon_bomb icon_core icon_hull icon_gem",
         {},
@@ -114,11 +119,18 @@ SIZES = {
         "crumble_0": (32, 16),
         "secret_gem_0": (14, 14),
         "belt_mid_0": (16, 16),
+        "bridge": (128, 20),
     },
     "tiles": {"ladder": (16, 16), "rock_0": (16, 16)},
+    "lander": {"ship": (30, 32), "crate": (18, 18), "drum": (18, 18), "pad_cave": (96, 14)},
 }
 # Light, flames and flat parts of a larger picture have no outline of their own.
-BARE = {"planes": ("exhaust", "flash"), "hero": ("flash",), "things": ("sparkle", "dust", "light", "flash", "belt")}
+BARE = {
+    "planes": ("exhaust", "flash"),
+    "hero": ("flash",),
+    "things": ("sparkle", "dust", "light", "flash", "belt", "blast"),
+    "lander": ("flame", "glow", "hook", "icon"),
+}
 # One silhouette under all pictures of an animation: it collides as its first frame.
 ONE_MASK = ("saucer", "gunship", "hornet", "turret", "midboss", "boss_a", "boss_b", "boss_c", "core", "powerup")
 
@@ -174,6 +186,10 @@ def test_hero_stands_on_the_bottom_row_in_the_middle():
         ("cave_far", (1,)),
         ("cave_near", (1,)),
         ("keep_far", (1,)),
+        ("lander_far", (1,)),
+        ("lander_mid", (1,)),
+        ("lander_near", (1,)),
+        ("lander_clouds", (1,)),
     ],
 )
 def test_backdrop_is_seamless(name, axes):
@@ -205,6 +221,9 @@ def test_shooter_ground_is_dark_and_muted(ground):
         ("cave_far", (270, 480)),
         ("cave_near", (270, 480)),
         ("keep_far", (150, 480)),
+        ("lander_sky", (270, 480)),
+        ("lander_ground", (1024, 4096)),
+        ("lander_wall", (1024, 4096)),
     ],
 )
 def test_backdrop_size(name, size):
@@ -242,7 +261,7 @@ def test_hand_drawn_sprites_use_the_palette_alone():
                 assert used <= known, f"{name}: {sorted(used - known)}"
 
 
-@pytest.mark.parametrize("sheet", ["planes", "things", "hero", "effects"])
+@pytest.mark.parametrize("sheet", ["planes", "things", "hero", "effects", "lander"])
 def test_nothing_is_half_clear_or_pure_black(sheet):
     for name, frame in load(sheet)[0].items():
         assert set(np.unique(frame[..., 3])) <= {0, 255}, name
@@ -290,6 +309,7 @@ def test_the_bosses_looks_differ_in_their_silhouettes():
             ("walker", "bat", "hedgehog", "crumble", "secret_gem", "coin", "spring", "checkpoint", "goal", "platform"),
         ),
         ("hero", ("climb", "push", "duck", "look_up", "jump")),
+        ("lander", ("ship", "pad", "crate", "drum", "rock", "can", "mast", "shell")),
     ],
 )
 def test_bodies_are_in_one_piece(sheet, prefixes):

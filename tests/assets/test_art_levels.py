@@ -14,6 +14,9 @@ from assets.platformer.level_tiles import cover_names
 KINDS = {"solid", "one_way", "slope", "spikes", "decor"}
 TYPES = {
     "hero_start",
+    "blast_wall",
+    "bridge",
+    "bomb",
     "coin",
     "secret",
     "spring",
@@ -94,7 +97,7 @@ def test_objects_are_known_and_inside(tmj):
         assert 0 <= thing["y"] and thing["y"] + thing["height"] <= tmj["height"] * TILE
     assert len(things(tmj, "hero_start")) == 1 and len(things(tmj, "goal")) == 1
     assert (
-        len(things(tmj, "coin")) >= 60 and len(things(tmj, "secret")) == 3 and 6 <= len(things(tmj, "checkpoint")) <= 9
+        len(things(tmj, "coin")) >= 60 and len(things(tmj, "secret")) == 4 and 6 <= len(things(tmj, "checkpoint")) <= 9
     )
 
 
@@ -151,10 +154,13 @@ def test_platforms_dock_flush_and_walkers_have_room(tmj):
     assert all(properties(sign)["text"] for sign in things(tmj, "sign"))
 
 
-def test_each_secret_is_under_a_cover_that_looks_like_solid_ground(tmj):
+def test_each_secret_is_under_a_cover_that_looks_like_solid_ground_or_behind_a_wall_to_be_blown(tmj):
     covers = things(tmj, "cover")
     cells = tmj["layers"][3]["data"]
-    for gem in things(tmj, "secret"):
+    (wall,) = things(tmj, "blast_wall")
+    *covered, walled = sorted(things(tmj, "secret"), key=lambda gem: 0 < wall["x"] - gem["x"] < 8 * TILE)
+    assert wall["y"] < walled["y"] < wall["y"] + wall["height"]
+    for gem in covered:
         assert any(
             c["x"] <= gem["x"]
             and gem["x"] + gem["width"] <= c["x"] + c["width"]

@@ -31,7 +31,11 @@ LATER = (
     "chain_break",
     "life",
 )
+LANDER = ("thrust", "blast", "clank", "alarm", "low_fuel", "hook", "touchdown")
+BREAKING = ("tear", "splash", "fuse", "throw")
 LONGEST = {
+    "blast": 1.0,
+    "touchdown": 1.4,
     "explosion": 1.0,
     "big_explosion": 1.5,
     "goal": 1.3,
@@ -41,7 +45,7 @@ LONGEST = {
     "life": 1.0,
 }  # [s]
 BLASTS = ("explosion", "big_explosion", "bomb")
-OFTEN = ("laser", "enemy_shot", "hit", "land", "graze", "ladder", "crate", "coin", "jump", "blip")
+OFTEN = ("thrust", "laser", "enemy_shot", "hit", "land", "graze", "ladder", "crate", "coin", "jump", "blip")
 EDGES = 50.0 * 2.0 ** (np.arange(22) / 2.5)  # [Hz] bands from 50 Hz to 17 kHz, five to two octaves
 
 
@@ -63,7 +67,7 @@ def center(samples):
 
 
 def test_the_effects_are_there_and_every_sound_is_a_product():
-    assert set(SOUNDS) == {*ISSUE, *LATER}
+    assert set(SOUNDS) == {*ISSUE, *LATER, *LANDER, *BREAKING}
     assert {f"sounds/{name}" for name in SOUNDS} == {name for name in build.PRODUCTS if name.startswith("sounds/")}
 
 

@@ -18,11 +18,12 @@ from game.run.sources import BotSource, ScriptSource
 from game.scene import Scene
 from game.screens.play import Play
 from physics import BROADPHASES, Circle, Effects, Material, Polygon
+from tests.game.plain_scene import Plain
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
 
 
-class Yard(Scene):
+class Yard(Plain, Scene):
     """A floor, a box on it, a thin card, a wall, a lift; two views."""
 
     name, title, about = "yard", "Yard", "For tests."
@@ -42,24 +43,11 @@ class Yard(Scene):
         self.lift = near.add_body(Polygon.box(20, 20), position=(200, 160), kind="kinematic")
         self.ball = far.add_body(Circle(20.0), position=(100, 220))
 
-    def update(self, inputs):
-        for world in self.worlds:
-            world.step()
-
     def views(self):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
         canvas.text("yard", 4, 4)
-
-    def check(self):
-        return []
-
-    def bot(self):
-        return frozenset()
-
-    def state(self):
-        return (self.frame,)
 
 
 class Shut(Yard):

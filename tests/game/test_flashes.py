@@ -109,7 +109,7 @@ def lights_of(name, steps, accessibility, seed=1):
 
 
 @pytest.mark.parametrize("flashing", [True, False])
-@pytest.mark.parametrize("name", ["shooter", "platformer"])
+@pytest.mark.parametrize("name", ["shooter", "platformer", "lander"])
 def test_games_stay_within_three_flashes_a_second(name, flashing):
     meter = lights_of(name, 600, Accessibility(flashing=flashing))
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
@@ -122,8 +122,10 @@ def test_games_stay_within_three_flashes_a_second(name, flashing):
         pytest.param("shooter", 15000, True, marks=pytest.mark.nightly),
         ("shooter", 4000, True),
         ("platformer", 2400, True),
+        ("lander", 5600, True),
         ("shooter", 4000, False),
         ("platformer", 2400, False),
+        ("lander", 5600, False),
     ],
 )
 def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):

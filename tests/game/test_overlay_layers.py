@@ -19,11 +19,12 @@ from game.run.picture import Picture
 from game.scene import Scene
 from physics import Capsule, Chain, Circle, Effects, Polygon, Segment, TileGrid, World, debug
 from scenes.lab.shape_pictures import difference
+from tests.game.plain_scene import Plain
 
 SOLVED = ("contacts", "impulses", "features", "islands", "colors", "centers", "ghosts", "outlines")
 
 
-class Pile(Scene):
+class Pile(Plain, Scene):
     """Every kind of shape on a chain, a grid and a segment; a bullet flies at a thin wall."""
 
     name = title = "pile"
@@ -43,21 +44,6 @@ class Pile(Scene):
             world.add_body(Capsule((-8, 0), (8, 0), 5.0), position=(x, 176))
             world.add_body(Polygon(Polygon.box(10, 10).points, radius=4.0), position=(x + 2, 160))
             world.add_body(Circle(7.0), Circle(4.0, center=(9, 0)), position=(x - 2, 140))
-
-    def update(self, inputs):
-        self.world.step()
-
-    def draw(self, canvas, alpha):
-        canvas.surface.fill((40, 40, 60))
-
-    def check(self):
-        return []
-
-    def bot(self):
-        return frozenset()
-
-    def state(self):
-        return (self.frame,)
 
 
 def stepped(steps):

@@ -17,11 +17,12 @@ from game.screens.parts.panel import Panel
 from game.screens.play import Play
 from physics import Circle, Effects, Filter, PixelMask, Polygon
 from tests.game.arena import Arena
+from tests.game.plain_scene import Plain
 
 STAR = np.array([[abs(x) + abs(y) < 9 or x == y for x in range(-12, 13)] for y in range(-12, 13)])
 
 
-class Crowd(Scene):
+class Crowd(Plain, Scene):
     """One of each kind of shape, some of them in each other."""
 
     name = title = "crowd"
@@ -36,21 +37,6 @@ class Crowd(Scene):
         for i in range(6):
             self.world.add_body(PixelMask.from_array(STAR), position=(60 + i * 11, 160), angle=0.3 * i)
         self.world.add_body(Polygon.box(300, 20), position=(240, 220), kind="static")
-
-    def update(self, inputs):
-        self.world.step()
-
-    def draw(self, canvas, alpha):
-        canvas.surface.fill((40, 40, 60))
-
-    def check(self):
-        return []
-
-    def bot(self):
-        return frozenset()
-
-    def state(self):
-        return (self.frame,)
 
 
 def stepped(scene, steps=3):

@@ -3,6 +3,7 @@
 import math
 from itertools import pairwise
 
+from shapely.affinity import affine_transform
 from shapely.geometry import MultiPoint, Point, Polygon, box
 from shapely.ops import unary_union
 
@@ -23,6 +24,18 @@ def rectangle(width, height, pose):
     """A box of full sizes around its centre at a pose."""
     w, h = width / 2.0, height / 2.0
     return polygon([(-w, -h), (w, -h), (w, h), (-w, h)], pose)
+
+
+def rounded_union(parts, pose):
+    """The union of (corners, radius): points, lines and convex polygons grown by a radius, to 1e-6 of it."""
+    cores = [(MultiPoint(placed(corners, pose)).convex_hull, radius) for corners, radius in parts]
+    return unary_union([core.buffer(radius, quad_segs=512) if radius > 0.0 else core for core, radius in cores])
+
+
+def moved(geometry, pose):
+    """A geometry in body space, turned clockwise on the screen by pose[2] and moved."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return affine_transform(geometry, [c, -s, s, c, pose[0], pose[1]])
 
 
 def bounds_of(geometry):

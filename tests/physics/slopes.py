@@ -48,7 +48,7 @@ def ramp_mask(slope, width=240):
     """Pixels below a line through the middle of the mask."""
     height = math.ceil(abs(slope) * width) + 40
     columns = np.arange(width) + 0.5 - width / 2
-    surface = np.round(height / 2 - columns * slope)
+    surface = np.floor(height / 2 - columns * slope + 0.5)
     return PixelMask(np.arange(height)[:, None] >= surface[None, :], origin=(width / 2, height / 2))
 
 

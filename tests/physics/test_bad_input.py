@@ -136,7 +136,7 @@ CONSTRUCTORS = [
     ("solid", lambda v: PixelMask(v), [None, "x", [1, 0], 5, [[0.5]], [[1, 0], [1]], [[NAN]], [["a"]]]),
     ("solid", lambda v: PixelMask.from_array(v), [None, [[[1]]], [[0.5]]]),
     ("origin", lambda v: PixelMask(np.ones((2, 2), bool), v), [x for x in VECTOR if x is not None]),
-    ("snap", lambda v: PixelMask(np.ones((2, 2), bool), None, v), [False, 1, "x", None]),
+    ("snap", lambda v: PixelMask(np.ones((2, 2), bool), None, v), FLAG),
     ("surface", lambda v: PixelMask.from_surface(v), [None, 5, np.ones((2, 2))]),
     ("mask", lambda v: PixelMask.from_mask(v), [None, 5, np.ones((2, 2)), MASK]),
     ("x", lambda v: MASK.flipped(v), FLAG),

@@ -334,7 +334,7 @@ def test_values_that_are_not_finite_never_get_in():
 
 def test_mask_without_pixels_is_inert():
     world = World()
-    empty = world.add_body(PixelMask(np.zeros((4, 4), bool)), position=(0, -20))
+    empty = world.add_body(PixelMask(np.zeros((4, 4), bool)), position=(0, -20), kind="kinematic", velocity=(0, 60))
     world.add_body(Polygon.box(90, 10), kind="static")
     for _ in range(30):
         world.step()

@@ -198,11 +198,12 @@ def test_a_sensor_reports_and_counts_in_the_mass():
     assert not body.sensor and not world.shapes["sensor"].any()
 
 
-def test_masks_are_swept_by_no_ray():
-    body = World().add_body(PixelMask(np.ones((4, 4), bool)))
-    with pytest.raises(ValueError, match="continuous"):
-        body.continuous = "ray"
-    assert body.continuous == "auto"
+@pytest.mark.parametrize("effects", [None, Effects(continuous=True)], ids=["response", "without"])
+def test_masks_are_swept_in_every_way(effects):
+    body = World(effects).add_body(PixelMask(np.ones((4, 4), bool)), bullet=True)
+    for way in ("off", "ray", "swept", "toi", "auto"):
+        body.continuous = way
+        assert body.continuous == way
 
 
 def test_a_world_is_a_collection_of_its_bodies():

@@ -59,7 +59,7 @@ def test_tiers_of_a_mask():
     assert fit(mask, "pixels") == (mask,) and fit(mask, "aabb") == (Bounds(mask),)
     assert fit(mask, "circle") is fit(mask, "circle"), "fitted once"
     assert fit(PixelMask.from_array(np.zeros((4, 4), bool)), "obb") == ()
-    with pytest.raises(ValueError, match="tier must be one of circle, aabb, obb, pixels"):
+    with pytest.raises(ValueError, match="tier must be one of circle, aabb, obb, capsule, hull, parts, outline"):
         fit(mask, "hexagon")
 
 

@@ -229,7 +229,7 @@ def test_kernels_of_absent_stages_are_not_compiled():
     ):
         assert name not in lean, name
     full = compiled({"response": True, "gravity": True, "continuous": True}, "masks")
-    assert {"integrate_velocities", "project", "find_impacts", "collide_mask_pairs"} <= full
+    assert {"integrate_velocities", "project", "find_impacts"} <= full
     assert "collide_circle_pairs" not in full and "walk" not in full
 
 

@@ -259,7 +259,7 @@ CLOSEST = [
     (Bounds(Circle(5.0)), (9.0, 8.0), (5.0, 5.0), 5.0),
     (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (17.0, 5.0), (20.0, 5.0), 3.0),
     (TileGrid(np.array([[1, 0, 1]], bool), 10.0), (5.0, 5.0), (5.0, 5.0), 0.0),
-    (PixelMask.from_array(np.eye(3, dtype=bool), origin=(0, 0)), (3.0, 0.5), (2.0, 1.0), math.hypot(1, 0.5)),
+    (PixelMask.from_array(np.ones((5, 4), bool), origin=(0, 0)), (6.0, 5.5), (4.0, 5.0), math.hypot(2, 0.5)),
 ]
 
 

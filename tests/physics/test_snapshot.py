@@ -185,6 +185,22 @@ def test_cut_and_flipped_files_are_refused_or_whole(tmp_path):
             before = world.digest()
 
 
+@pytest.mark.parametrize("method", [1, 8, 12, 14, 93])
+def test_files_that_name_another_compression_are_refused_or_whole(tmp_path, method):
+    """Zip files name it in two bytes of each entry: what else decompresses them has errors of its own."""
+    path = saved(tmp_path)
+    content = path.read_bytes()
+    for mark, at in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
+        first, *parts = content.split(mark)
+        content = first + b"".join(mark + each[: at - 4] + bytes([method, 0]) + each[at - 2 :] for each in parts)
+    path.write_bytes(content)
+    if method == 8:
+        Snapshot.load(path)  # as it was
+    else:
+        with pytest.raises(ValueError, match=path.name):
+            Snapshot.load(path)
+
+
 @pytest.mark.parametrize("content", [b"", b"no snapshot", b"PK\x03\x04", b"\x93NUMPY\x01\x00garbage"])
 def test_what_is_no_snapshot_is_refused_with_the_file(tmp_path, content):
     path = tmp_path / "other.npz"

@@ -5,6 +5,7 @@ import numpy as np
 from game.drawing.tilemap import Thing, TileMap
 from game.input.inputs import InputFrame, InputState
 from physics import World
+from scenes.platformer.bridge import Bridge
 from scenes.platformer.feel import GRAVITY, HEIGHT
 from scenes.platformer.hero import Hero
 from scenes.platformer.level import Level
@@ -56,9 +57,10 @@ class Stage:
                 ("belt", Belt),
                 ("crumble", Crumble),
                 ("ladder", Trigger),
+                ("bridge", Bridge),
             )
         }
-        self.platforms, self.crates, self.belts, self.crumbles, ladders = made.values()
+        self.platforms, self.crates, self.belts, self.crumbles, ladders, self.bridges = made.values()
         self.ladders = {ladder.body.id: ladder for ladder in ladders}
         self.inputs = InputState()
         self.frame = 0
@@ -76,6 +78,7 @@ class Stage:
                 crumble.step()
             self.hero.crates = self.crates
             self.hero.solids = tuple(each.box for each in (*self.crates, *self.platforms, *self.belts, *self.crumbles))
+            self.hero.bridges = self.bridges
             self.hero.step(self.inputs)
             self.news += self.hero.news
             self.world.step()

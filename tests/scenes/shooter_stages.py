@@ -2,6 +2,7 @@
 
 import copy
 import json
+from math import pi
 
 from game.input.inputs import InputFrame, InputState
 from scenes.shooter.scene import Shooter
@@ -89,3 +90,13 @@ class Sky:
         self.scene.incoming.fire(look, x, y, [heading], speed)
         self.step()
         return int(self.scene.incoming.ids[-1])
+
+
+def struck_down(kind="gunship", x=240.0, y=90.0, power=0.1, **chosen):
+    """A sky in which a plane was just shot down, and the plane."""
+    sky = Sky(**chosen)
+    plane = sky.enemy(kind, x, y)
+    plane.health = power
+    sky.scene.shots.fire("shot", x + 6.0, y + 70.0, [-pi / 2], 560.0)
+    sky.until(lambda: len(sky.scene.wreckage), 60)
+    return sky, plane

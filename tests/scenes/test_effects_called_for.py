@@ -1,4 +1,4 @@
-"""The ledger: an effect that a scene declares changes what happens, one that a game does not call for nothing.
+"""The ledger: an effect that a scene declares changes what happens; of the others it says which would change nothing.
 
 The same recorded keys are played with one effect taken out, or put in. An effect goes with all that needs it, and comes
 with what it needs. What cannot even be built without an effect is called for, and says so by the effect's name.
@@ -18,7 +18,7 @@ from physics import Effects
 from physics.effects import NEEDS_RESPONSE
 from scenes import SCENES
 
-FRAMES = {"shooter": 900, "platformer": 2400}
+FRAMES = {"shooter": 2640, "platformer": 2400, "lander": 3000}
 EFFECTS = [field.name for field in fields(Effects)]
 NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}
 
@@ -30,16 +30,19 @@ LEDGER = {
     "shooter": {
         "narrowphase": DIFFERS,
         "sensors": REFUSED,
-        # Put in: what is pushed apart flies elsewhere; nothing falls, turns, rubs or rests, and nobody is swept.
+        "carving": REFUSED,
+        "rotation": REFUSED,
+        "drag": DIFFERS,
+        "wind": DIFFERS,
+        # Put in: what is pushed apart flies elsewhere; nothing falls, rubs or rests. A shot is longer than its way in a
+        # step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
+        # would strike who is missed by all that is drawn.
         "response": DIFFERS,
         "gravity": NEUTRAL,
-        "drag": NEUTRAL,
-        "wind": NEUTRAL,
-        "rotation": NEUTRAL,
         "friction": NEUTRAL,
         "restitution": NEUTRAL,
         "stacking": DIFFERS,
-        "continuous": NEUTRAL,
+        "continuous": DIFFERS,
         "sleeping": NEUTRAL,
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
@@ -57,11 +60,31 @@ LEDGER = {
         "sensors": REFUSED,
         "one_way": DIFFERS,
         "conveyor": DIFFERS,
+        "carving": REFUSED,
         # Put in: no material bounces, the world has neither drag nor wind, nobody reads who goes on touching.
         "drag": NEUTRAL,
         "wind": NEUTRAL,
         "restitution": NEUTRAL,
         "persist": NEUTRAL,
+    },
+    "lander": {
+        "narrowphase": DIFFERS,
+        "response": DIFFERS,
+        "gravity": DIFFERS,
+        "drag": DIFFERS,
+        "wind": DIFFERS,
+        "rotation": REFUSED,
+        "friction": DIFFERS,
+        "restitution": DIFFERS,
+        "stacking": DIFFERS,
+        "continuous": DIFFERS,
+        "sleeping": DIFFERS,
+        "sensors": REFUSED,
+        "carving": REFUSED,
+        # Put in: nobody reads who goes on touching, nothing is open from below or runs.
+        "persist": NEUTRAL,
+        "one_way": NEUTRAL,
+        "conveyor": NEUTRAL,
     },
 }
 

@@ -60,7 +60,7 @@ def test_a_filmed_run_is_the_same_every_time():
 
 
 def test_moments_are_twelve_for_each_game():
-    assert set(moments.MOMENTS) == {"shooter", "platformer"}
+    assert set(moments.MOMENTS) == {"shooter", "platformer", "lander"}
     for found in moments.MOMENTS.values():
         assert len(found) == len({moment.caption for moment in found}) == 12
 

@@ -74,8 +74,8 @@ def test_secrets_are_counted_and_worth_more():
         put(scene, gem.x, gem.y + 8)
         play(session, 2)
         assert scene.secrets == number
-    assert scene.secrets == scene.things.secrets_in_all == 3
-    assert scene._result().points == 3000 + 100 * scene.coins
+    assert scene.secrets == scene.things.secrets_in_all == 4
+    assert scene._result().points == 4000 + 100 * scene.coins
 
 
 def test_a_checkpoint_is_where_the_next_life_starts_also_when_jumped_over():
@@ -335,7 +335,7 @@ def test_every_thing_of_the_level_is_met():
         assert len(scene.things.of(kind)) == len(level.map.things_of(kind)) > 0
     for kind in ("walker", "hedgehog", "bat"):
         assert sum(enemy.kind == kind for enemy in scene.things.enemies.values()) == len(level.map.things_of(kind)) > 0
-    assert len(scene.things.of("secret")) == 3 and 6 <= len(scene.checkpoints) <= 9
+    assert len(scene.things.of("secret")) == 4 and 6 <= len(scene.checkpoints) <= 9
     assert (level.map.columns, level.map.rows) >= (240, 40) and level.map.rows >= 40
 
 
@@ -353,4 +353,5 @@ def test_what_the_scene_declares_is_what_it_uses():
         "sensors",
         "one_way",
         "conveyor",
+        "carving",
     ]

@@ -34,7 +34,7 @@ def run(frames, draws=False, effects=None, **settings):
 def assert_all_done(scene):
     check = judge(scene, GOAL_DUE)
     assert check["ok"] and not check["pending"], check
-    assert scene.result.won and scene.secrets == 3 and scene.feats.inside_solid == 0
+    assert scene.result.won and scene.secrets == 4 and scene.feats.inside_solid == 0
 
 
 def test_the_bot_finds_the_secrets_and_the_goal():

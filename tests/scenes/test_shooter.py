@@ -9,6 +9,7 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from physics import debug
 from scenes.shooter.bomb import BURN, LEADER_DAMAGE, REACH
+from scenes.shooter.bullets import NAMES, mask_of
 from scenes.shooter.cast import BLAST, BULLET, CORE, ENEMY, HULL, ITEM, RING, SHOT
 from scenes.shooter.plane import BANKS, BOMBS, BORDER, CORE_RADIUS, LIVES, MOST_BOMBS, RING_RADIUS, VOLLEYS
 from scenes.shooter.scene import FREEZE, LAST_MOMENT, Shooter
@@ -314,3 +315,21 @@ def test_sides_never_pair_with_their_own():
         met |= {side[a] | side[b] for a, b in scene.world.candidates.tolist()}
     assert met <= MEET
     assert len(scene.world.bodies) < 250
+
+
+@pytest.mark.skipif(not physics.JIT, reason="who shoots back comes late: too long without compiled kernels")
+def test_nothing_that_is_fired_slips_through_what_it_may_hit():
+    """So the game does without continuous: a shot is longer than its way in a step, and so are bullet and core."""
+    scene = Shooter(seed=1)
+    session = Session(scene, BotSource())
+    sizes = np.array([mask_of(look).size for look in NAMES])
+    ways = np.zeros((2, len(NAMES)))  # [px] the longest of a shot in a step, and of a bullet as the plane sees it
+    for _ in range(1500):
+        session.step()
+        bodies, plane = scene.world.bodies, scene.plane.velocity
+        for side, (group, seen) in enumerate(((scene.shots, (0.0, 0.0)), (scene.incoming, plane))):
+            own = bodies[group.places()]
+            way = np.hypot(own["vx"] - seen[0], own["vy"] - seen[1]) / 60.0
+            np.maximum.at(ways[side], group.table.rows["look"], way)
+    assert (ways[0] < sizes.max(axis=1)).all() and (ways[1] < sizes.min(axis=1) + 2.0 * CORE_RADIUS).all()
+    assert (ways > 0.0).any(axis=1).all()

@@ -1,0 +1,103 @@
+"""Masks that push: a pair of crates at rest and a new one, beside boxes; a crater in a large terrain."""
+
+import gc
+from time import perf_counter
+
+import numpy as np
+
+from physics import Circle, Effects, PixelMask, Polygon, World
+from physics.collision.dispatch import no_work
+from tests.bench.timing import best_of, table
+
+SIDE, GAP = 32, 80  # [px] of a crate; from crate to crate
+WIDTH, HEIGHT, DEPTH = 4096, 1024, 420.0  # [px] of the terrain, and where its surface is
+RADIUS, CARVES, SEED = 24.0, 150, 5
+PILE = Effects.rigid_bodies().with_(sleeping=False)
+
+
+def crates(shape, count):
+    """A world of so many crates, each at rest on a slab of the same."""
+    world = World(PILE)
+    for k in range(count):
+        world.add_body(shape, position=(GAP * k, SIDE), kind="static")
+        world.add_body(shape, position=(GAP * k, 0.0))
+    for _ in range(120):
+        world.step()
+    return world
+
+
+def pair_times(shape, count):
+    """Seconds for each pair: narrow phase of one at rest, of a new one, and a whole step of one at rest."""
+    world = crates(shape, count)
+
+    def narrow():
+        world.step()
+        return world.profile.stages["narrow_phase"]
+
+    resting = min(narrow() for _ in range(60))
+    step = best_of(60, world.step)
+    candidates = world.pairs.rows.astype(np.int64)
+    tables, collide = world.library.tables, world.workspace.narrow.collide
+    margin, work = 4.0 * world.tolerances.slop, no_work()
+    new = best_of(60, lambda: collide(tables, world.bodies, world.shapes, candidates, margin, work))
+    return resting / count, new / count, step / count
+
+
+def hills():
+    """solid[row, col] of ground with caves."""
+    x, y = np.arange(WIDTH), np.arange(HEIGHT)[:, None]
+    solid = y > DEPTH + 90.0 * np.sin(x / 210.0) + 40.0 * np.sin(x / 47.0) + 6.0 * np.sin(x / 5.0)
+    for left, top, radius in ((500, 700, 60), (1500, 800, 90), (2500, 650, 70)):
+        solid &= (x - left) ** 2 + (y - top) ** 2 > radius * radius
+    return solid
+
+
+def carve_times(count):
+    """(seconds of making the ground, of each carve without a split, of each with one): discs along its surface."""
+    world, rng = World(Effects.rigid_bodies().with_(carving=True)), np.random.default_rng(SEED)
+    solid = hills()
+    start = perf_counter()
+    ground = world.add_body(PixelMask(solid, (0, 0)), kind="static")
+    made = perf_counter() - start
+    whole, split = [], []
+    gc.collect()
+    gc.freeze()  # as games do once they are loaded
+    try:
+        for k in range(count + 20):
+            x = int(rng.integers(100, WIDTH - 100))
+            (mask,) = ground.shapes
+            assert isinstance(mask, PixelMask)
+            y = int(np.argmax(mask.solid[:, x]))
+            start = perf_counter()
+            carved = ground.carve(Circle(RADIUS), (float(x), float(y)))
+            taken = perf_counter() - start
+            if k >= 20:
+                (split if carved.fragments else whole).append(taken)
+            world.step()
+    finally:
+        gc.unfreeze()
+    return made, whole, split
+
+
+def run(quick=False):
+    """Print the tables; return {name: our time over that of boxes, and of making the ground}."""
+    count = 50 if quick else 200
+    times = {
+        name: pair_times(shape, count)
+        for name, shape in (("boxes", Polygon.box(SIDE, SIDE)), ("masks", PixelMask(np.ones((SIDE, SIDE), bool))))
+    }
+    rows = [(name, *(f"{each * 1e6:.2f}" for each in found)) for name, found in times.items()]
+    table(f"{count} pairs of {SIDE} px crates, one on the other", ("us a pair", "at rest", "new", "whole step"), rows)
+    made, whole, split = carve_times(30 if quick else CARVES)
+    rows = [
+        (name, len(some), *(f"{np.quantile(some, share) * 1e3:.2f}" for share in (0.0, 0.5, 0.9)))
+        for name, some in (("no split", whole), ("with pieces", split))
+        if some
+    ]
+    title = f"A disc of radius {RADIUS:.0f} px carved out of {WIDTH} x {HEIGHT} px (made in {made * 1e3:.0f} ms)"
+    table(title, ("ms", "carves", "least", "median", "9 of 10"), rows)
+    ratios = {
+        f"pair of mask crates {name} / of boxes": mask / box
+        for name, mask, box in zip(("at rest", "new", "in a step"), times["masks"], times["boxes"], strict=True)
+    }
+    return ratios | {"carve of a terrain / making it": float(np.median(whole)) / made}

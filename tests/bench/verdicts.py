@@ -1,0 +1,133 @@
+"""One mask verdict, hit or not, without the step around it: AND of two snapped masks, and the exact test of two that
+are not, hits and misses apart. 32 px sprites: a disc, a plane, and pixels at random."""
+
+from time import perf_counter
+
+import numpy as np
+import pygame
+
+from physics import PixelMask
+from physics.collision.dispatch import no_work
+from physics.collision.manifold import MASKS, MASKS_EXACT, Batch, new_workspace
+from physics.collision.mask_exact_pairs import collide_exact_mask_pairs_full, collide_exact_mask_pairs_hit
+from physics.collision.mask_pairs import collide_mask_pairs_hit
+from physics.shapes.library import Library
+from physics.shapes.placement import refresh_aabbs
+from physics.shapes.rows import place
+from physics.tables.body import BODY
+from physics.tables.manifold import MANIFOLD
+from physics.tables.shape import SHAPE
+from tests.bench.timing import table
+
+SIZE, RUNS, SEED = 32, 5, 11
+NEAR = 2.0  # [px] a miss that is nearer is measured apart
+
+
+def sprites():
+    """{name: solid[row, col]} of 32 px each."""
+    y, x = np.mgrid[0:SIZE, 0:SIZE] + 0.5 - SIZE / 2
+    plane = (abs(x) < 3) | (abs(y - 1) < 3) | ((y > 10) & (abs(x) < 8))
+    return {
+        "disc": x * x + y * y <= SIZE * SIZE / 4,
+        "plane": plane,
+        "ragged": np.random.default_rng(SEED).random((SIZE, SIZE)) < 0.6,
+    }
+
+
+class Pairs:
+    """Pairs of one sprite with itself, the second anywhere around the first; where: offsets, and angles unless snapped.
+
+    Their rows are shuffled, as in a world.
+    """
+
+    def __init__(self, solid, where, snap):
+        rng, count = np.random.default_rng(SEED), len(where)
+        self.library, self.bodies = Library(), np.zeros(2 * count, BODY)
+        self.shapes, order = np.zeros(2 * count, SHAPE), rng.permutation(2 * count)
+        masks = [PixelMask(solid, snap=snap), PixelMask(solid, snap=snap)]
+        for number, pose in enumerate(where.tolist()):
+            first = rng.uniform(-1000.0, 1000.0, 2)
+            turn = 0.0 if snap else rng.uniform(0.0, 6.0)
+            c, s = np.cos(turn), np.sin(turn)
+            away = (first[0] + c * pose[0] - s * pose[1], first[1] + s * pose[0] + c * pose[1], turn + pose[2])
+            for which, at in enumerate(((*first, turn), away)):
+                place(self.library, masks[which], self.bodies, self.shapes, order[2 * number + which], at)
+        refresh_aabbs(np.arange(2 * count), self.library.tables, self.bodies, self.shapes)
+        self.candidates, self.found = order.reshape(-1, 2).astype(np.int64), np.zeros(count, MANIFOLD)
+        self.kind = MASKS if snap else MASKS_EXACT
+
+    def hits(self, run):
+        """(whether each pair meets, seconds a pair: the least of some runs, their median)."""
+        count, seconds = len(self.candidates), []
+        kinds = np.full(count + 1, self.kind, np.int64)
+        tables = self.library.tables
+        batch = Batch(tables, self.bodies, self.shapes, self.candidates, kinds, count, 0.0, 0.0)
+        workspace, work = new_workspace(), no_work()
+        for _ in range(RUNS + 1):  # the first compiles
+            start = perf_counter()
+            found = run(batch, workspace, self.found, 0, work)
+            seconds.append((perf_counter() - start) / count)
+        met = np.zeros(count, bool)
+        met[self.found["candidate"][:found]] = True
+        return met, min(seconds[1:]), float(np.median(seconds[1:]))
+
+
+def poses_around(rng, count):
+    """Offsets and angles at which two sprites of 32 px meet, nearly meet, or do not."""
+    away, way = rng.uniform(8.0, 46.0, count), rng.uniform(0.0, 7.0, count)
+    return np.stack([away * np.cos(way), away * np.sin(way), rng.uniform(0.0, 7.0, count)], axis=1)
+
+
+def half_over(rng, count):
+    """Offsets of whole pixels at which the boxes of two sprites share about half of each."""
+    return np.concatenate(
+        [rng.choice([-1.0, 1.0], (count, 2)) * rng.integers(6, 14, (count, 2)), np.zeros((count, 1))], 1
+    )
+
+
+def is_near(solid, where):
+    """Whether the second sprite meets the first when it is moved by up to 2 px in one of 16 directions."""
+    near = np.zeros(len(where), bool)
+    for way in np.arange(16) * np.pi / 8:
+        for step in (0.5 * NEAR, NEAR):
+            moved = where + (step * np.cos(way), step * np.sin(way), 0.0)
+            near |= Pairs(solid, moved, snap=False).hits(collide_exact_mask_pairs_hit)[0]
+    return near
+
+
+def time_overlap(solid, where):
+    """Seconds a call of pygame's Mask.overlap, which answers at whole pixels alone."""
+    mask = pygame.mask.from_surface(pygame.Surface((SIZE, SIZE)), 255)
+    for y, x in zip(*np.nonzero(solid), strict=True):
+        mask.set_at((int(x), int(y)))
+    offsets, least = [tuple(each) for each in where[:, :2].astype(int).tolist()], np.inf
+    for _ in range(RUNS):
+        start = perf_counter()
+        for offset in offsets:
+            mask.overlap(mask, offset)
+        least = min(least, (perf_counter() - start) / len(offsets))
+    return least
+
+
+def run(quick=False):
+    """Print the table; return {name: our time over pygame's Mask.overlap of the same sprites}."""
+    rng, count, rows, ratios = np.random.default_rng(SEED), 1000 if quick else 4000, [], {}
+    for name, solid in sprites().items():
+        half = half_over(rng, count)
+        peer = time_overlap(solid, half)
+        _, least, middle = Pairs(solid, half, snap=True).hits(collide_mask_pairs_hit)
+        rows.append((f"{name}: AND, half over each other", count, f"{least * 1e6:.3f}", f"{middle * 1e6:.3f}"))
+        ratios[f"AND of 32 px {name}s / Mask.overlap"] = least / peer
+        where = poses_around(rng, count)
+        met, _, _ = Pairs(solid, where, snap=False).hits(collide_exact_mask_pairs_hit)
+        near = ~met & is_near(solid, where)
+        for words, chosen in (("hit", met), ("miss within 2 px", near), ("miss", ~met & ~near)):
+            some = np.resize(where[chosen], (count, 3))
+            _, least, middle = Pairs(solid, some, snap=False).hits(collide_exact_mask_pairs_hit)
+            rows.append((f"{name}: exact, {words}", chosen.sum(), f"{least * 1e6:.3f}", f"{middle * 1e6:.3f}"))
+            ratios[f"exact {words} of 32 px {name}s / Mask.overlap"] = least / peer
+        _, least, middle = Pairs(solid, np.resize(where[met], (count, 3)), False).hits(collide_exact_mask_pairs_full)
+        rows.append((f"{name}: exact contact", met.sum(), f"{least * 1e6:.3f}", f"{middle * 1e6:.3f}"))
+    table(f"One verdict of {SIZE} px sprites, {count} pairs", ("us", "poses", "least", "median"), rows)
+    print("Exact: any angle, parts of pixels. A contact has area, point, normal and depth as well.")
+    return ratios

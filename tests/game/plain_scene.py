@@ -1,0 +1,21 @@
+"""What scenes for tests of the shell have in common: their worlds are stepped, and nothing else happens."""
+
+
+class Plain:
+    """Beside game.scene.Scene: steps its worlds, on a plain ground; without goals, a bot or a state of its own."""
+
+    def update(self, inputs):
+        for world in self.worlds:
+            world.step()
+
+    def draw(self, canvas, alpha):
+        canvas.surface.fill((40, 40, 60))
+
+    def check(self):
+        return []
+
+    def bot(self):
+        return frozenset()
+
+    def state(self):
+        return (self.frame,)

@@ -1,0 +1,61 @@
+"""Unions of pixel squares at exact poses, as shapely geometry, and poses at which two of them are near touching."""
+
+import math
+
+import numpy as np
+from shapely import affinity
+from shapely.geometry import Polygon
+
+from tests.oracles.outlines import pixels
+
+TOUCHED = 1e-3  # [px] near enough
+ROUNDS = 40
+
+
+def union_of(solid, origin):
+    """The squares of solid[row][col] in body space."""
+    return pixels(solid, -origin[0], -origin[1])
+
+
+def at(union, pose):
+    """A union at a pose (x, y, angle), clockwise on the screen."""
+    x, y, angle = pose
+    c, s = math.cos(angle), math.sin(angle)
+    return affinity.affine_transform(union, [c, -s, s, c, x, y])
+
+
+def touching(a, b, angle, direction):
+    """A pose (x, y, angle) at which b, turned and come from outside towards a's middle, touches a or has passed it."""
+    turned = at(b, (0.0, 0.0, angle))
+    c, s = math.cos(direction), math.sin(direction)
+    away = sum(math.hypot(*np.ptp(np.array(each.bounds).reshape(2, 2), axis=0)) for each in (a, b))
+    for _ in range(ROUNDS):
+        gap = a.distance(affinity.translate(turned, away * c, away * s))
+        if gap < TOUCHED or away < 0.0:
+            break
+        away -= gap
+    return away * c, away * s, angle
+
+
+def random_pose(rng, a, b, near):
+    """A pose of b: within 2 px of where it touches a, or anywhere around it; at one in four at quarter turns, half of
+    these on halves of pixels."""
+    angle, direction = rng.uniform(-7.0, 7.0), rng.uniform(-math.pi, math.pi)
+    straight = rng.random()
+    if straight < 0.25:
+        angle = int(rng.integers(-4, 5)) * math.pi / 2
+    if near:
+        x, y, _ = touching(a, b, angle, direction)
+        x, y = x + rng.uniform(-1.4, 1.4), y + rng.uniform(-1.4, 1.4)
+    else:
+        reach = 0.4 * sum(each.bounds[2] - each.bounds[0] + each.bounds[3] - each.bounds[1] for each in (a, b))
+        away = rng.uniform(0.0, reach)
+        x, y = away * math.cos(direction), away * math.sin(direction)
+    if straight < 0.125:
+        x, y = math.floor(2.0 * x) / 2.0, math.floor(2.0 * y) / 2.0
+    return x, y, angle
+
+
+def convex(points, pose):
+    """A convex polygon at a pose."""
+    return at(Polygon(points), pose)
