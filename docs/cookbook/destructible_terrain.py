@@ -1,0 +1,25 @@
+import numpy as np
+
+from physics import Circle, Effects, PixelMask, Polygon, World
+
+x, y = np.arange(1024), np.arange(256)[:, None]
+solid = y > 120 + 40 * np.sin(x / 90)
+solid[60:70, 400:520] = True  # a bridge, which hangs on the hill at its left end
+solid[60:140, 400:412] = True
+
+world = World(Effects.rigid_bodies().with_(carving=True))
+ground = world.add_body(PixelMask(solid, origin=(0, 0)), kind="static")
+boulder = world.add_body(Circle(9), position=(700, 40))
+for _ in range(180):
+    world.step()
+
+crater = ground.carve(Circle(24), boulder.position)  # what lay there wakes, and falls in
+cut = ground.carve(Polygon.box(14, 14), (430, 65))  # the rest of the bridge comes loose
+(bridge,) = cut.fragments
+before = boulder.position
+for _ in range(240):
+    world.step()
+
+print(f"{crater.removed} + {cut.removed} pixels are gone, {bridge.shapes[0].area} came down to {bridge.position}")
+assert boulder.position.y > before.y + 10
+assert bridge.kind == "dynamic" and not bridge.awake and bridge.position.y > 75
