@@ -15,7 +15,7 @@ import physics
 
 MINUTE = 3600
 PLAY = """
-import gc, json, sys
+import ctypes, gc, json, sys
 from pathlib import Path
 from game.run.headless import start_dummy_display
 start_dummy_display()
@@ -24,8 +24,12 @@ from game.registry import Registry
 from game.run.session import Session
 from scenes import SCENES
 
+# What was freed goes back to the system first: pages that glibc keeps for later come and go.
+trim = getattr(ctypes.CDLL(None), "malloc_trim", int)
+
 def resident():
     gc.collect()
+    trim(0)
     return int(Path("/proc/self/statm").read_text().split()[1])
 
 scene = Registry(SCENES).scene_class(sys.argv[1])(1)
