@@ -107,6 +107,7 @@ def compare_pairs(
     manifolds,
     parked,
     sensors,
+    persisting,
     slop,
     hit_speed,
     # write
@@ -115,8 +116,9 @@ def compare_pairs(
     """Compare the pairs that touched before with the manifolds of this step, both in the order of shape ids.
 
     before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
-    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; slop [px]: a pair
-    that touched goes on touching up to it; hit_speed [px/s]. O(both).
+    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; persisting: 1 to
+    tell which pairs go on touching; slop [px]: a pair that touched goes on touching up to it; hit_speed [px/s].
+    O(both).
     """
     counts = told_inout.counts
     now = told_inout.now
@@ -160,19 +162,30 @@ def compare_pairs(
         last = j
         while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
             last += 1
-        active, pushed, deepest, deepest_second, fastest, fastest_second, speed, impulse = look_at_pair(
-            manifolds, j, last, slop if old else 0.0
-        )
+        if last - j == 1 and m.count == 1:
+            # Most pairs by far: nothing to choose between.
+            impulse = m.normal_impulse_1
+            pushed = impulse > 0.0
+            active = m.separation_1 <= (slop if old else 0.0) or pushed or m.swept
+            speed = m.speed_1
+            deepest = j
+            fastest = j
+            deepest_second = False
+            fastest_second = False
+        else:
+            active, pushed, deepest, deepest_second, fastest, fastest_second, speed, impulse = look_at_pair(
+                manifolds, j, last, slop if old else 0.0
+            )
         if active:
             d = manifolds[deepest]
             write_event(d, deepest_second, counts[0], now)
             counts[0] += 1
-            if old:
-                write_event(d, deepest_second, counts[2], persist)
-                counts[2] += 1
-            else:
+            if not old:
                 write_event(d, deepest_second, counts[1], begin)
                 counts[1] += 1
+            elif persisting == 1:
+                write_event(d, deepest_second, counts[2], persist)
+                counts[2] += 1
             if (pushed or not old) and speed > hit_speed:
                 write_event(manifolds[fastest], fastest_second, counts[5], hits)
                 hits[counts[5]].speed = speed
@@ -203,7 +216,9 @@ class Pairs:
         """EVENT rows of the pairs that touch, in the order of shape ids."""
         return self.before[: self.count]
 
-    def compare(self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, slop: float, hit_speed: float) -> Told:
+    def compare(
+        self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
+    ) -> Told:
         """Take in the manifolds of a step. Returns what is told of them, each array as long as it is."""
         room = self.count + len(manifolds)
         if room > len(self.told.keep):
@@ -211,7 +226,7 @@ class Pairs:
             before = np.zeros(2 * room, EVENT)
             before[: self.count] = self.rows
             self.before = before
-        compare_pairs(self.rows, manifolds, parked, int(sensors), slop, hit_speed, self.told)
+        compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, self.told)
         whole, counts = self.told, self.told.counts.tolist()
         cut = (table[:count] for table, count in zip(whole[:6], counts[:6], strict=True))
         told = Told._make((*cut, whole.keep[: len(manifolds)], whole.counts))
@@ -283,17 +298,16 @@ def tell(state: StepState) -> None:
     parked, parked_order = by_owner(parked)
     if keys is not None and parked_order is not None:
         keys = keys[parked_order]
-    told = state.touching.compare(whole, parked, False, tolerances.slop, tolerances.hit_speed)
+    told = state.touching.compare(whole, parked, False, effects.persist, tolerances.slop, tolerances.hit_speed)
     events.begin, events.end, events.hits = told.begin, told.end, told.hits
-    if effects.persist:
-        events.persist = told.persist
+    events.persist = told.persist
     keep = told.keep
     if order is not None:
         keep = np.empty_like(keep)
         keep[order] = told.keep
     if effects.sensors:
         sensed = manifolds if state.sensed is None else state.sensed
-        found = state.sensing.compare(sensed, NOTHING, True, 0.0, np.inf)
+        found = state.sensing.compare(sensed, NOTHING, True, False, 0.0, np.inf)
         events.sensor_begin, events.sensor_end = found.begin, found.end
         if state.sensed is None:
             keep = keep & ~manifolds["sensor"]

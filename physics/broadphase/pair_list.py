@@ -36,7 +36,7 @@ class PairList:
         self.free = []  # slots that a new shape may take
         self.freed = []  # slots freed since the last update: strategies have not heard yet
         self.slots = np.zeros((64, 2), np.int32)
-        self.spare = np.zeros((64, 2), np.int32)
+        self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.candidates = np.zeros((64, 2), np.int64)
         self.keys = np.zeros(64, np.int64)
         self.changed = np.zeros(64, np.int64)
@@ -203,9 +203,9 @@ class PairList:
         arena, proxies = self.arena, self.proxies
         # Where nothing changed, pairs may only have come to rest: there is nothing to ask a strategy.
         found = arena.collect(strategy.query(arena)) if len(arena.changed) else 0
-        if len(self.spare) < self.count:
-            self.spare = np.zeros_like(self.slots)
-        kept = keep_pairs(proxies, self.slots, self.count, self.spare)
+        if len(self.kept) < self.count:
+            self.kept, self.kept_rows = np.zeros_like(self.slots), np.zeros_like(self.candidates)
+        kept = keep_pairs(proxies, self.slots, self.count, self.kept, self.kept_rows)
         if len(self.keys) < found:
             self.keys = np.zeros(2 * found, np.int64)
         pair_keys(proxies, arena.pairs, found, arena.pairs, self.keys)
@@ -214,7 +214,7 @@ class PairList:
         if len(self.slots) < total:
             self.slots = np.zeros((2 * total, 2), np.int32)
             self.candidates = np.zeros((2 * total, 2), np.int64)
-        merge_pairs(proxies, shapes, self.spare, kept, self.keys, found, self.slots, self.candidates)
+        merge_pairs(shapes, self.kept, self.kept_rows, kept, self.keys, found, self.slots, self.candidates)
         self.count = total
         self.rows = self.candidates[:total]
         self.known_ids = self.owners = None

@@ -188,10 +188,12 @@ def keep_pairs(
     old_count,
     # write
     kept_out,
+    rows_out,
 ):
     """Copy the pairs of which neither side changed or was freed, and a side is awake, in their order.
 
-    proxies PROXY rows; old, kept_out (capacity, 2) int32 slots. Returns how many were kept. O(pairs).
+    proxies PROXY rows; old, kept_out (capacity, 2) int32 slots; rows_out (capacity, 2) int64 their shape rows. Returns
+    how many were kept. Without a branch: which pairs are kept is what no processor predicts. O(pairs).
     """
     kept = 0
     for i in range(old_count):
@@ -199,10 +201,11 @@ def keep_pairs(
         b = old[i, 1]
         p = proxies[a]
         q = proxies[b]
-        if not (p.changed or q.changed) and (p.awake or q.awake):
-            kept_out[kept, 0] = a
-            kept_out[kept, 1] = b
-            kept += 1
+        kept_out[kept, 0] = a
+        kept_out[kept, 1] = b
+        rows_out[kept, 0] = p.row
+        rows_out[kept, 1] = q.row
+        kept += int(not (p.changed or q.changed) and (p.awake or q.awake))
     return kept
 
 
@@ -235,9 +238,9 @@ def pair_keys(
 @kernel
 def merge_pairs(
     # read
-    proxies,
     shapes,
     kept,
+    kept_rows,
     kept_count,
     keys,
     new_count,
@@ -247,30 +250,27 @@ def merge_pairs(
 ):
     """Merge the kept pairs with the sorted keys of the new ones.
 
-    proxies PROXY and shapes SHAPE rows; kept (n, 2) slots in row order; keys int64 row << 32 | row, sorted;
+    shapes SHAPE rows; kept (n, 2) slots in row order, kept_rows their shape rows; keys int64 row << 32 | row, sorted;
     pairs_out (capacity, 2) int32 slots, candidates_out (capacity, 2) int64 shape rows, both in row order. O(pairs).
     """
     i = 0
-    j = 0
-    low = 0xFFFFFFFF
-    for at in range(kept_count + new_count):
-        take_kept = False
-        row_a = 0
-        row_b = 0
-        if i < kept_count:
-            row_a = proxies[kept[i, 0]].row
-            row_b = proxies[kept[i, 1]].row
-            take_kept = j >= new_count or ((row_a << 32) | row_b) < keys[j]
-        if take_kept:
+    at = 0
+    for j in range(new_count + 1):
+        while i < kept_count and (j == new_count or ((kept_rows[i, 0] << 32) | kept_rows[i, 1]) < keys[j]):
+            pairs_out[at, 0] = kept[i, 0]
+            pairs_out[at, 1] = kept[i, 1]
+            candidates_out[at, 0] = kept_rows[i, 0]
+            candidates_out[at, 1] = kept_rows[i, 1]
             i += 1
-        else:
+            at += 1
+        if j < new_count:
             row_a = keys[j] >> 32
-            row_b = keys[j] & low
-            j += 1
-        pairs_out[at, 0] = shapes[row_a].proxy
-        pairs_out[at, 1] = shapes[row_b].proxy
-        candidates_out[at, 0] = row_a
-        candidates_out[at, 1] = row_b
+            row_b = keys[j] & 0xFFFFFFFF
+            pairs_out[at, 0] = shapes[row_a].proxy
+            pairs_out[at, 1] = shapes[row_b].proxy
+            candidates_out[at, 0] = row_a
+            candidates_out[at, 1] = row_b
+            at += 1
 
 
 @kernel

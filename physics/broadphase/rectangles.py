@@ -1,8 +1,9 @@
 """Bounding motion rectangles: where each shape can be during the step. They are what the broad phase compares.
 
-In a world whose bodies tremble in piles they have room to spare, and are kept while what the shape needs stays inside:
-a pile that rests costs the broad phase nothing. More candidates, the same contacts: the narrow phase looks at the tight
-boxes. Source: Catto, Box2D v3.2, constants.h (margin).
+They are kept while what the shape needs stays inside. In a world whose bodies tremble in piles they have room to spare
+all round: a pile that rests costs the broad phase nothing. Elsewhere they reach ahead along the motion: what flies is
+looked for once in some steps. More candidates, the same contacts: the narrow phase looks at the tight boxes.
+Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes that reach ahead along the velocity).
 """
 
 import math
@@ -11,7 +12,7 @@ import numpy as np
 
 from physics.jit import kernel
 from physics.math2d import length_of
-from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, DRAWN, MASK_ANGLE_BUCKETS
+from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, DRAWN, MASK_ANGLE_BUCKETS, STEPS_AHEAD
 from physics.shapes.placement import refresh_aabbs, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
@@ -35,8 +36,8 @@ def update_rectangles(
     """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
 
     rasters: those of the geometry. motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates,
-    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; 0: it is what it needs;
-    how far the pixels of a mask may be drawn from its exact pose: [px], and of its size.
+    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; how far the pixels of a
+    mask may be drawn from its exact pose: [px], and of its size; of how many steps it holds the motion besides this.
     Returns the number of slots. O(rows).
     """
     gravity_x = motion[0]
@@ -45,6 +46,7 @@ def update_rectangles(
     margin = motion[3]
     spare = motion[4]
     share = motion[5]
+    ahead = motion[8]
     found = 0
     for k in range(len(rows)):
         row = rows[k]
@@ -63,6 +65,8 @@ def update_rectangles(
         upper_x = s.max_x
         upper_y = s.max_y
         fat = 0.0
+        ahead_x = 0.0
+        ahead_y = 0.0
         if s.role == PIXELS and s.snap:
             # Its box is that of the exact pose: what is drawn may lie a little beyond.
             beyond = motion[6] + motion[7] * b.extent
@@ -76,6 +80,11 @@ def update_rectangles(
             if b.kind == DYNAMIC:
                 dx += dt * dt * (b.gravity_scale * gravity_x + b.inverse_mass * b.force_x)
                 dy += dt * dt * (b.gravity_scale * gravity_y + b.inverse_mass * b.force_y)
+            size = max(s.max_x - s.min_x, s.max_y - s.min_y)
+            fat = min(spare, share * size)
+            most = AHEAD_FRACTION * size
+            ahead_x = min(max(ahead * dx, -most), most)
+            ahead_y = min(max(ahead * dy, -most), most)
             # A point turns by no more than its arc, or across the whole circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:
@@ -89,21 +98,21 @@ def update_rectangles(
             lower_y += min(dy, 0.0) - arc - margin
             upper_x += max(dx, 0.0) + arc + margin
             upper_y += max(dy, 0.0) + arc + margin
-            fat = min(spare, share * max(s.max_x - s.min_x, s.max_y - s.min_y))
         fits = p.lower_x <= lower_x and p.lower_y <= lower_y and p.upper_x >= upper_x and p.upper_y >= upper_y
-        if fat > 0.0:
+        room = max(fat, abs(ahead_x), abs(ahead_y))
+        if room > 0.0:
             # A rectangle left over from a fast step would be far too large.
-            slack = 4.0 * fat + length_of(upper_x - lower_x, upper_y - lower_y)
+            slack = 4.0 * room + length_of(upper_x - lower_x, upper_y - lower_y)
             fits = fits and length_of(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
         else:
             fits = (
                 fits and p.lower_x == lower_x and p.lower_y == lower_y and p.upper_x == upper_x and p.upper_y == upper_y
             )
         if fresh or p.changed or not fits:
-            p.lower_x = lower_x - fat
-            p.lower_y = lower_y - fat
-            p.upper_x = upper_x + fat
-            p.upper_y = upper_y + fat
+            p.lower_x = lower_x - fat + min(ahead_x, 0.0)
+            p.lower_y = lower_y - fat + min(ahead_y, 0.0)
+            p.upper_x = upper_x + fat + max(ahead_x, 0.0)
+            p.upper_y = upper_y + fat + max(ahead_y, 0.0)
             p.changed = True
             changed_out[found] = s.proxy
             found += 1
@@ -143,6 +152,7 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
         AABB_MARGIN_FRACTION if piles else 0.0,
         DRAWN,
         math.pi / MASK_ANGLE_BUCKETS,
+        0.0 if piles else STEPS_AHEAD,
     )
     changed = pairs.room_for(len(rows))
     refresh_aabbs(rows, tables.library.tables, bodies, shapes)

@@ -105,6 +105,7 @@ def classify(
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
+    sensors = 0
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
@@ -124,10 +125,9 @@ def classify(
                 kind = NOTHING
         kind_out[i] = kind
         counts_out[kind] += 1
-        if kind != NOTHING:
-            work_inout[NARROW_TESTS] += 1
-            if sensor:
-                work_inout[SENSOR_TESTS] += 1
+        sensors += int(sensor and kind != NOTHING)
+    work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
+    work_inout[SENSOR_TESTS] += sensors
 
 
 class NarrowPhase:

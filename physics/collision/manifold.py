@@ -19,6 +19,7 @@ from physics.tables.shape import BOUNDS
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON = range(6)
 MASKS_EXACT, MASK_HULL_EXACT, GRID_ANY, CHAIN_ANY = range(6, 10)  # exact: with a mask that is not snapped
 SURFACE_ANY, NOTHING = 10, 11  # surface: a chain that is the upper side of a mask open from below
+BLOCK = 64  # pairs of masks that are looked at together
 POINTS = 11  # floats of a manifold in flight: see clipping.py
 
 
@@ -47,6 +48,7 @@ class Workspace(NamedTuple):
         np.ndarray
     )  # MANIFOLD rows of the step before, and where those of each candidate with ground open from below stand
     memory: np.ndarray  # (candidates, 2) first row, number
+    near: np.ndarray  # (BLOCK, 6) masks in flight whose bounds meet, see mask_pairs.list_near
     left: np.ndarray  # (candidates + 1,) how many candidates overlap and are left to a neighbour, then which
 
 
@@ -59,6 +61,7 @@ def new_workspace() -> Workspace:
         np.zeros(16),
         np.zeros(0, MANIFOLD),
         np.zeros((0, 2), np.int64),
+        np.zeros((BLOCK, 6), np.int64),
         np.zeros(2, np.int64),
     )
 
@@ -104,14 +107,28 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 
 @subkernel
+def add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
+    """Add a manifold of one point; see add_point. Returns the number of manifolds, which goes on past the capacity."""
+    if found < len(manifolds_out):
+        m = manifolds_out[found]
+        # Plus 0.0: -0.0 would show in what is printed and compared.
+        open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
+        m.count = 1
+        m.x_1 = x
+        m.y_1 = y
+        m.separation_1 = separation
+        m.area_1 = area
+        m.feature_1 = feature
+    return found + 1
+
+
+@subkernel
 def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
     """Add a point to the last manifold, if that is of this pair, with this normal and one point; else begin one.
 
     Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
     area [px2]. What depends on the bodies' motion is left to approach.py.
     """
-    nx += 0.0  # -0.0 would show in what is printed and compared
-    ny += 0.0
     if 0 < found <= len(manifolds_out):
         m = manifolds_out[found - 1]
         if m.candidate == pair and m.count == 1 and m.normal_x == nx and m.normal_y == ny:
@@ -122,16 +139,7 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
             m.area_2 = area
             m.feature_2 = feature
             return found
-    if found < len(manifolds_out):
-        m = manifolds_out[found]
-        open_manifold(shapes, candidates, pair, nx, ny, m)
-        m.count = 1
-        m.x_1 = x
-        m.y_1 = y
-        m.separation_1 = separation
-        m.area_1 = area
-        m.feature_1 = feature
-    return found + 1
+    return add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out)
 
 
 @subkernel

@@ -11,15 +11,18 @@ import math
 
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
-from physics.raster.overlap import first_pixel, lines_meet, shared_area, shared_moments
+from physics.raster.overlap import first_pixel, line_area, line_moments, line_shared, shared_area, shared_moments
 
 
 @subkernel
 def center_normal(a, b, dx, dy):
     """Unit direction between the centres of two solid bounds; (1, 0) where they coincide."""
-    x = (b.set_left + b.set_right - a.set_left - a.set_right) + 2.0 * dx
-    y = (b.set_top + b.set_bottom - a.set_top - a.set_bottom) + 2.0 * dy
-    return unit(x, y, 1.0, 0.0)
+    x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
+    y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)
+    length = math.sqrt(x * x + y * y)  # of whole pixels: nothing under- or overflows
+    if length == 0.0:
+        return 1.0, 0.0
+    return x / length, y / length
 
 
 @subkernel
@@ -55,20 +58,25 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
     row_b = b.offset
     depth = 0.0
     found = True
+    row = 0  # where a pixel was shared last: mostly one is there a pixel further too
     while found and depth <= most:
         depth += 1.0
         x = dx + math.floor(rest_bx + nx * depth)
         y = dy + math.floor(rest_by + ny * depth)
-        other_x = dx - math.floor(rest_ax - nx * depth)
-        other_y = dy - math.floor(rest_ay - ny * depth)
         if lines:
-            found = lines_meet(words, row_a, box_a, row_b, box_b, x, y)
-            if not found and (other_x != x or other_y != y):
-                found = lines_meet(words, row_a, box_a, row_b, box_b, other_x, other_y)
+            row = line_shared(words, row_a, box_a, row_b, box_b, x, y, row)
+            found = row >= 0
         else:
             found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
-            if not found and (other_x != x or other_y != y):
-                found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
+        if found:
+            continue
+        other_x = dx - math.floor(rest_ax - nx * depth)
+        other_y = dy - math.floor(rest_ay - ny * depth)
+        if lines and (other_x != x or other_y != y):
+            row = line_shared(words, row_a, box_a, row_b, box_b, other_x, other_y, row)
+            found = row >= 0
+        elif other_x != x or other_y != y:
+            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
     return depth
 
 
@@ -81,15 +89,22 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
     """
     a = rasters[mask_a]
     b = rasters[mask_b]
-    area, sum_x, sum_y = shared_moments(rasters, words, mask_a, mask_b, dx, dy)
-    slope_x = float(
-        shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
-        - shared_area(rasters, words, mask_a, mask_b, dx + 1, dy)
-    )
-    slope_y = float(
-        shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
-        - shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
-    )
+    if a.stride == 1 and b.stride == 1:
+        row_a = a.offset
+        row_b = b.offset
+        box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
+        box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
+        area, sum_x, sum_y, more_x = line_moments(words, row_a, box_a, row_b, box_b, dx, dy)
+        more_y = line_area(words, row_a, box_a, row_b, box_b, dx, dy - 1)
+        more_y -= line_area(words, row_a, box_a, row_b, box_b, dx, dy + 1)
+    else:
+        area, sum_x, sum_y = shared_moments(rasters, words, mask_a, mask_b, dx, dy)
+        more_x = shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
+        more_x -= shared_area(rasters, words, mask_a, mask_b, dx + 1, dy)
+        more_y = shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
+        more_y -= shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
+    slope_x = float(more_x)
+    slope_y = float(more_y)
     axis_x, axis_y, least = least_axis(a, b, dx, dy)
     nx, ny = unit(slope_x, slope_y, 0.0, 0.0)
     if length_of(slope_x, slope_y) == 0.0:

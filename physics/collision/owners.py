@@ -2,7 +2,19 @@
 
 import numpy as np
 
+from physics.jit import kernel
+
 SIDES = ("body_", "shape_", "owner_", "body_row_", "row_")
+
+
+@kernel
+def are_whole(manifolds):
+    """Whether no side of any manifold is a part of another shape. O(manifolds)."""
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        if m.owner_a != m.shape_a or m.owner_b != m.shape_b:
+            return False
+    return True
 
 
 def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
@@ -11,9 +23,9 @@ def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     That a mask has parts is nobody's business, nor that they may have come later than what they touch: A is the shape
     with the smaller id here too.
     """
-    a, b = manifolds["owner_a"], manifolds["owner_b"]
-    if np.array_equal(a, manifolds["shape_a"]) and np.array_equal(b, manifolds["shape_b"]):
+    if are_whole(manifolds):
         return manifolds, None
+    a, b = manifolds["owner_a"], manifolds["owner_b"]
     order = np.lexsort((np.maximum(a, b), np.minimum(a, b)))
     found = manifolds[order]
     found["shape_a"], found["shape_b"] = found["owner_a"], found["owner_b"]

@@ -121,38 +121,20 @@ def shared_word(words, word_a, shift_a, word_b, shift_b, keep):
 
 
 @subkernel
-def first_shared_row(words, word_a, shift_a, word_b, shift_b, rows, keep):
-    """(row, shared pixels) of the first of `rows` rows of one word each that share a kept pixel;
-    (rows, 0) when none does.
+def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
+    """(row, shared pixels) of the first of `rows` rows of one word each that share a pixel; (rows, 0) when none does.
 
-    Looks at all rows: without a branch the loop is vectorised, and beats one that stops at the first hit, whose place
-    no processor predicts. Unsigned indices spare the check for negative ones. O(rows).
+    word_*: where in the words the rows begin; shift_*: columns on the left that are not looked at. On the right nothing
+    has to be cut off: beyond their solid bounds words are clear. O(rows).
     """
-    from_a = word(word_a)
-    from_b = word(word_b)
     down_a = word(shift_a)
     down_b = word(shift_b)
-    last = word(rows)
-    first = last
-    for y in range(last):
-        shared = word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b) & keep
-        first = min(first, y if shared != word(0) else last)
-    if first == last:
-        return rows, word(0)
-    return int(first), word(words[from_a + first] >> down_a) & word(words[from_b + first] >> down_b) & keep
-
-
-@subkernel
-def rows_meet(words, word_a, shift_a, word_b, shift_b, rows, keep):
-    """Whether any of `rows` rows of one word each share a kept pixel. Vectorised as first_shared_row. O(rows)."""
-    from_a = word(word_a)
-    from_b = word(word_b)
-    down_a = word(shift_a)
-    down_b = word(shift_b)
-    found = word(0)
-    for y in range(word(rows)):
-        found |= word(words[from_a + y] >> down_a) & word(words[from_b + y] >> down_b)
-    return word(found & keep) != word(0)
+    for row in range(rows):
+        # Unsigned indices spare the check for negative ones.
+        shared = word(words[word(word_a + row)] >> down_a) & word(words[word(word_b + row)] >> down_b)
+        if shared != word(0):
+            return row, shared
+    return rows, word(0)
 
 
 def packed(solid: np.ndarray) -> np.ndarray:

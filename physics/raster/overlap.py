@@ -9,9 +9,8 @@ from physics.raster.bits import (
     both,
     columns_up_to,
     count_bits,
-    first_shared_row,
     lowest_bit,
-    rows_meet,
+    shared_row,
     shared_word,
     sum_of_places,
 )
@@ -37,9 +36,7 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
     if left >= right or top >= bottom:
         return False, 0, 0
     if a.stride == 1 and b.stride == 1:
-        row, shared = first_shared_row(
-            words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top, columns_up_to(right - left)
-        )
+        row, shared = shared_row(words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top)
         return row < bottom - top, left + lowest_bit(shared), top + row
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride
@@ -57,16 +54,72 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 
 @subkernel
-def lines_meet(words, row_a, box_a, row_b, box_b, dx, dy):
-    """Whether a pixel is shared by rasters of one word per row: their first words, and their solid bounds (left, top,
-    right, bottom). O(rows)."""
+def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
+    """A row of A in which rasters of one word per row share a pixel, looked for from the guessed one on; -1: none.
+
+    row_*: their first words; box_*: their solid bounds (left, top, right, bottom). O(1) where the guess is right, else
+    O(rows).
+    """
     left = max(box_a[0], box_b[0] + dx)
     top = max(box_a[1], box_b[1] + dy)
-    right = min(box_a[2], box_b[2] + dx)
+    if left >= min(box_a[2], box_b[2] + dx):
+        return -1
     bottom = min(box_a[3], box_b[3] + dy)
-    if left >= right or top >= bottom:
-        return False
-    return rows_meet(words, row_a + top, left, row_b + top - dy, left - dx, bottom - top, columns_up_to(right - left))
+    # Beyond their bounds both are clear, so that nothing has to be cut off on the right.
+    down_a = word(left)
+    down_b = word(left - dx)
+    from_b = row_b - dy
+    first = guess if top <= guess < bottom else top
+    for row in range(first, bottom):
+        if word(words[word(row_a + row)] >> down_a) & word(words[word(from_b + row)] >> down_b) != word(0):
+            return row
+    for row in range(top, first):
+        if word(words[word(row_a + row)] >> down_a) & word(words[word(from_b + row)] >> down_b) != word(0):
+            return row
+    return -1
+
+
+@subkernel
+def shifts_to(columns):
+    """(up, down, kept): a word shifted up, then down by these, and cut to `kept`, is moved by -64 to 64 columns."""
+    kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
+    return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
+
+
+@subkernel
+def line_area(words, row_a, box_a, row_b, box_b, dx, dy):
+    """The number of pixels that rasters of one word per row share; see line_shared. O(rows)."""
+    up, down, kept = shifts_to(dx)
+    from_b = row_b - dy
+    area = 0
+    for row in range(max(box_a[1], box_b[1] + dy), min(box_a[3], box_b[3] + dy)):
+        area += count_bits(word(words[word(row_a + row)] & kept & word(word(words[word(from_b + row)] << up) >> down)))
+    return area
+
+
+@subkernel
+def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
+    """(area, sum of x, sum of y, how much more is shared one pixel to the left than to the right) of rasters of one
+    word per row whose bounds meet; see line_shared and shared_moments. O(rows)."""
+    up, down, _ = shifts_to(dx)
+    left_up, left_down, left_kept = shifts_to(dx - 1)
+    right_up, right_down, right_kept = shifts_to(dx + 1)
+    from_b = row_b - dy
+    area = 0
+    sum_x = 0
+    sum_y = 0
+    more = 0
+    for row in range(max(box_a[1], box_b[1] + dy), min(box_a[3], box_b[3] + dy)):
+        a = words[word(row_a + row)]
+        b = words[word(from_b + row)]
+        shared = word(a & word(word(b << up) >> down))
+        bits = count_bits(shared)
+        area += bits
+        sum_x += sum_of_places(shared)
+        sum_y += bits * row
+        more += count_bits(word(a & left_kept & word(word(b << left_up) >> left_down)))
+        more -= count_bits(word(a & right_kept & word(word(b << right_up) >> right_down)))
+    return area, sum_x, sum_y, more
 
 
 @subkernel

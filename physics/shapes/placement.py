@@ -230,11 +230,11 @@ def missing_rasters(
         s = shapes[rows[k]]
         if s.role == PIXELS or (s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK)):
             continue  # PIXELS are drawn when they are asked: see rasters.draw_masks
-        if rasters[raster_of[s.geometry, 0]].halo >= 0:
-            continue  # tested at its exact pose, by how it was added
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
             continue  # as it was added
+        if rasters[raster_of[s.geometry, 0]].halo >= 0:
+            continue  # tested at its exact pose, by how it was added
         for end in range(2):
             bucket = bucket_at(b.angle + end * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:

@@ -35,14 +35,14 @@ MANIFOLD = np.dtype(
         ("speed_1", np.float64),  # [px/s] approach along the normal before the response
         ("normal_impulse_1", np.float64),  # of the whole step
         ("tangent_impulse_1", np.float64),
+        ("normal_impulse_2", np.float64),  # here, as they are written whether there is a second point or not
+        ("tangent_impulse_2", np.float64),
         ("x_2", np.float64),
         ("y_2", np.float64),
         ("separation_2", np.float64),
         ("area_2", np.float64),
         ("feature_2", np.int64),
         ("speed_2", np.float64),
-        ("normal_impulse_2", np.float64),
-        ("tangent_impulse_2", np.float64),
     ],
     align=True,
 )

@@ -1,0 +1,67 @@
+"""Where nothing is piled up rectangles reach ahead along the motion: less is looked for, and nothing is missed."""
+
+import numpy as np
+import pytest
+
+from physics import BROADPHASES, Circle, Effects, World
+
+STEPS, COUNT, RADIUS, FIELD = 60, 120, 6.0, 260.0
+
+
+def flock(strategy, rng, speed=90.0):
+    """Discs of one size anywhere in a field, on their ways."""
+    world = World(Effects(), BROADPHASES[strategy]())
+    world.add_bodies(Circle(RADIUS), rng.uniform(0.0, FIELD, (COUNT, 2)), rng.uniform(-speed, speed, (COUNT, 2)))
+    return world
+
+
+def pairs_within(world, gap):
+    """{(id, id)} by every distance [px] between two surfaces, A before B."""
+    ids, at = world.bodies["id"], np.stack([world.bodies["x"], world.bodies["y"]], axis=1)
+    apart = ((at[:, None] - at[None]) ** 2).sum(axis=2)
+    return {(int(ids[a]), int(ids[b])) for a, b in np.argwhere(np.triu(apart <= (2.0 * RADIUS + gap) ** 2, k=1))}
+
+
+def told(world):
+    found = world.told_manifolds()
+    return set(zip(found["body_a"].tolist(), found["body_b"].tolist(), strict=True))
+
+
+@pytest.mark.parametrize("strategy", sorted(BROADPHASES))
+def test_who_flies_stops_and_turns_meets_whom_it_meets(strategy):
+    rng = np.random.default_rng(4)
+    world, met = flock(strategy, rng), 0
+    for step in range(STEPS):
+        some = rng.random(COUNT) < 0.1  # what happens to them no rectangle has foreseen
+        world.bodies["vx"][some] *= rng.choice([-1.0, 0.0, 1.0, 40.0])
+        world.bodies["vy"][some] += rng.uniform(-90.0, 90.0)
+        if step % 7 == 3:
+            world.body(int(world.bodies["id"][step])).move_to(rng.uniform(0.0, FIELD, 2))
+        world.step()
+        # Who touched goes on touching up to the slop.
+        assert pairs_within(world, 0.0) <= told(world) <= pairs_within(world, world.tolerances.slop), step
+        met += len(told(world))
+    assert met > STEPS * 10
+
+
+@pytest.mark.parametrize("strategy", sorted(BROADPHASES))
+def test_who_flies_on_is_looked_for_once_in_some_steps(strategy):
+    world = flock(strategy, np.random.default_rng(4), speed=10.0)
+    world.step()
+    tested = []
+    for _ in range(32):
+        world.step()
+        tested.append(world.profile.counters["pairs_tested"])
+    assert 0 < sum(each > 0 for each in tested) <= 8, tested
+
+
+def test_no_rectangle_is_left_behind_by_who_has_stopped():
+    world = flock("hash", np.random.default_rng(4), speed=900.0)
+    world.step()
+    world.bodies["vx"] = world.bodies["vy"] = 0.0
+    world.step()
+    low, high = (np.stack([world.shapes[f"{end}_{axis}"] for axis in "xy"], axis=1) for end in ("min", "max"))
+    slack = 2.0 * world.tolerances.slop
+    meet = (low[:, None] <= high[None] + slack).all(axis=2)
+    near = np.argwhere(np.triu(meet & meet.T, k=1))
+    assert world.candidates.tolist() == near.tolist()
