@@ -12,8 +12,8 @@ STANDARD_GRAVITY = 9.8  # [m/s2]
 LINEAR_SLOP = 0.005  # [m] overlap or gap in which a contact is kept. Larger: visible sinking. Smaller: flicker
 AABB_MARGIN = 0.05  # [m] how far a fat AABB of the tree outgrows its box (Box2D v3), at most …
 AABB_MARGIN_FRACTION = 0.125  # … this share of the box, so that tiny bodies stay tight
-STEPS_AHEAD = 16.0  # steps of its motion that the rectangle of what flies holds, to be looked for once in so many, but …
-AHEAD_FRACTION = 0.375  # … at most this share of its box. Larger: more candidates; smaller: more searching. A flat optimum
+STEPS_AHEAD = 16.0  # steps of its motion that the rectangle of what flies holds, to be looked for once in so many; …
+AHEAD_FRACTION = 0.375  # … at most this share of its box. Larger: more candidates; smaller: more searching
 RESTITUTION_SPEED = 1.0  # [m/s] slower impacts do not bounce, or a resting body would tremble for ever
 HIT_SPEED = 1.0  # [m/s] slower contacts are not reported as hits: no sound for a crate that rests
 
