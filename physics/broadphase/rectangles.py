@@ -83,8 +83,11 @@ def update_rectangles(
             size = max(s.max_x - s.min_x, s.max_y - s.min_y)
             fat = min(spare, share * size)
             most = AHEAD_FRACTION * size
-            ahead_x = min(max(ahead * dx, -most), most)
-            ahead_y = min(max(ahead * dy, -most), most)
+            steps = ahead
+            if fresh and ahead > 0.0:
+                steps = 1.0 + s.proxy % int(ahead)  # or all that came together would be looked for in the same step
+            ahead_x = min(max(steps * dx, -most), most)
+            ahead_y = min(max(steps * dy, -most), most)
             # A point turns by no more than its arc, or across the whole circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:

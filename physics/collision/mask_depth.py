@@ -11,7 +11,7 @@ import math
 
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
-from physics.raster.overlap import first_pixel, line_area, line_moments, line_shared, shared_area, shared_moments
+from physics.raster.overlap import first_pixel, line_moments, line_shared, shared_area, shared_moments
 
 
 @subkernel
@@ -90,19 +90,15 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
     a = rasters[mask_a]
     b = rasters[mask_b]
     if a.stride == 1 and b.stride == 1:
-        row_a = a.offset
-        row_b = b.offset
         box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
         box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
-        area, sum_x, sum_y, more_x = line_moments(words, row_a, box_a, row_b, box_b, dx, dy)
-        more_y = line_area(words, row_a, box_a, row_b, box_b, dx, dy - 1)
-        more_y -= line_area(words, row_a, box_a, row_b, box_b, dx, dy + 1)
+        area, sum_x, sum_y, more_x = line_moments(words, a.offset, box_a, b.offset, box_b, dx, dy)
     else:
         area, sum_x, sum_y = shared_moments(rasters, words, mask_a, mask_b, dx, dy)
         more_x = shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
         more_x -= shared_area(rasters, words, mask_a, mask_b, dx + 1, dy)
-        more_y = shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
-        more_y -= shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
+    more_y = shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
+    more_y -= shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
     slope_x = float(more_x)
     slope_y = float(more_y)
     axis_x, axis_y, least = least_axis(a, b, dx, dy)

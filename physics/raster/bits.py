@@ -115,9 +115,23 @@ def is_set(words, row, x):
 
 
 @subkernel
-def shared_word(words, word_a, shift_a, word_b, shift_b, keep):
-    """The kept pixels that two words share once each is shifted down by 0..63 columns."""
-    return word(word(words[word_a] >> word(shift_a)) & word(words[word_b] >> word(shift_b)) & keep)
+def shared_word(words, word_a, shift_a, word_b, shift_b):
+    """The pixels that two words share once each is shifted down by 0..63 columns. word_*: unsigned, which spares the
+    check for negative ones."""
+    return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
+
+
+@subkernel
+def shifts_to(columns):
+    """(up, down, kept) by which `moved` brings a word by -64 to 64 columns to the right."""
+    kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
+    return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
+
+
+@subkernel
+def moved(value, up, down, kept):
+    """A word shifted up, then down, and cut to what is kept."""
+    return word(word(word(value << up) >> down) & kept)
 
 
 @subkernel
@@ -127,11 +141,8 @@ def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
     word_*: where in the words the rows begin; shift_*: columns on the left that are not looked at. On the right nothing
     has to be cut off: beyond their solid bounds words are clear. O(rows).
     """
-    down_a = word(shift_a)
-    down_b = word(shift_b)
     for row in range(rows):
-        # Unsigned indices spare the check for negative ones.
-        shared = word(words[word(word_a + row)] >> down_a) & word(words[word(word_b + row)] >> down_b)
+        shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
         if shared != word(0):
             return row, shared
     return rows, word(0)

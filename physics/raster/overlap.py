@@ -10,8 +10,10 @@ from physics.raster.bits import (
     columns_up_to,
     count_bits,
     lowest_bit,
+    moved,
     shared_row,
     shared_word,
+    shifts_to,
     sum_of_places,
 )
 
@@ -65,43 +67,22 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
     if left >= min(box_a[2], box_b[2] + dx):
         return -1
     bottom = min(box_a[3], box_b[3] + dy)
-    # Beyond their bounds both are clear, so that nothing has to be cut off on the right.
-    down_a = word(left)
-    down_b = word(left - dx)
     from_b = row_b - dy
     first = guess if top <= guess < bottom else top
     for row in range(first, bottom):
-        if word(words[word(row_a + row)] >> down_a) & word(words[word(from_b + row)] >> down_b) != word(0):
+        if shared_word(words, row_a + row, left, from_b + row, left - dx) != word(0):
             return row
     for row in range(top, first):
-        if word(words[word(row_a + row)] >> down_a) & word(words[word(from_b + row)] >> down_b) != word(0):
+        if shared_word(words, row_a + row, left, from_b + row, left - dx) != word(0):
             return row
     return -1
-
-
-@subkernel
-def shifts_to(columns):
-    """(up, down, kept): a word shifted up, then down by these, and cut to `kept`, is moved by -64 to 64 columns."""
-    kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
-    return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
-
-
-@subkernel
-def line_area(words, row_a, box_a, row_b, box_b, dx, dy):
-    """The number of pixels that rasters of one word per row share; see line_shared. O(rows)."""
-    up, down, kept = shifts_to(dx)
-    from_b = row_b - dy
-    area = 0
-    for row in range(max(box_a[1], box_b[1] + dy), min(box_a[3], box_b[3] + dy)):
-        area += count_bits(word(words[word(row_a + row)] & kept & word(word(words[word(from_b + row)] << up) >> down)))
-    return area
 
 
 @subkernel
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     """(area, sum of x, sum of y, how much more is shared one pixel to the left than to the right) of rasters of one
     word per row whose bounds meet; see line_shared and shared_moments. O(rows)."""
-    up, down, _ = shifts_to(dx)
+    up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
     right_up, right_down, right_kept = shifts_to(dx + 1)
     from_b = row_b - dy
@@ -112,13 +93,13 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     for row in range(max(box_a[1], box_b[1] + dy), min(box_a[3], box_b[3] + dy)):
         a = words[word(row_a + row)]
         b = words[word(from_b + row)]
-        shared = word(a & word(word(b << up) >> down))
+        shared = both(a, moved(b, up, down, kept))
         bits = count_bits(shared)
         area += bits
         sum_x += sum_of_places(shared)
         sum_y += bits * row
-        more += count_bits(word(a & left_kept & word(word(b << left_up) >> left_down)))
-        more -= count_bits(word(a & right_kept & word(word(b << right_up) >> right_down)))
+        more += count_bits(both(a, moved(b, left_up, left_down, left_kept)))
+        more -= count_bits(both(a, moved(b, right_up, right_down, right_kept)))
     return area, sum_x, sum_y, more
 
 
@@ -132,9 +113,8 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
     if left >= right:
         return area
     if a.stride == 1 and b.stride == 1:
-        keep = columns_up_to(right - left)
         for y in range(top, bottom):
-            area += count_bits(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx, keep))
+            area += count_bits(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx))
         return area
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride

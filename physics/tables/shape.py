@@ -12,17 +12,25 @@ SHARPEST = 0.5 * math.pi  # [rad] by how much an outline may turn at a blunt cor
 TURNS = 32766.0 / SHARPEST  # [1/rad] that is told in 15 bits
 WHOLE_MASK = -1  # the tile of what is not part of a tile
 SHAPE = np.dtype(
-    [
+    [  # first what is looked at of every candidate, in one line of a cache
+        ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
+        ("role", np.int64),  # WHOLE PIXELS PART
+        ("sensor", np.bool_),
+        ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; else at its exact pose
+        ("own_material", np.bool_),  # the shape's own, whatever its body says
+        ("own_filter", np.bool_),
+        ("own_sensor", np.bool_),
+        ("raster", np.int64),  # of a mask at its body's angle, and the pixel column and row it is drawn at
+        ("left", np.int64),
+        ("top", np.int64),
+        ("body_row", np.int64),
         ("id", np.int64),
         ("owner", np.int64),  # id of the shape that it is a part of; else its own
-        ("role", np.int64),  # WHOLE PIXELS PART
         ("inner", np.int64),  # 16 bits each: the edges that lie inside its owner, as nothing may be pushed out through
         # them; the corners that other parts cover; the corners that seem sharper than the outline is there; by how much
         # it turns at them at most, see fitting.tile_seams
         ("tile", np.int64),  # number of the tile of a large mask that a PART lies in, else WHOLE_MASK
         ("body", np.int64),  # id
-        ("body_row", np.int64),
-        ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
         ("geometry", np.int64),  # row of the corners, grids (TILES), masks (MASK) or chains (CHAIN); -1: none
         ("local_x", np.float64),  # [px] centre of a circle, in body space
         ("local_y", np.float64),
@@ -30,20 +38,12 @@ SHAPE = np.dtype(
         ("wrapped", np.int64),  # kind inside a BOUNDS
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
-        ("sensor", np.bool_),
-        ("own_material", np.bool_),  # the shape's own, whatever its body says
-        ("own_filter", np.bool_),
-        ("own_sensor", np.bool_),
         ("density", np.float64),
         ("friction", np.float64),
         ("restitution", np.float64),
         ("rolling_resistance", np.float64),
         ("surface_speed", np.float64),  # [px/s] along the tangent, see Material
         ("proxy", np.int64),  # slot in the broad phase, -1 while it has none
-        ("raster", np.int64),  # of a mask at its body's angle, and the pixel column and row it is drawn at
-        ("left", np.int64),
-        ("top", np.int64),
-        ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; else at its exact pose
         ("min_x", np.float64),  # [px] tight AABB at the final pose of the step
         ("min_y", np.float64),
         ("max_x", np.float64),

@@ -202,9 +202,11 @@ def test_zero_step_keeps_bouncing_bodies_as_they_are():
 
 
 def test_motion_rectangles_of_masks_are_where_they_are_drawn_and_no_wider():
-    """They once had a pixel to spare on every side: nine candidates in a hundred for nothing."""
+    """They once had a pixel to spare on every side: nine candidates in a hundred for nothing. What moves may be met
+    by what it will meet in the steps to come."""
     rng = np.random.default_rng(4)
     solid, speeds = np.ones((7, 9), bool), rng.choice([0.0, 25.0, -90.0, 300.0], (60, 2))
+    speeds[:30] = 0.0
     places = rng.uniform(0.0, 120.0, (60, 2))
     for effects in (Effects(), Effects(response=True)):
         world = World(effects)
@@ -217,4 +219,8 @@ def test_motion_rectangles_of_masks_are_where_they_are_drawn_and_no_wider():
         apart = np.maximum(lower[:, None] - upper[None], lower[None] - upper[:, None]).max(axis=2)
         wanted = np.unique(world.shapes["owner"])[np.argwhere(np.triu(apart <= near, 1))]
         world.step()
-        assert world.candidates.tolist() == wanted.tolist()
+        still = set(np.unique(world.shapes["owner"])[~speeds.any(axis=1)].tolist())
+        told, wanted = ([tuple(each) for each in pairs.tolist()] for pairs in (world.candidates, wanted))
+        assert set(wanted) <= set(told)
+        at_rest = [[each for each in pairs if still.issuperset(each)] for pairs in (told, wanted)]
+        assert at_rest[0] == at_rest[1] and at_rest[0]
