@@ -2,8 +2,47 @@
 
 from physics.broadphase.cells import CELL_RANGE, LEVELS, bucket_at, cell_of
 from physics.broadphase.proxies import may_meet, overlaps, write_pair
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.tables.counters import NODES_VISITED, PAIRS_TESTED
+
+CHAINS, NEAR = 8, 64  # cells whose lists are followed side by side; entries that are noted before they are looked at
+
+
+@subkernel
+def follow(entries, p, level, count, chains_inout, near_out):
+    """Follow the lists of some cells and note the entries whose boxes meet that of the PROXY row p, until they end or
+    there is no more room.
+
+    chains_inout (CHAINS, 3) int64: the next entry of each list, and its cell's column and row; near_out (NEAR,) int64.
+    Side by side, as each step waits for its memory; without a branch, as what the tests find is what no processor
+    predicts. Returns how many lists have not ended, how many entries are near, and how many were tested.
+    """
+    near = 0
+    tested = 0
+    while count > 0 and near + count <= NEAR:
+        left = 0
+        for i in range(count):
+            k = chains_inout[i, 0]
+            cell_x = chains_inout[i, 1]
+            cell_y = chains_inout[i, 2]
+            e = entries[k]  # its box stands in it: most tests read nothing else
+            near_out[near] = k
+            near += int(
+                (e.lower_x <= p.upper_x)
+                & (e.upper_x >= p.lower_x)
+                & (e.lower_y <= p.upper_y)
+                & (e.upper_y >= p.lower_y)
+                & (e.cell_x == cell_x)
+                & (e.cell_y == cell_y)
+                & (e.level == level)
+            )
+            chains_inout[left, 0] = e.next
+            chains_inout[left, 1] = cell_x
+            chains_inout[left, 2] = cell_y
+            left += int(e.next >= 0)
+        tested += count
+        count = left
+    return count, near, tested
 
 
 @kernel
@@ -19,6 +58,8 @@ def find_in_cells(
     level_heads,
     level_counts,
     # write
+    chains_out,
+    near_out,
     pairs_out,
     work_inout,
 ):
@@ -63,37 +104,34 @@ def find_in_cells(
                         found = write_pair(a, b, found, pairs_out)
                     b = lists[b, 1]
                 continue
-            for cell_y in range(first_y, last_y + 1):
-                for cell_x in range(first_x, last_x + 1):
+            cell_x = first_x
+            cell_y = first_y
+            count = 0
+            while cell_y <= last_y or count > 0:
+                while cell_y <= last_y and count < CHAINS:
                     work_inout[NODES_VISITED] += 1
                     k = heads[bucket_at(level, cell_x, cell_y, mask)]
-                    while k >= 0:
-                        e = entries[k]
-                        b = k // 4
-                        k = e.next
-                        tested += 1
-                        # The box stands in the entry: most tests read nothing else. One branch, not four.
-                        if not (
-                            (e.lower_x <= p.upper_x)
-                            & (e.upper_x >= p.lower_x)
-                            & (e.lower_y <= p.upper_y)
-                            & (e.upper_y >= p.lower_y)
-                        ):
-                            continue
-                        if (
-                            b == a
-                            or e.cell_x != cell_x
-                            or e.cell_y != cell_y
-                            or e.level != level
-                            or (b < a and proxies[b].changed)
-                        ):
-                            continue
-                        if (
-                            cell_of(max(p.lower_x, e.lower_x), inverse) == cell_x
-                            and cell_of(max(p.lower_y, e.lower_y), inverse) == cell_y
-                            and may_meet(proxies, a, b, work_inout)
-                        ):
-                            found = write_pair(a, b, found, pairs_out)
+                    chains_out[count, 0] = k
+                    chains_out[count, 1] = cell_x
+                    chains_out[count, 2] = cell_y
+                    count += int(k >= 0)
+                    cell_x += 1
+                    if cell_x > last_x:
+                        cell_x = first_x
+                        cell_y += 1
+                count, near, met = follow(entries, p, level, count, chains_out, near_out)
+                tested += met
+                for i in range(near):
+                    e = entries[near_out[i]]
+                    b = near_out[i] // 4
+                    if (
+                        b != a
+                        and not (b < a and proxies[b].changed)
+                        and cell_of(max(p.lower_x, e.lower_x), inverse) == e.cell_x
+                        and cell_of(max(p.lower_y, e.lower_y), inverse) == e.cell_y
+                        and may_meet(proxies, a, b, work_inout)
+                    ):
+                        found = write_pair(a, b, found, pairs_out)
     work_inout[PAIRS_TESTED] += tested
     return found
 

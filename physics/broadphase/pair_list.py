@@ -37,6 +37,7 @@ class PairList:
         self.freed = []  # slots freed since the last update: strategies have not heard yet
         self.slots = np.zeros((64, 2), np.int32)
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
+        self.states = np.zeros(64, np.int8)
         self.candidates = np.zeros((64, 2), np.int64)
         self.keys = np.zeros(64, np.int64)
         self.changed = np.zeros(64, np.int64)
@@ -205,7 +206,11 @@ class PairList:
         found = arena.collect(strategy.query(arena)) if len(arena.changed) else 0
         if len(self.kept) < self.count:
             self.kept, self.kept_rows = np.zeros_like(self.slots), np.zeros_like(self.candidates)
-        kept = keep_pairs(proxies, self.slots, self.count, self.kept, self.kept_rows)
+        if len(self.states) < len(proxies):
+            self.states = np.zeros(len(proxies), np.int8)
+        if self.moved:
+            self._rename(shapes)
+        kept = keep_pairs(proxies, self.slots, self.candidates, self.count, self.states, self.kept, self.kept_rows)
         if len(self.keys) < found:
             self.keys = np.zeros(2 * found, np.int64)
         pair_keys(proxies, arena.pairs, found, arena.pairs, self.keys)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.cell_pairs import find_in_cells, near_in_cells
+from physics.broadphase.cell_pairs import CHAINS, NEAR, find_in_cells, near_in_cells
 from physics.broadphase.cells import ENTRY, LEVELS, place_changed
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs
 
@@ -28,6 +28,7 @@ class SpatialHashGrid:
         self.cell = None if cell is None else checks.number("cell", cell, low=SMALLEST_CELL)
         self.base = self.cell or 0.0
         self.tuned_for = 0
+        self.chains, self.near_entries = np.zeros((CHAINS, 3), np.int64), np.zeros(NEAR, np.int64)
         self._clear(0, 16)
 
     def _clear(self, slots, buckets):
@@ -82,7 +83,9 @@ class SpatialHashGrid:
 
     def query(self, arena: Arena) -> Query:
         """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
-        return lambda pairs, work: find_in_cells(arena.proxies, arena.changed, self.base, *self._state(), pairs, work)
+        return lambda pairs, work: find_in_cells(
+            arena.proxies, arena.changed, self.base, *self._state(), self.chains, self.near_entries, pairs, work
+        )
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
