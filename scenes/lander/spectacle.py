@@ -14,7 +14,6 @@ HUM = 7  # steps between two starts of the engine's sound
 BEEPS = steps(1.1)  # between two beeps at low fuel
 ALARMS = steps(0.34)  # between two of the alarm
 KNOCK = 9.0  # [px/s] a softer one is not heard
-DUSTY = 5.0  # [px] between a knock and the dust it throws up
 SMOKES = 45.0  # hull below which it smokes
 TINT = {"good": (170, 255, 190), "gold": (255, 226, 120), "bad": (255, 140, 120), "cold": (150, 226, 255)}
 
