@@ -39,20 +39,18 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
 
 
 @subkernel
-def normal_change(
-    speed, separation, mass, impulse, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed
-):
-    """The new accumulated impulse of one point.
+def wanted_change(speed, separation, given, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed):
+    """The change of its speed [px/s] along the normal that one point wants; `given` [px/s]: by its impulse so far.
 
-    Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, a spring that pushes out at no
-    more than push_speed [px/s], without a dead zone; without bias, no approach.
+    Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, what a spring gives it that
+    pushes out at no more than push_speed [px/s], without a dead zone; without bias, no approach.
     """
     if separation > 0.0:
-        return max(impulse - mass * (speed + separation * inverse_h), 0.0)
+        return -speed - separation * inverse_h
     if not biased:
-        return max(impulse - mass * speed, 0.0)
+        return -speed
     bias = max(mass_scale * bias_rate * separation, -push_speed)
-    return max(impulse - mass * (mass_scale * speed + bias) - impulse_scale * impulse, 0.0)
+    return -mass_scale * speed - bias - impulse_scale * given
 
 
 @subkernel
@@ -164,11 +162,11 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             soft_now = biased and (still or bears)
             # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
             free = soft_now and r.calm and not bears
-            impulse_1 = normal_change(
+            k_11 = 1.0 / r.normal_mass_1
+            wanted_1 = wanted_change(
                 speed_1,
                 gap_1,
-                r.normal_mass_1,
-                old_1,
+                k_11 * old_1,
                 inverse_h,
                 soft_now,
                 bias_rate,
@@ -176,6 +174,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 impulse_scale,
                 push_speed * r.push_share,
             )
+            impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
             impulse_2 = old_2
             gap_2 = gap_1
             k_12 = 0.0
@@ -184,35 +183,25 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 k_12 = masses
                 if rotation:
                     k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
-                solved = False
-                # Hard points are solved together, or the first would spin the body; single springs resist tilting.
-                if not soft_now and r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
-                    solved, both_1, both_2 = solve_two(
-                        1.0 / r.normal_mass_1,
-                        k_12,
-                        1.0 / r.normal_mass_2,
-                        -speed_1 - max(gap_1, 0.0) * inverse_h,
-                        -speed_2 - max(gap_2, 0.0) * inverse_h,
-                        old_1,
-                        old_2,
-                    )
+                k_22 = 1.0 / r.normal_mass_2
+                wanted_2 = wanted_change(
+                    speed_2,
+                    gap_2,
+                    k_22 * old_2,
+                    inverse_h,
+                    soft_now,
+                    bias_rate,
+                    mass_scale,
+                    impulse_scale,
+                    push_speed * r.push_share,
+                )
+                # Together, or the first would spin the body, and a box on its base would lean to one side.
+                solved, both_1, both_2 = solve_two(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2)
                 if solved:
                     impulse_1 = both_1
                     impulse_2 = both_2
                 else:
-                    speed_2 += k_12 * (impulse_1 - old_1)
-                    impulse_2 = normal_change(
-                        speed_2,
-                        gap_2,
-                        r.normal_mass_2,
-                        old_2,
-                        inverse_h,
-                        soft_now,
-                        bias_rate,
-                        mass_scale,
-                        impulse_scale,
-                        push_speed * r.push_share,
-                    )
+                    impulse_2 = max(old_2 + r.normal_mass_2 * (wanted_2 - k_12 * (impulse_1 - old_1)), 0.0)
             if free:
                 impulse_1 = 0.0
                 impulse_2 = 0.0
