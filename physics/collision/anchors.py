@@ -143,7 +143,16 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
         c.local_nx, c.local_ny = turned(nx, ny, a_cosine, -a_sine)
     elif c.frame == WITH_B:
         c.local_nx, c.local_ny = turned(nx, ny, b_cosine, -b_sine)
-    c.turn = b.angle - a.angle
+    c.angle_a = a.angle
+    c.angle_b = b.angle
+    c.held_nx = nx
+    c.held_ny = ny
+    c.apart_x = b.center_x - a.center_x
+    c.apart_y = b.center_y - a.center_y
+    c.held_ax_1 = m.x_1 - a.center_x
+    c.held_ay_1 = m.y_1 - a.center_y
+    c.held_ax_2 = 0.0
+    c.held_ay_2 = 0.0
     half = 0.5 * m.separation_1
     c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a))
     c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b)
@@ -156,6 +165,8 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
     c.base_2 = 0.0
     c.share_2 = 0.5
     if m.count == 2:
+        c.held_ax_2 = m.x_2 - a.center_x
+        c.held_ay_2 = m.y_2 - a.center_y
         half = 0.5 * m.separation_2
         c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a))
         c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b)
@@ -199,7 +210,12 @@ def copy_anchor(source, anchor_out):
     d.frame = s.frame
     d.local_nx = s.local_nx
     d.local_ny = s.local_ny
-    d.turn = s.turn
+    d.angle_a = s.angle_a
+    d.angle_b = s.angle_b
+    d.held_nx = s.held_nx
+    d.held_ny = s.held_ny
+    d.apart_x = s.apart_x
+    d.apart_y = s.apart_y
     d.radius_a = s.radius_a
     d.radius_b = s.radius_b
     d.friction = s.friction
@@ -212,6 +228,8 @@ def copy_anchor(source, anchor_out):
     d.local_ay_1 = s.local_ay_1
     d.local_bx_1 = s.local_bx_1
     d.local_by_1 = s.local_by_1
+    d.held_ax_1 = s.held_ax_1
+    d.held_ay_1 = s.held_ay_1
     d.share_1 = s.share_1
     d.base_1 = s.base_1
     d.normal_force_1 = s.normal_force_1
@@ -220,6 +238,8 @@ def copy_anchor(source, anchor_out):
     d.local_ay_2 = s.local_ay_2
     d.local_bx_2 = s.local_bx_2
     d.local_by_2 = s.local_by_2
+    d.held_ax_2 = s.held_ax_2
+    d.held_ay_2 = s.held_ay_2
     d.share_2 = s.share_2
     d.base_2 = s.base_2
     d.normal_force_2 = s.normal_force_2

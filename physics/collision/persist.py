@@ -189,7 +189,7 @@ def recycle_manifolds(
                 # What is round on both sides, or on one against a face, may turn as it likes.
                 turn = 0.0
                 if a.kind != CIRCLE and b.kind != CIRCLE:
-                    turn = abs((q.angle - p.angle) - anchors[last].turn) * reach
+                    turn = abs((q.angle - anchors[last].angle_b) - (p.angle - anchors[last].angle_a)) * reach
                 fits = slid <= distance and turn <= distance and changed <= distance
             else:
                 fits = False

@@ -3,7 +3,8 @@
 A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such
 as joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row
 holds arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides
-have moved since.
+have moved since. Where two faces stick, the arms stay as they were when they were found: arms that turn with a column
+that leans give its load a torque, and it buckles (Catto, Box2D v3: contact recycling).
 """
 
 from collections.abc import Callable
@@ -13,7 +14,8 @@ import numpy as np
 
 from physics.dynamics.graph import color_edges, order_edges
 from physics.jit import kernel, subkernel
-from physics.settings import CALM_SHARE, COLORS, CROWD
+from physics.math2d import length_of
+from physics.settings import CALM_SHARE, COLORS, CROWD, STICKING_SHARE, STICKING_TURN
 from physics.solver.bounce import restore_bounces
 from physics.solver.motions import Motions
 from physics.tables.constraint import CONSTRAINT
@@ -79,6 +81,23 @@ def effective_mass(a, b, ax, ay, bx, by, x, y):
     return 1.0 / k if k > 0.0 else 0.0
 
 
+@subkernel
+def sticks(a, b, anchor, distance):
+    """Whether two faces lie on each other nearly as when they were found: normal and arms may stay as they were then.
+
+    They bear a load, neither is round, neither body (BODY rows) turned by more than STICKING_TURN, their centres moved
+    against each other by no more than distance [px]. What bears nothing has to find its own way out of an overlap.
+    """
+    return (
+        (anchor.normal_force_1 > 0.0 or anchor.normal_force_2 > 0.0)
+        and anchor.radius_a == 0.0
+        and anchor.radius_b == 0.0
+        and abs(a.angle - anchor.angle_a) <= STICKING_TURN
+        and abs(b.angle - anchor.angle_b) <= STICKING_TURN
+        and length_of(b.center_x - a.center_x - anchor.apart_x, b.center_y - a.center_y - anchor.apart_y) <= distance
+    )
+
+
 def make_prepare(friction: bool, conveyor: bool) -> Callable:
     """The pass from contacts to constraint rows for a world with these effects."""
 
@@ -91,6 +110,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         plan,
         h,
         calm_speed,
+        sticking,
         # write
         anchors_inout,
         constraints_out,
@@ -99,8 +119,8 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
         substep of h [s].
 
-        plan: see Plan. calm_speed [px/s]: what approaches no faster counts as still. Arms go from the centres of mass
-        to the contact point. O(constraints).
+        plan: see Plan. calm_speed [px/s]: what approaches no faster counts as still; sticking [px]: see sticks. Arms
+        go from the centres of mass to the contact point. O(constraints).
         """
         for i in range(plan.count):
             edge = plan.ordered[i]
@@ -117,8 +137,9 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
             q = bodies[m.body_row_b]
             r.manifold = first
             r.count = m.count
-            nx = m.normal_x
-            ny = m.normal_y
+            held = m.count == 2 and sticks(p, q, c, sticking)
+            nx = c.held_nx if held else m.normal_x
+            ny = c.held_ny if held else m.normal_y
             r.normal_x = nx
             r.normal_y = ny
             r.friction = c.friction if friction else 0.0
@@ -154,6 +175,11 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 ay = y - p.center_y
                 bx = x - q.center_x
                 by = y - q.center_y
+                if held:
+                    ax = c.held_ax_1 if k == 0 else c.held_ax_2
+                    ay = c.held_ay_1 if k == 0 else c.held_ay_2
+                    bx = ax - c.apart_x
+                    by = ay - c.apart_y
                 base = (m.separation_1 if k == 0 else m.separation_2) - ((bx - ax) * nx + (by - ay) * ny) - core
                 normal_mass = effective_mass(a, b, ax, ay, bx, by, nx, ny)
                 tangent_mass = effective_mass(a, b, ax, ay, bx, by, -ny, nx)
@@ -322,8 +348,10 @@ class ContactSet:
         order_edges(self.count, self.colors, self.starts, self.cursors, self.ordered)
         plan = Plan(self.count, self.selected, self.edges, self.colors, degrees, self.ordered)
         prepare = PREPARE[state.effects.friction, state.effects.conveyor]
-        calm_speed = CALM_SHARE * state.tolerances.push_speed
-        prepare(state.bodies, rows, manifolds, plan, h, calm_speed, state.anchors, self.constraints, state.work)
+        tolerances = state.tolerances
+        calm_speed, sticking = CALM_SHARE * tolerances.push_speed, STICKING_SHARE * tolerances.speculative
+        bodies, anchors = state.bodies, state.anchors
+        prepare(bodies, rows, manifolds, plan, h, calm_speed, sticking, anchors, self.constraints, state.work)
 
     def warm_start(self, motions: Motions, rotation: bool) -> None:
         """Apply the impulses that the rows hold already."""

@@ -54,7 +54,12 @@ ANCHOR = np.dtype(
         ("frame", np.int64),  # WITH_A WITH_B CORES UPRIGHT
         ("local_nx", np.float64),  # the normal in the body space of `frame`
         ("local_ny", np.float64),
-        ("turn", np.float64),  # [rad] of B against A when it was detected
+        ("angle_a", np.float64),  # [rad] of the bodies when it was detected
+        ("angle_b", np.float64),
+        ("held_nx", np.float64),  # the normal then, in the world
+        ("held_ny", np.float64),
+        ("apart_x", np.float64),  # [px] B's centre of mass seen from A's then
+        ("apart_y", np.float64),
         ("radius_a", np.float64),  # [px] from the core to the surface
         ("radius_b", np.float64),
         ("friction", np.float64),  # mixed
@@ -67,6 +72,8 @@ ANCHOR = np.dtype(
         ("local_ay_1", np.float64),  # rounded the corner or edge inside
         ("local_bx_1", np.float64),
         ("local_by_1", np.float64),
+        ("held_ax_1", np.float64),  # [px] the point seen from A's centre of mass then, in the world
+        ("held_ay_1", np.float64),
         ("share_1", np.float64),  # where along the face the point is: 0 at A's core, 1 at B's, between them 0.5
         ("base_1", np.float64),  # [px] separation when it was detected
         ("normal_force_1", np.float64),  # impulse per second that the next step starts from
@@ -75,6 +82,8 @@ ANCHOR = np.dtype(
         ("local_ay_2", np.float64),
         ("local_bx_2", np.float64),
         ("local_by_2", np.float64),
+        ("held_ax_2", np.float64),
+        ("held_ay_2", np.float64),
         ("share_2", np.float64),
         ("base_2", np.float64),
         ("normal_force_2", np.float64),

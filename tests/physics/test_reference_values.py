@@ -271,6 +271,18 @@ def test_box_on_a_slope_tips_beyond_width_over_height(solver):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
+def test_box_on_a_plate_that_turns_tips_at_width_over_height(solver):
+    """A degree a second: at 26.57, and a degree later for the time that falling takes. What sticks may not hold it."""
+    world = metres(solver)
+    plate = world.add_body(Polygon.box(20, 1, center=(0.0, 0.5)), kind="kinematic", material=Material(friction=5.0))
+    box = world.add_body(Polygon.box(1, 2), position=(0.0, -1.0), material=Material(friction=5.0))
+    plate.angular_velocity = math.radians(1.0)
+    while box.angle - plate.angle < 0.02 and world.time < 40.0:
+        world.step()
+    assert math.atan(0.5) <= plate.angle <= math.atan(0.5) + math.radians(1.0)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hoop", [False, True])
 def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
     """a = 2/3 g sin for a disc, no slip while mu >= tan / 3; a hoop 1/2, tan / 2. Below that they slip."""

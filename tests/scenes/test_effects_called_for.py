@@ -18,7 +18,7 @@ from physics import Effects
 from physics.effects import NEEDS_RESPONSE
 from scenes import SCENES
 
-FRAMES = {"shooter": 2640, "platformer": 2400, "lander": 3000}
+FRAMES = {"shooter": 2640, "platformer": 2400, "lander": 4200}
 EFFECTS = [field.name for field in fields(Effects)]
 NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}
 

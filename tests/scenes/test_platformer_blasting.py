@@ -17,8 +17,8 @@ from scenes.platformer.scene import Platformer
 class Cave:
     """The game's own level, the hero beside the bomb."""
 
-    def __init__(self):
-        self.scene = Platformer(seed=1)
+    def __init__(self, kind=Platformer):
+        self.scene = kind(seed=1)
         self.keys = []
         self.session = Session(self.scene, self)
         (self.bomb,), (self.wall,) = self.scene.things.bombs, self.scene.things.walls
@@ -54,13 +54,18 @@ class Cave:
 
 
 class Over:
-    """Runs to the left, and jumps at what is in the way."""
+    """Runs to a place, and jumps at what is in the way."""
 
     held = 0
 
+    def __init__(self, x):
+        self.x = x
+
     def next(self, scene):
-        self.held = 14 if scene.hero.wall == -1 and scene.hero.grounded and not self.held else max(self.held - 1, 0)
-        return InputFrame(frozenset({"left", "jump"} if self.held else {"left"}))
+        way = -1 if scene.hero.character.position[0] > self.x else 1
+        self.held = 14 if scene.hero.wall == way and scene.hero.grounded and not self.held else max(self.held - 1, 0)
+        keys = {"left" if way < 0 else "right"}
+        return InputFrame(frozenset(keys | {"jump"} if self.held else keys))
 
 
 @pytest.fixture(scope="module")
@@ -129,10 +134,16 @@ def test_the_wall_stops_him_until_it_is_blown_and_its_gem_is_behind_it(blown):
     gem = min(cave.scene.things.of("secret"), key=lambda each: abs(each.x - cave.wall.left))
     assert cave.wall.left - 120 < gem.x < cave.wall.left
     other = copy.deepcopy(blown.scene)
-    session = Session(other, Over())
+    session = Session(other, Over(gem.x))
     while other.secrets == 0 and other.frame < blown.scene.frame + 300:
         session.step()
     assert other.secrets == 1
+
+
+def test_pieces_could_not_turn_without_rotation():
+    stiff = type("Stiff", (Platformer,), {"effects": Platformer.effects.with_(rotation=False)})
+    with pytest.raises(ValueError, match="needs the effect rotation"):
+        Cave(stiff).blow()
 
 
 def test_rubble_is_the_walls_own_pixels_and_comes_to_rest(blown):
