@@ -1,8 +1,9 @@
 """Which corners of a tile's parts are covered by others, of its own or of the tiles around, and what sides are left.
 
 Parts that meet in a point and together take half a turn or more there leave no corner that sticks out. Of those that
-leave one the first has it: tiles count row by row, parts in their order. Of a corner that hardly sticks out it is told,
-as its part seems sharper than the outline is there: the inner side beside it is none of the outline's.
+leave one the first that has a side of the outline there has it: tiles count row by row, parts in their order. Of a
+corner that hardly sticks out it is told, as its part seems sharper than the outline is there: the inner side beside it
+is none of the outline's.
 """
 
 import math
@@ -25,7 +26,7 @@ class Survey(NamedTuple):
     """What is known of a tile's parts, whatever lies around it."""
 
     angles: np.ndarray  # (n,) float64 [rad] inside each corner
-    seams: np.ndarray  # (n,) bool: whether one of the two sides at it is inner
+    seams: np.ndarray  # (n,) bool: whether one of the two sides at it is inner, and the other not
     meetings: np.ndarray  # (m, 5) its corners on the border: x, y [px], angle, whether a seam, number of the tile
     corners: np.ndarray  # (k, 2) float64 [px] as a world takes them: in body space, those in a line left out
     counts: np.ndarray  # (parts,) int64: how many of these each part has
@@ -66,7 +67,7 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 
 @subkernel
 def find_seams(parts, angles_out, seams_out):
-    """The angle inside each corner (n,) of a tile's parts [rad], and whether a side at it is inner."""
+    """The angle inside each corner (n,) of a tile's parts [rad], and whether one of the sides at it is inner."""
     corners = parts.corners
     inner = parts.inner
     first = 0
@@ -81,7 +82,7 @@ def find_seams(parts, angles_out, seams_out):
             vx = corners[after, 0] - corners[at, 0]
             vy = corners[after, 1] - corners[at, 1]
             angles_out[at] = math.atan2(abs(ux * vy - uy * vx), ux * vx + uy * vy)
-            seams_out[at] = inner[at] or inner[last]
+            seams_out[at] = inner[at] != inner[last]
         first += count
 
 
@@ -260,8 +261,10 @@ def tell_inner(parts, known, around, place, turns_out, inner_out):
             if known.angles[at] < HALF_TURN:
                 edge += 1
                 bits |= 1 << edge
-                bits |= corner_bits(edge, turns_out[at])
-                most = max(most, turns_out[at] if turns_out[at] <= SHARPEST else 0.0)
+                last = at - 1 if at > first else first + count - 1
+                turn = COVERED if parts.inner[at] and parts.inner[last] else turns_out[at]
+                bits |= corner_bits(edge, turn)
+                most = max(most, turn if turn <= SHARPEST else 0.0)
             if not parts.inner[at]:
                 bits &= ~(1 << edge)
         inner_out[part] = bits | turn_bits(most)

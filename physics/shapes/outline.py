@@ -60,8 +60,8 @@ def _bits(sides, turns):
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     """For each part, by how much the outline turns at each corner [rad]: pi where no other part meets it there.
 
-    COVERED where parts that meet leave no corner that sticks out. Where they do leave one, the first of them has it.
-    Corners are the same where their coordinates are.
+    COVERED where parts that meet leave no corner that sticks out. Where they do leave one, the first of them that has a
+    side of the outline there has it. Corners are the same where their coordinates are.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -70,8 +70,8 @@ def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     taken, found = set(), []
     for part in parts:
         inner = np.asarray(part.inner, bool)
-        at_seam = inner | np.roll(inner, 1)
-        turns = np.full(len(part.corners), math.pi)
+        at_seam = inner ^ np.roll(inner, 1)
+        turns = np.where(inner & np.roll(inner, 1), COVERED, math.pi)
         for k, point in enumerate(map(tuple, part.corners.tolist())):
             if at_seam[k]:
                 turns[k] = COVERED if point in taken else seam_turn(angles[point])
