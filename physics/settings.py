@@ -27,7 +27,7 @@ RECYCLE_DISTANCE = (
 STICKING_TURN = 0.01  # [rad] two faces that stick keep their arms and normal while neither body turned more. Larger:
 # boxes tip late (Box2D knows no bound and tips at 35 degrees instead of 27). Smaller: columns buckle as springs do
 STICKING_SHARE = 0.5  # … and while they moved against each other by less than this share of SPECULATIVE_DISTANCE
-CONTACT_HERTZ = 30.0  # [1/s] stiffness of a contact, at most an eighth of the substeps per second
+CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact, at most an eighth of the substeps per second
 CONTACT_DAMPING = 10.0  # damping ratio: far above 1, so that overlap is let out without a bounce
 STILL_STIFFNESS = 2.0  # contacts with what cannot be pushed are this much stiffer: the ground wins
 PUSH_SPEED = 3.0  # [m/s] fastest push out of an overlap. Larger: a deep overlap explodes
