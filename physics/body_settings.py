@@ -35,6 +35,7 @@ class BodySettings(Handle):
     def _stir(self, row) -> None:
         if not row["awake"]:
             sleep.disturb(self.world, [self.id])
+        row["sleep_time"] = 0.0
 
     @property
     def kind(self) -> str:

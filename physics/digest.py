@@ -8,7 +8,8 @@ from physics.shapes.mask import PixelMask
 from physics.tables.shape import MASK
 from physics.world_state import WorldState
 
-STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "sleep_time", "quarantined")
+STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
+CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
 # What bodies and shapes were given. Materials are left out: where their effect is not declared they are inert.
 GIVEN = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
 SHAPE = ("id", "membership", "mask", "sensor")
@@ -44,7 +45,7 @@ def digest(world: WorldState) -> str:
     numbers = np.array((world.dt, world.substeps, world.tolerances.pixels_per_meter), np.float64)
     found.update(world.solver.encode() + numbers.tobytes())
     tables = (
-        (world.bodies, (*STATE, *GIVEN)),
+        (world.bodies, (*STATE, *CLOCK, *GIVEN)),
         (world.shapes, SHAPE),
         (world.characters.rows, WALK),
         (world.contacts, KEYS),

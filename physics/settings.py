@@ -41,8 +41,8 @@ CALM_SHARE = 1e-5  # of the push-out speed: who approaches no faster is still, h
 PUSH_PASSES = 3  # of sequential impulses that let overlaps out; what they leave is left to the next step
 ITERATIONS_PER_SUBSTEP = 2.5  # passes of sequential impulses that cost what one substep of the soft step costs: 4 -> 10
 COLORS = 62  # bits of an int64 that are safe to shift; what fits in none is solved first, in order
-SLEEP_SPEED = 0.05  # [m/s] of the fastest point; slower bodies fall asleep after …
-SLEEP_TIME = 0.5  # [s] (Box2D v3.2)
+SLEEP_SPEED = 0.05  # [m/s] of the fastest point; whoever gets no further than with this falls asleep after …
+SLEEP_TIME = 0.5  # [s] (both Box2D v3.2)
 PUSH_ROUNDS = 16  # times that a body is pushed on by kinematic surfaces in the rest of a step: two in a corner
 IMPACT_ROUNDS = 64  # times that impacts are looked for again after one stopped another's partner
 

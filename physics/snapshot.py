@@ -28,7 +28,7 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import PART, SHAPE
 from physics.world_state import WorldState
 
-VERSION = 8
+VERSION = 9
 SETTINGS = ("solver", "dt", "substeps", "gravity", "drag", "wind")  # come back with a snapshot
 DAMAGE = (
     ValueError,

@@ -1,6 +1,8 @@
-"""Falling asleep: which islands have been slow for long enough, and what is put aside with them.
+"""Falling asleep: which islands have got nowhere for long enough, and what is put aside with them.
 
-Sleeping by the larger of velocity and half the real displacement: Box2D v3.2, solver.c.
+What counts is how far a body got, not how fast it is: in a heap of ragged things some tremble, and get nowhere. Source:
+Jolt Physics, Body::UpdateSleepStateInternal, which asks whether three points of a body stay within spheres; here it is
+the way of the furthest point from where the clock began. Speed and time: Box2D v3.2, solver.c.
 """
 
 import math
@@ -76,30 +78,36 @@ def fall_asleep(
     # write
     parents_inout,
     least_out,
+    excess_out,
     bodies_inout,
 ):
-    """Put the islands to sleep of which every body has been slow [px/s] for `patience` [s]. Returns (islands of dynamic
-    bodies that were awake, bodies that fell asleep).
+    """Put the islands to sleep of which nobody got further for `patience` [s] than with the speed `slow` [px/s], and
+    which as a whole are slower now. Returns (islands of dynamic bodies that were awake, bodies that fell asleep).
 
-    What touches a kinematic body on its way stays awake, and so does what is on a surface that runs, with conveyor 1,
-    however slowly. rows: the awake ones; parents_inout: see graph.join; least_out
-    (bodies): scratch. O(rows + manifolds).
+    So few may tremble, and what has only just begun to fall, or was shoved, stays awake. What touches a kinematic body
+    on its way does too, and so does what is on a surface that runs, with conveyor 1, however slowly. rows: the awake
+    ones; parents_inout: see graph.join; least_out, excess_out (bodies): scratch. O(rows + manifolds).
     """
+    distance = slow * patience
     islands = 0
     for k in range(len(rows)):
         i = rows[k]
         b = bodies_inout[i]
         least_out[i] = math.inf
+        excess_out[i] = 0.0
         parents_inout[i] = root_of(i, parents_inout)
         if b.kind == DYNAMIC and b.awake and parents_inout[i] == i:
             islands += 1
         if b.kind != DYNAMIC or not b.awake or b.quarantined:
             continue
-        speed = length_of(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
-        if dt > 0.0:
-            moved = length_of(b.x - b.previous_x, b.y - b.previous_y) + abs(b.angle - b.previous_angle) * b.extent
-            speed = max(speed, 0.5 * moved / dt)
-        b.sleep_time = b.sleep_time + dt if speed <= slow else 0.0
+        before = b.sleep_time
+        far = length_of(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
+        b.sleep_time = 0.0 if far else before + dt
+        # What creeps along, slower than this, stays near a pose that follows it.
+        if far or math.floor(b.sleep_time / patience) > math.floor(before / patience):
+            b.still_x = b.x
+            b.still_y = b.y
+            b.still_angle = b.angle
         b.island = bodies_inout[parents_inout[i]].id
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -119,10 +127,14 @@ def fall_asleep(
         root = parents_inout[rows[k]]
         if b.kind == DYNAMIC and b.awake and not b.quarantined:
             least_out[root] = min(least_out[root], b.sleep_time)
+            speed = length_of(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
+            excess_out[root] += speed * speed - slow * slow
     slept = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
-        if b.kind == DYNAMIC and b.awake and not b.quarantined and least_out[parents_inout[rows[k]]] >= patience:
+        root = parents_inout[rows[k]]
+        calm = least_out[root] >= patience and excess_out[root] <= 0.0
+        if b.kind == DYNAMIC and b.awake and not b.quarantined and calm:
             b.awake = False
             b.vx = 0.0
             b.vy = 0.0
@@ -138,13 +150,14 @@ class IslandWorkspace:
     """Scratch for the search for islands."""
 
     def __init__(self) -> None:
-        self.parents, self.least = np.zeros(16, np.int32), np.zeros(16)
+        self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)
         self.edges = np.zeros((16, 2), np.int32)
 
     def grow(self, bodies: int, manifolds: int) -> None:
         """Make room; nothing is kept."""
         if len(self.parents) < bodies:
-            self.parents, self.least = np.zeros(2 * bodies, np.int32), np.zeros(2 * bodies)
+            self.parents = np.zeros(2 * bodies, np.int32)
+            self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
         if len(self.edges) < manifolds:
             self.edges = np.zeros((2 * manifolds, 2), np.int32)
 
@@ -176,6 +189,9 @@ class IslandWorkspace:
         "bodies.awake",
         "bodies.active",
         "bodies.island",
+        "bodies.still_x",
+        "bodies.still_y",
+        "bodies.still_angle",
         "bodies.sleep_time",
         "bodies.vx",
         "bodies.vy",
@@ -204,6 +220,7 @@ def rest(state: StepState) -> None:
         int(state.effects.conveyor),
         search.parents,
         search.least,
+        search.excess,
         bodies,
     )
     if not slept:

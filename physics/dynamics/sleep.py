@@ -23,8 +23,8 @@ from physics.tables.world_tables import WorldTables
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies by id, and of what touches them: what is moved, changed or taken away; and have these
-    bodies looked at in the next step."""
+    """Wake the islands of bodies by id, and of what touches them: what is moved, changed or taken away; have these
+    bodies looked at in the next step, and the time begin again after which they fall asleep."""
     awake, sleepers = tables.awake, tables.sleepers
     if not awake.sleeping:
         return
@@ -32,6 +32,7 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     sleepers.return_told(tables, ids)
     awake.stir(ids)
     rows = rows_of(tables.bodies, ids)
+    tables.bodies["sleep_time"][rows[rows >= 0]] = 0.0
     keys = set()
     for identity, row in zip(ids, rows.tolist(), strict=True):
         keys |= sleepers.links.get(identity, set())

@@ -47,7 +47,10 @@ BODY = np.dtype(
         ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
-        ("sleep_time", np.float64),  # [s] it has been slow
+        ("still_x", np.float64),  # [px] pose near which it has been …
+        ("still_y", np.float64),
+        ("still_angle", np.float64),
+        ("sleep_time", np.float64),  # … for so long [s]
         ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
         ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
         ("fraction", np.float64),  # of this step's motion that was free, 1 when nothing was in the way

@@ -43,7 +43,7 @@ LEDGER = {
         "restitution": NEUTRAL,
         "stacking": DIFFERS,
         "continuous": DIFFERS,
-        "sleeping": NEUTRAL,
+        "sleeping": DIFFERS,  # wreckage that hardly drifts is timed, and some would stay in the air
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
         "conveyor": NEUTRAL,

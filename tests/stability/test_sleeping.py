@@ -61,6 +61,59 @@ def test_two_piles_are_two_islands_and_sleep_apart():
     assert awake(left) == [False] * 3 and awake(right) == [True] * 3, "what is shaken keeps its own pile awake"
 
 
+@pytest.mark.parametrize("share", [0.9, 1.1])
+def test_who_gets_on_at_less_than_the_sleeping_speed_falls_asleep(share):
+    """0.05 m/s of the furthest point, as the way of half a second; and not before half a second."""
+    world = metres(effects=SLEEPY, gravity=(0.0, 0.0))
+    slides = world.add_body(Polygon.box(1, 1), position=(0.0, 0.0), velocity=(0.05 * share, 0.0))
+    turns = world.add_body(
+        Polygon.box(6, 8), position=(40.0, 0.0), angular_velocity=0.05 * share / 5.0, material=Material(density=0.1)
+    )
+    for _ in range(29):
+        world.step()
+    assert awake([slides, turns]) == [True, True]
+    for _ in range(61):
+        world.step()
+    assert awake([slides, turns]) == [share > 1.0] * 2
+
+
+def kept_awake(seconds=3.0):
+    """(world, plank, crate) that lie still, and stay awake as something slides along the plank without friction."""
+    world = metres(effects=SLEEPY)
+    floor(world)
+    plank = world.add_body(Polygon.box(40, 1), position=(0.0, -0.5), material=Material(friction=0.0))
+    world.add_body(Polygon.box(1, 1), position=(-15.0, -1.5), velocity=(5.0, 0.0), material=Material(friction=0.0))
+    crate = world.add_body(Polygon.box(1, 1), position=(18.0, -1.5))
+    for _ in range(round(seconds / world.dt)):
+        world.step()
+    assert awake([plank, crate]) == [True, True] and math.hypot(*crate.velocity) < 0.05
+    return world, plank, crate
+
+
+@pytest.mark.parametrize("speed", [0.08, 1.0])
+def test_who_lay_long_and_is_shoved_goes_on(speed):
+    """Its clock begins again with the shove, whatever it had lain before, and be all others about to fall asleep."""
+    world, plank, crate = kept_awake()
+    for body in map(world.body, movers(world)["id"].tolist()):
+        body.velocity = (0.0, 0.0)
+    for _ in range(28):
+        world.step()
+    crate.velocity = (speed, 0.0)
+    for _ in range(10):
+        world.step()
+    assert crate.awake and crate.velocity.x == pytest.approx(speed, abs=1e-6)
+
+
+def test_who_lay_long_and_loses_its_ground_falls():
+    world, plank, crate = kept_awake()
+    plank.remove()
+    speeds = []
+    for _ in range(20):
+        world.step()
+        speeds.append(crate.velocity.y)
+    assert speeds == pytest.approx([world.gravity.y * world.dt * (k + 1) for k in range(20)], abs=1e-6)
+
+
 def test_undeclared_sleeping_never_sleeps():
     world = metres()
     floor(world)
