@@ -37,7 +37,7 @@ class Version:
         let_go = try_claim(self.path)
         if let_go is None:
             return False
-        let_go()
+        claims.claimed[self.path] = let_go
         try:
             self.kernel.compile(self.types)
         finally:

@@ -97,7 +97,8 @@ class KernelCache(caching.FunctionCache):
         found = self._load(sig, target_context)
         if found is None and claims.claim is not None:
             path = self.path_of(sig, target_context)
-            claims.claimed[path] = claims.claim(path)  # of what is called, never of what calls: nobody waits in a ring
+            if path not in claims.claimed:
+                claims.claimed[path] = claims.claim(path)  # of what is called, never of what calls: no ring of waiting
             found = self._load(sig, target_context)
             if found is not None:
                 claims.claimed.pop(path)()

@@ -217,6 +217,45 @@ def test_only_one_process_is_at_a_kernel(tmp_path):
     assert cores_here() >= 1
 
 
+COMPILE = """
+import numba
+from game.run.kernel_work import Version, claim, try_claim
+from physics.jit import claims, kernel
+claims.claim = claim
+
+@kernel
+def double(x):
+    return 2.0 * x
+
+version = Version(double, (numba.float64,))
+own, seen = version.kernel.compile, []
+
+def compile_and_look(types):
+    seen.append(try_claim(version.path) is None)  # before it is asked for
+    return own(types)
+
+version.kernel.compile = compile_and_look
+print("DONE", version.compile(), seen, version.kept, claims.claimed, try_claim(version.path) is not None)
+"""
+
+
+@jitted
+@pytest.mark.skipif(sys.platform == "win32", reason="everybody has every claim there")
+def test_nobody_else_begins_a_kernel_between_claim_and_compiling(tmp_path):
+    """Two that began at once were both at the longest of the platformer: 12 s of 46 twice."""
+    path = tmp_path / "one.py"
+    path.write_text(COMPILE)
+    run = subprocess.run(
+        [sys.executable, str(path)],
+        cwd=ROOT,
+        env={**os.environ, "HITBOX_CACHE_DIR": str(tmp_path / "kept"), "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert run.stdout.strip() == "DONE True [True] True {} True"
+
+
 WORK = """
 import json, sys
 from game.run.compilers import Compilers, jobs_of
