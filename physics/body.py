@@ -35,8 +35,7 @@ class Body(BodySettings):
     @property
     def position(self) -> Vec2:
         """The body's origin [px]. Set, it is put there as by move_to."""
-        row = self._row
-        return Vec2(row["x"].item(), row["y"].item())
+        return self._pair("x", "y")
 
     @position.setter
     def position(self, value: Pair) -> None:
@@ -45,7 +44,7 @@ class Body(BodySettings):
     @property
     def angle(self) -> float:
         """Turn of the body [rad]. Set, it is turned about its origin as by move_to."""
-        return self._row["angle"].item()
+        return self._value("angle")
 
     @angle.setter
     def angle(self, value: float) -> None:
@@ -54,8 +53,7 @@ class Body(BodySettings):
     @property
     def center(self) -> Vec2:
         """The centre of mass [px]."""
-        row = self._row
-        return Vec2(row["center_x"].item(), row["center_y"].item())
+        return self._pair("center_x", "center_y")
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
@@ -98,8 +96,7 @@ class Body(BodySettings):
     @property
     def velocity(self) -> Vec2:
         """Velocity of the centre of mass [px/s]. Raises ValueError when set on a static body to other than 0."""
-        row = self._row
-        return Vec2(row["vx"].item(), row["vy"].item())
+        return self._pair("vx", "vy")
 
     @velocity.setter
     def velocity(self, value: Pair) -> None:
@@ -116,7 +113,7 @@ class Body(BodySettings):
     def angular_velocity(self) -> float:
         """[rad/s]. Raises ValueError when set to other than 0 without the rotation effect, on a static body, or on one
         with a TileGrid."""
-        return self._row["angular_velocity"].item()
+        return self._value("angular_velocity")
 
     @angular_velocity.setter
     def angular_velocity(self, value: float) -> None:
@@ -134,17 +131,17 @@ class Body(BodySettings):
     @property
     def awake(self) -> bool:
         """Whether it takes part in the simulation."""
-        return self._row["awake"].item()
+        return self._value("awake")
 
     @property
     def mass(self) -> float:
         """Mass; 0 for a body without any."""
-        return self._row["mass"].item()
+        return self._value("mass")
 
     @property
     def inertia(self) -> float:
         """Inertia about the centre of mass."""
-        return self._row["inertia"].item()
+        return self._value("inertia")
 
     @property
     def kinetic_energy(self) -> float:

@@ -11,6 +11,7 @@ from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.material import Material
 from physics.tables.body import CONTINUOUS, KINDS
+from physics.vec2 import Vec2
 from physics.world_state import Handle
 
 
@@ -22,6 +23,16 @@ class BodySettings(Handle):
     @property
     def _row(self) -> np.void:
         return self.world._body_row(self.id)
+
+    def _value(self, name: str) -> Any:
+        """Of its row, as a Python value: out of the column, which takes half as long as out of the row."""
+        world = self.world
+        return world._bodies.data[name].item(world._row_number(self.id))
+
+    def _pair(self, first: str, second: str) -> Vec2:
+        world = self.world
+        row, columns = world._row_number(self.id), world._bodies.data
+        return Vec2(columns[first].item(row), columns[second].item(row))
 
     @property
     def _given(self) -> np.void:
@@ -89,7 +100,7 @@ class BodySettings(Handle):
     @property
     def gravity_scale(self) -> float:
         """Factor on the world's gravity."""
-        return self._row["gravity_scale"].item()
+        return self._value("gravity_scale")
 
     @gravity_scale.setter
     def gravity_scale(self, value: float) -> None:
@@ -101,7 +112,7 @@ class BodySettings(Handle):
     @property
     def bullet(self) -> bool:
         """Whether it is swept against moving bodies too. Raises ValueError for True without the effect continuous."""
-        return self._row["bullet"].item()
+        return self._value("bullet")
 
     @bullet.setter
     def bullet(self, value: bool) -> None:
@@ -121,7 +132,7 @@ class BodySettings(Handle):
     @property
     def fixed_rotation(self) -> bool:
         """Whether contacts and impulses leave its turn alone. Set to True it stops turning."""
-        return self._row["fixed_rotation"].item()
+        return self._value("fixed_rotation")
 
     @fixed_rotation.setter
     def fixed_rotation(self, value: bool) -> None:

@@ -200,9 +200,12 @@ class WorldState:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
     def _row_number(self, identity: int) -> int:
-        count = self._bodies.count
-        row = bisect_left(self._bodies.data["id"], identity, 0, count)
-        if row == count or self._bodies.data["id"][row] != identity:
+        ids, count = self._bodies.data["id"], self._bodies.count
+        row = identity - ids.item(0)  # unless one before it was removed
+        if 0 <= row < count and ids.item(row) == identity:
+            return row
+        row = bisect_left(ids, identity, 0, count)
+        if row == count or ids.item(row) != identity:
             raise checks.NoSuchId(f"body {identity} is not in this world (removed, or never added)")
         return row
 

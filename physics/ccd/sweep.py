@@ -26,7 +26,7 @@ from physics.tables.shape import MASK
 from physics.tables.step_state import StepState, stage
 
 SAME_FRACTION = 1e-9  # of a step
-NO_IMPACTS = np.zeros((0, 8))
+NO_IMPACTS, NO_ROWS = np.zeros((0, 8)), np.zeros(0, np.int64)
 
 
 class Sweeper:
@@ -104,9 +104,10 @@ def _look(state, moving, strict=False) -> np.ndarray:
 def _masks_in(state) -> np.ndarray:
     """Rows in the library of the masks that candidates are told by: all where nothing is pushed, else with sensors."""
     if not state.library.masks:
-        return np.zeros(0, np.int64)
-    both = state.shapes[["kind", "geometry"]][state.pairs.rows]
-    return np.unique(both["geometry"][both["kind"] == MASK])
+        return NO_ROWS
+    rows = state.pairs.rows
+    rows = rows[state.shapes["kind"][rows] == MASK]
+    return np.unique(state.shapes["geometry"][rows]) if len(rows) else NO_ROWS
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:

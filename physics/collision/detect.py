@@ -116,8 +116,9 @@ def sense(state: StepState) -> None:
     narrow = state.workspace.sensing
     pairs = state.pairs.rows
     if state.library.masks and len(pairs):
-        asked = shapes["sensor"][pairs].any(axis=1)
-        draw_masks(state.library, np.unique(pairs[asked]), bodies, shapes)
+        asked = pairs[shapes["sensor"][pairs].any(axis=1)]
+        if len(asked):
+            draw_masks(state.library, np.unique(asked), bodies, shapes)
     tables = state.library.tables
     sensed = narrow.collide(tables, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
     swept = state.swept_sensors
