@@ -7,6 +7,7 @@ import json
 from dataclasses import dataclass
 
 import numpy as np
+import pygame
 
 from assets import FOLDER
 from assets.craft.fields import capsule, grid, layered_noise, polygon
@@ -55,6 +56,7 @@ def landscape():
     for points in drawn["plug"]:
         _near(ice, x, y, points, 4, _filled(points))
     ice &= _around(massif & ~solid)
+    ice &= ~_crack(solid, ice)
     solid |= ice
     for pad in drawn["pads"]:
         _level(solid, ice, massif, pad)
@@ -108,6 +110,43 @@ def _around(hollow):
     out = hollow.copy()
     for dx, dy in ((FROZEN_IN, 0), (-FROZEN_IN, 0), (0, FROZEN_IN), (0, -FROZEN_IN)):
         out |= shifted(hollow, dx, dy)
+    return out
+
+
+def _crack(rock, ice):
+    """Where ice joins a mountain that hangs over a cave to the ground: halfway between them, a pixel wide.
+
+    So the mountain is a piece of its own from the start, and stays where it is when all the ice is shot away.
+    """
+    hanging = _hanging(rock)
+    open_ice = ice & ~rock
+    near_mountain, near_ground = hanging, rock & ~hanging
+    while True:
+        further = _grown(near_mountain) & open_ice & ~near_mountain & ~near_ground
+        near_mountain = near_mountain | further
+        beside = _grown(near_ground) & open_ice & ~near_mountain & ~near_ground
+        near_ground = near_ground | beside
+        if not (further.any() or beside.any()):
+            return near_mountain & open_ice & _grown(_grown(near_ground, down=False), across=False)
+
+
+def _hanging(rock):
+    """The pixels of rock from which no way through rock leads down to the edge."""
+    surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
+    pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
+    found = np.zeros_like(rock)
+    for part in pygame.mask.from_surface(surface).connected_components():
+        pixels = pygame.surfarray.array_red(part.to_surface()).T > 0
+        if not pixels[-1].any():
+            found |= pixels
+    return found
+
+
+def _grown(pixels, across=True, down=True):
+    """These pixels and their neighbours."""
+    out = pixels.copy()
+    for dx, dy in ((1, 0), (-1, 0)) * across + ((0, 1), (0, -1)) * down:
+        out |= shifted(pixels, dx, dy)
     return out
 
 

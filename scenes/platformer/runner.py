@@ -43,7 +43,7 @@ class Runner:
         self.pause = self.lives * PAUSE % LONGEST_PAUSE
         self.hold = 0  # steps that jump is still held
         self.fresh = True  # a hint has just become the next one
-        self.boarded = None  # (platform, the end at which it was boarded)
+        self.boarded = None  # the platform that it rides
         self.thrown = False  # a spring has thrown him on the way to this hint
         self.dropped = False
 
@@ -210,13 +210,16 @@ class Runner:
         x, feet = hero.character.position[0], hero.box[3]
         if self.boarded is None:
             return self._board(scene, hero, hint)
-        platform, start = self.boarded
-        other = platform.end if start == platform.start else platform.start
+        platform = self.boarded
+        # Wherever it came aboard: off is where the hint is.
+        there = min(
+            (platform.start, platform.end), key=lambda end: abs(_middle(hint) - end[0]) + abs(_foot(hint) - end[1])
+        )
         left, _, right, _ = platform.box
         on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
         if not on_it and hero.grounded and hero.riding is None:
             return self._run(scene, hero, hint)  # off it, on the other side or still on this one
-        if _docked(platform, other):
+        if _docked(platform, there):
             way = _way(hero, hint)
             return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
         if not hero.grounded:
@@ -240,7 +243,7 @@ class Runner:
         right = end[0] + platform.size[0] / 2
         way = 1 if end[0] > x else -1
         if left <= x <= right and hero.grounded and hero.riding is not None:
-            self.boarded = (platform, end)
+            self.boarded = platform
             return self._ride(scene, hero, hint)
         if not hero.grounded and left - 40 < x < right + 40:
             return _keys(_way_to(hero, self._place_on(scene, platform, x), 5)), False

@@ -66,7 +66,12 @@ def test_both_ways_into_the_cave_are_closed_each_by_ice_of_its_own(moon):
     assert (np.diff(columns) > 300).sum() == 1
 
 
-def test_nothing_floats(moon):
-    """All rock and ice hang together: a spike of stone reaches its roof or its floor."""
+def test_nothing_floats_but_the_mountain_that_only_ice_would_hold(moon):
+    """A spike of stone reaches its roof or its floor; cracks a pixel wide, through both plugs, part the mountain."""
     counts = PixelMask(moon.solid).tiles.pieces.counts
-    assert len(counts) == 1, sorted(counts.tolist())
+    assert len(counts) == 2 and min(counts) > 100_000, sorted(counts.tolist())
+    above, beside = np.roll(moon.solid, 1, axis=0), np.roll(moon.solid, 1, axis=1)
+    mended = moon.solid | (above & np.roll(moon.solid, -1, axis=0)) | (beside & np.roll(moon.solid, -1, axis=1))
+    assert len(PixelMask(mended).tiles.pieces.counts) == 1
+    cracks = mended & ~moon.solid & ~moon.ice
+    assert (cracks.any(axis=0).nonzero()[0] < 1830).any() and (cracks.any(axis=0).nonzero()[0] > 2440).any()
