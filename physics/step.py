@@ -106,7 +106,7 @@ class Workspace:
         self.sweep = Sweeper() if effects.continuous or effects.response else None
         self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None
-        self.sets = [ContactSet()] if stacks else [PushSet()]
+        self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
         self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else []
         self._rows = np.zeros(16, np.int64)

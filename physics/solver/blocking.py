@@ -7,7 +7,6 @@ rounds.
 """
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -116,7 +115,7 @@ def _make_way(state, stayed):
     bodies["fraction"][rows] = 1.0
 
 
-def solve(state: StepState, sets: Sequence[PushSet]) -> float:
+def solve(state: StepState, contacts: PushSet) -> float:
     """Put back whoever would overlap, until nobody does. Returns the step [s]. It needs no rows but the manifolds."""
     bodies, stopped, anchors = state.bodies, [], []
     while True:
@@ -154,4 +153,4 @@ def solve(state: StepState, sets: Sequence[PushSet]) -> float:
 )
 def blocking(state: StepState) -> None:
     """Let whoever would overlap stay where it was."""
-    solve(state, state.workspace.sets)
+    solve(state, state.workspace.contacts)

@@ -1,14 +1,14 @@
 """Contacts as a constraint set: which manifolds are solved, in which order, as which rows, and what is stored of them.
 
-A set has prepare, warm_start, solve and store; the solvers call nothing else of it, so that sets of another kind, such
-as joints, go through the same door. Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row
-holds arms from the centres of mass at the beginning of the step, and a separation that follows from how far both sides
-have moved since. Where two faces stick, the arms stay as they were when they were found: arms that turn with a column
-that leans give its load a torque, and it buckles (Catto, Box2D v3: contact recycling).
+A solver prepares the rows, runs its passes over them in one kernel, and stores what came of it. Source of the arms and
+effective masses: Catto, Box2D v3, contact_solver.c; the row holds arms from the centres of mass at the beginning of the
+step, and a separation that follows from how far both sides have moved since. Where two faces stick, the arms stay as
+they were when they were found: arms that turn with a column that leans give its load a torque, and it buckles (Catto,
+Box2D v3: contact recycling).
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -199,7 +199,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
 def make_warm_start(rotation: bool) -> Callable:
     """The pass that applies the impulses a substep starts from."""
 
-    @kernel
+    @subkernel
     def warm_start(
         # read
         constraints,
@@ -320,8 +320,6 @@ WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
 class ContactSet:
     """The contacts of one world as constraints; arrays are grown and used again."""
 
-    name = "contacts"  # under which a solver finds its passes over them
-
     def __init__(self) -> None:
         self.count = 0
         self.constraints = np.zeros(16, CONSTRAINT)
@@ -352,14 +350,6 @@ class ContactSet:
         calm_speed, sticking = CALM_SHARE * tolerances.push_speed, STICKING_SHARE * tolerances.speculative
         bodies, anchors = state.bodies, state.anchors
         prepare(bodies, rows, manifolds, plan, h, calm_speed, sticking, anchors, self.constraints, state.work)
-
-    def warm_start(self, motions: Motions, rotation: bool) -> None:
-        """Apply the impulses that the rows hold already."""
-        WARM_START[rotation](self.constraints, self.count, motions.used)
-
-    def solve(self, motions: Motions, run: Callable, *settings: Any) -> None:
-        """One pass of a solver over the rows."""
-        run(self.count, *settings, motions.used, self.constraints)
 
     def store(self, state: StepState, motions: Motions, h: float) -> None:
         """Bounce what has met, end friction where less presses, and write the impulses back."""

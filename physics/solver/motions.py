@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from physics.dynamics.integrate import refresh_centers
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
@@ -114,7 +114,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     """The pass that speeds bodies up at the start of each substep."""
 
-    @kernel
+    @subkernel
     def integrate_substep_velocities(
         # read, scalars
         h,
@@ -144,7 +144,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 def make_substep_positions(rotation: bool) -> Callable:
     """The pass that moves bodies at the end of each substep."""
 
-    @kernel
+    @subkernel
     def integrate_substep_positions(
         # read, scalars
         h,
@@ -284,11 +284,11 @@ WRITES = (
 
 
 def push_piles(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
-    """What the stages of the stacking solvers do: gather, solve by their door `solve(state, sets)`, write back."""
+    """What the stages of the stacking solvers do: gather, solve by their door `solve(state, contacts)`, write back."""
     if not len(state.awake.bodies):
         return
     motions = state.workspace.motions
     motions.gather(state)
     if state.dt > 0.0:
-        solve(state, state.workspace.sets)
+        solve(state, state.workspace.contacts)
     motions.scatter(state)

@@ -4,7 +4,7 @@ Differs from `blocking` in that a body which meets something goes on along it in
 starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the contacts, two loops over none.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
@@ -127,23 +127,19 @@ PASSES = {
 }
 
 
-def solve(state: StepState, sets: Sequence[PushSet]) -> float:
+def solve(state: StepState, contacts: PushSet) -> float:
     """Push everything apart. Returns the step [s]."""
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
     bodies, rows = state.bodies, state.awake.bodies
     before = np.column_stack([bodies["x"][rows], bodies["y"][rows]])
-    for each in sets:
-        each.prepare(state)
+    contacts.prepare(state)
     for number in range(PROJECTION_PASSES):
-        for each in sets:
-            each.solve(state, run, state.tolerances.restitution_speed, int(number == 0))
-    for each in sets:
-        _slow_down(bodies, rows, before, each.reach[rows])
+        contacts.solve(state, run, state.tolerances.restitution_speed, int(number == 0))
+    _slow_down(bodies, rows, before, contacts.reach[rows])
     if effects.continuous:
         _hold_back(state, rows, before)
-    for each in sets:
-        each.store(state)
+    contacts.store(state)
     return state.dt
 
 
@@ -193,5 +189,5 @@ def _hold_back(state, rows, before):
 def projection(state: StepState) -> None:
     """Push the bodies apart where they ended. Without time nothing moves: contacts are reported, nothing is pushed."""
     if state.dt > 0.0:
-        solve(state, state.workspace.sets)
+        solve(state, state.workspace.contacts)
         place_shapes(state)

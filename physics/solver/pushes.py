@@ -102,8 +102,6 @@ def store_pushes(pushes, manifolds_inout):
 class PushSet:
     """The contacts of one world as PUSH rows; grown and used again. It has no warm start: nothing is remembered."""
 
-    name = "contacts"
-
     def __init__(self) -> None:
         self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
         self.rows = self.data[:0]

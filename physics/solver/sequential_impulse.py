@@ -7,11 +7,11 @@ would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005,
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from physics.jit import kernel, subkernel
 from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
-from physics.solver.contacts import ContactSet
+from physics.solver.contacts import WARM_START, ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
 from physics.solver.two_points import solve_two
 from physics.tables.step_state import StepState, stage
@@ -30,7 +30,7 @@ def push_wanted(separation, inverse_h, slop, baumgarte, push_speed):
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     """One pass over the constraints of a world with these effects; the two points of a manifold are solved together."""
 
-    @kernel
+    @subkernel
     def solve_sequential(
         # read, scalars
         count,
@@ -152,7 +152,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
 def make_push_pass(rotation: bool) -> Callable:
     """One pass that lets overlaps out, over the constraints of a world with this effect."""
 
-    @kernel
+    @subkernel
     def push_overlaps(
         # read, scalars
         count,
@@ -213,7 +213,7 @@ def make_push_pass(rotation: bool) -> Callable:
     return push_overlaps
 
 
-@kernel
+@subkernel
 def sum_up(count, constraints_inout):
     """The impulses of the one substep are those of the step. O(count)."""
     for i in range(count):
@@ -224,36 +224,54 @@ def sum_up(count, constraints_inout):
         r.tangent_total_2 = r.tangent_impulse_2
 
 
-# The passes of this solver over the constraint sets, by their names.
-PASSES = {"contacts": {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}}
+def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
+    """All passes of a step in a world with these effects."""
+    velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
+    warm_start = WARM_START[rotation]
+    solve_all, push_out = make_sequential_pass(rotation=rotation, friction=friction), make_push_pass(rotation=rotation)
 
-PUSHES = {"contacts": {r: make_push_pass(rotation=r) for r in BOTH}}
+    @kernel
+    def run_passes(
+        # read, scalars
+        passes,
+        dt,
+        inverse_dt,
+        drag_rate,
+        push_speed,
+        slow,
+        slop,
+        count,
+        # write
+        motions_inout,
+        constraints_inout,
+    ):
+        """Advance the motions by dt [s] under the constraints. O(bodies + passes · constraints)."""
+        velocities(dt, drag_rate, motions_inout)
+        warm_start(constraints_inout, count, motions_inout)
+        for _ in range(passes):
+            solve_all(count, inverse_dt, slow, slop, BAUMGARTE, motions_inout, constraints_inout)
+        for _ in range(PUSH_PASSES):
+            push_out(count, inverse_dt, push_speed, 0.5 * slop, PUSH_SHARE, motions_inout, constraints_inout)
+        sum_up(count, constraints_inout)
+        positions(dt, push_speed, motions_inout)
+
+    return run_passes
 
 
-def solve(state: StepState, sets: Sequence[ContactSet]) -> float:
-    """Advance the motions by a step under the constraints of all sets. Returns the step [s] that impulses belong to."""
+PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
+
+
+def solve(state: StepState, contacts: ContactSet) -> float:
+    """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    rotation, friction = effects.rotation, effects.friction
-    for each in sets:
-        each.prepare(state, motions, dt)
+    contacts.prepare(state, motions, dt)
     # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
-    slop, spring = tolerances.slop, tolerances.speculative
-    SUBSTEP_VELOCITIES[effects.drag, rotation](dt, state.drag, motions.used)
-    for each in sets:
-        each.warm_start(motions, rotation)
-    for _ in range(math.ceil(ITERATIONS_PER_SUBSTEP * state.substeps)):
-        for each in sets:
-            run = PASSES[each.name][rotation, friction]
-            each.solve(motions, run, 1.0 / dt, BAUMGARTE / dt * spring, slop, BAUMGARTE)
-    for _ in range(PUSH_PASSES):
-        for each in sets:
-            run = PUSHES[each.name][rotation]
-            each.solve(motions, run, 1.0 / dt, tolerances.push_speed, 0.5 * slop, PUSH_SHARE)
-    for each in sets:
-        sum_up(each.count, each.constraints)
-    SUBSTEP_POSITIONS[rotation](dt, tolerances.push_speed, motions.used)
-    for each in sets:
-        each.store(state, motions, dt)
+    slow = BAUMGARTE / dt * tolerances.speculative
+    passes = math.ceil(ITERATIONS_PER_SUBSTEP * state.substeps)
+    run = PASSES[effects.drag, effects.rotation, effects.friction]
+    count, rows = contacts.count, contacts.constraints
+    run(passes, dt, 1.0 / dt, state.drag, tolerances.push_speed, slow, tolerances.slop, count, motions.used, rows)
+    contacts.store(state, motions, dt)
     return dt
 
 
