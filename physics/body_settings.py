@@ -51,7 +51,7 @@ class BodySettings(Handle):
     @property
     def kind(self) -> str:
         """static, kinematic or dynamic; see set_kind."""
-        return KINDS[self._row["kind"]]
+        return KINDS[self._value("kind")]
 
     @property
     def user(self) -> Any:
@@ -123,7 +123,7 @@ class BodySettings(Handle):
     @property
     def continuous(self) -> str:
         """off, ray, swept, toi or auto: how it is kept from passing through what it meets on its way."""
-        return CONTINUOUS[self._row["continuous"]]
+        return CONTINUOUS[self._value("continuous")]
 
     @continuous.setter
     def continuous(self, value: str) -> None:

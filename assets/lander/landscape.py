@@ -19,6 +19,7 @@ MARGIN = 24  # [px] around a part's box in which it is looked at: more than it i
 FROZEN_IN = 6  # [px] that ice reaches into the rock beside it
 SHOULDER = 5  # [px] that the level ground reaches beyond a pad, to both sides
 HEADROOM = 34  # [px] over a pad that are free
+ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 
 @dataclass
@@ -55,7 +56,7 @@ def landscape():
     ice = np.zeros_like(solid)
     for points in drawn["plug"]:
         _near(ice, x, y, points, 4, _filled(points))
-    ice &= _around(massif & ~solid)
+    ice &= _around(massif & ~solid, FROZEN_IN)
     ice &= ~_crack(solid, ice)
     solid |= ice
     for pad in drawn["pads"]:
@@ -105,11 +106,11 @@ def _filled(points):
     return change
 
 
-def _around(hollow):
-    """The hollows and a few px of the rock around them: how far ice has grown into it."""
-    out = hollow.copy()
-    for dx, dy in ((FROZEN_IN, 0), (-FROZEN_IN, 0), (0, FROZEN_IN), (0, -FROZEN_IN)):
-        out |= shifted(hollow, dx, dy)
+def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
+    """These pixels and those so far [px] from them, these ways."""
+    out = pixels.copy()
+    for dx, dy in ways:
+        out |= shifted(pixels, far * dx, far * dy)
     return out
 
 
@@ -122,12 +123,12 @@ def _crack(rock, ice):
     open_ice = ice & ~rock
     near_mountain, near_ground = hanging, rock & ~hanging
     while True:
-        further = _grown(near_mountain) & open_ice & ~near_mountain & ~near_ground
+        further = _around(near_mountain) & open_ice & ~near_mountain & ~near_ground
         near_mountain = near_mountain | further
-        beside = _grown(near_ground) & open_ice & ~near_mountain & ~near_ground
+        beside = _around(near_ground) & open_ice & ~near_mountain & ~near_ground
         near_ground = near_ground | beside
         if not (further.any() or beside.any()):
-            return near_mountain & open_ice & _grown(_grown(near_ground, down=False), across=False)
+            return near_mountain & open_ice & _around(_around(near_ground, ways=ACROSS), ways=DOWN)
 
 
 def _hanging(rock):
@@ -140,14 +141,6 @@ def _hanging(rock):
         if not pixels[-1].any():
             found |= pixels
     return found
-
-
-def _grown(pixels, across=True, down=True):
-    """These pixels and their neighbours."""
-    out = pixels.copy()
-    for dx, dy in ((1, 0), (-1, 0)) * across + ((0, 1), (0, -1)) * down:
-        out |= shifted(pixels, dx, dy)
-    return out
 
 
 def _level(solid, ice, massif, pad):

@@ -224,11 +224,14 @@ def sum_up(count, constraints_inout):
         r.tangent_total_2 = r.tangent_impulse_2
 
 
+SOLVE = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}
+PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
+
+
 def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
     """All passes of a step in a world with these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
-    warm_start = WARM_START[rotation]
-    solve_all, push_out = make_sequential_pass(rotation=rotation, friction=friction), make_push_pass(rotation=rotation)
+    warm_start, solve_all, push_out = WARM_START[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
     @kernel
     def run_passes(

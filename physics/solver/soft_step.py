@@ -39,18 +39,18 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
 
 
 @subkernel
-def wanted_change(speed, separation, given, inverse_h, biased, bias_rate, mass_scale, impulse_scale, push_speed):
+def wanted_change(speed, separation, given, inverse_h, biased, spring, push_speed):
     """The change of its speed [px/s] along the normal that one point wants; `given` [px/s]: by its impulse so far.
 
-    Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, what a spring gives it that
+    Apart: brake so that the gap is just closed in this substep. Overlapping: with bias, what a Softness gives it that
     pushes out at no more than push_speed [px/s], without a dead zone; without bias, no approach.
     """
     if separation > 0.0:
         return -speed - separation * inverse_h
     if not biased:
         return -speed
-    bias = max(mass_scale * bias_rate * separation, -push_speed)
-    return -mass_scale * speed - bias - impulse_scale * given
+    bias = max(spring.mass_scale * spring.bias_rate * separation, -push_speed)
+    return -spring.mass_scale * speed - bias - spring.impulse_scale * given
 
 
 @subkernel
@@ -130,9 +130,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             b = motions_inout[r.motion_b]
             nx = r.normal_x
             ny = r.normal_y
-            bias_rate = soft_still.bias_rate if r.still else soft.bias_rate
-            mass_scale = soft_still.mass_scale if r.still else soft.mass_scale
-            impulse_scale = soft_still.impulse_scale if r.still else soft.impulse_scale
+            spring = soft_still if r.still else soft
+            most = push_speed * r.push_share
             vx = b.vx - a.vx
             vy = b.vy - a.vy
             wa = a.angular_velocity
@@ -152,8 +151,6 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if rotation:
                 speed_1 += wb * b_1 - wa * a_1
                 speed_2 += wb * b_2 - wa * a_2
-            real_1 = speed_1
-            real_2 = speed_2
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
@@ -163,17 +160,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
             free = soft_now and r.calm and not bears
             k_11 = 1.0 / r.normal_mass_1
-            wanted_1 = wanted_change(
-                speed_1,
-                gap_1,
-                k_11 * old_1,
-                inverse_h,
-                soft_now,
-                bias_rate,
-                mass_scale,
-                impulse_scale,
-                push_speed * r.push_share,
-            )
+            wanted_1 = wanted_change(speed_1, gap_1, k_11 * old_1, inverse_h, soft_now, spring, most)
             impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
             impulse_2 = old_2
             gap_2 = gap_1
@@ -184,17 +171,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 if rotation:
                     k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
                 k_22 = 1.0 / r.normal_mass_2
-                wanted_2 = wanted_change(
-                    speed_2,
-                    gap_2,
-                    k_22 * old_2,
-                    inverse_h,
-                    soft_now,
-                    bias_rate,
-                    mass_scale,
-                    impulse_scale,
-                    push_speed * r.push_share,
-                )
+                wanted_2 = wanted_change(speed_2, gap_2, k_22 * old_2, inverse_h, soft_now, spring, most)
                 # Together, or the first would spin the body, and a box on its base would lean to one side.
                 solved, both_1, both_2 = solve_two(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2)
                 if solved:
@@ -205,7 +182,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if free:
                 impulse_1 = 0.0
                 impulse_2 = 0.0
-                let_out_both(r, real_1, real_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
+                let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if not biased:
@@ -267,11 +244,14 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     return solve_soft
 
 
+PUSH_OUT = {r: make_soft_pass(biased=True, rotation=r, friction=False) for r in BOTH}
+RELAX = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in BOTH for f in BOTH}
+
+
 def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
     """All substeps of a step in a world with these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
-    warm_start = WARM_START[rotation]
-    push_out, relax = make_soft_pass(True, rotation, False), make_soft_pass(False, rotation, friction)
+    warm_start, push_out, relax = WARM_START[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]
 
     @kernel
     def run_substeps(

@@ -212,9 +212,7 @@ class Runner:
             return self._board(scene, hero, hint)
         platform = self.boarded
         # Wherever it came aboard: off is where the hint is.
-        there = min(
-            (platform.start, platform.end), key=lambda end: abs(_middle(hint) - end[0]) + abs(_foot(hint) - end[1])
-        )
+        there = _nearest_end(platform, _middle(hint), _foot(hint))
         left, _, right, _ = platform.box
         on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
         if not on_it and hero.grounded and hero.riding is None:
@@ -238,7 +236,7 @@ class Runner:
                 abs(x - one.start[0]) + abs(feet - one.start[1]), abs(x - one.end[0]) + abs(feet - one.end[1])
             ),
         )
-        end = min((platform.start, platform.end), key=lambda place: abs(x - place[0]) + abs(feet - place[1]))
+        end = _nearest_end(platform, x, feet)
         left = end[0] - platform.size[0] / 2
         right = end[0] + platform.size[0] / 2
         way = 1 if end[0] > x else -1
@@ -326,6 +324,11 @@ def _middle(hint):
 
 def _foot(hint):
     return hint.y + hint.height
+
+
+def _nearest_end(platform, x, y):
+    """Of the two places [px] between which a platform goes."""
+    return min((platform.start, platform.end), key=lambda end: abs(x - end[0]) + abs(y - end[1]))
 
 
 def _way_to(hero, x, slack):
