@@ -1,8 +1,11 @@
 """Restitution, once, after the last substep: what every stacking solver ends with.
 
-Seeded with the approach speed from before the step, so a speculative row that has already braked the body does not eat
-the bounce (Rapier #919, #974). Two points of one manifold are solved together, or a box that lands flat would spin.
+Seeded with the speed with which two sides meet, by the parabola from before the step: so a speculative row that has
+already braked the body does not eat the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
+points of one manifold are solved together, or a box that lands flat would spin.
 """
+
+import math
 
 from physics.jit import kernel, subkernel
 from physics.solver.two_points import solve_two
@@ -28,6 +31,15 @@ def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
     b_inout.vx += b_inout.inverse_mass * x
     b_inout.vy += b_inout.inverse_mass * y
     b_inout.angular_velocity += b_inout.inverse_inertia * (bx * y - by * x)
+
+
+@subkernel
+def speed_of_impact(speed, separation, acceleration):
+    """Speed [px/s] with which two sides meet that were apart by a separation [px] before the step and neared each other
+    at a speed and an acceleration [px/s2]; of those that overlapped, the speed itself."""
+    if speed <= 0.0 or separation <= 0.0:
+        return speed
+    return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
 
 
 @subkernel
@@ -91,18 +103,22 @@ def restore_bounces(
         r = constraints_inout[i]
         m = manifolds[r.manifold]
         restitution = anchors[r.manifold].restitution
-        first = bounces(m.speed_1, restitution, threshold, r.normal_total_1)
-        second = r.count == 2 and bounces(m.speed_2, restitution, threshold, r.normal_total_2)
-        if not (first or second):
-            continue
         a = motions_inout[r.motion_a]
         b = motions_inout[r.motion_b]
+        nearing = (a.acceleration_x - b.acceleration_x) * r.normal_x
+        nearing += (a.acceleration_y - b.acceleration_y) * r.normal_y
+        speed_1 = speed_of_impact(m.speed_1, m.separation_1, nearing)
+        speed_2 = speed_of_impact(m.speed_2, m.separation_2, nearing) if r.count == 2 else 0.0
+        first = bounces(speed_1, restitution, threshold, r.normal_total_1)
+        second = r.count == 2 and bounces(speed_2, restitution, threshold, r.normal_total_2)
+        if not (first or second):
+            continue
         work_inout[RESTITUTION_ROWS] += int(first) + int(second)
         solved = False
         change_1 = 0.0
         change_2 = 0.0
-        wanted_1 = restitution * m.speed_1
-        wanted_2 = restitution * m.speed_2 if r.count == 2 else 0.0
+        wanted_1 = restitution * speed_1
+        wanted_2 = restitution * speed_2
         nx = r.normal_x
         ny = r.normal_y
         if first and second:

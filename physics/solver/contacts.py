@@ -98,6 +98,21 @@ def sticks(a, b, anchor, distance):
     )
 
 
+class Limits(NamedTuple):
+    """By what a row is told to be still, to stick or to rest."""
+
+    calm_speed: float  # [px/s] what approaches no faster is still
+    sticking: float  # [px] see sticks
+    slop: float  # [px] see touches_slowly
+    bounce_speed: float  # [px/s] slower impacts do not bounce
+
+
+@subkernel
+def touches_slowly(separation, speed, limits):
+    """Whether a point lies on the other side, or as good as that, too slow to bounce."""
+    return separation <= limits.slop and abs(speed) <= limits.bounce_speed
+
+
 def make_prepare(friction: bool, conveyor: bool) -> Callable:
     """The pass from contacts to constraint rows for a world with these effects."""
 
@@ -109,8 +124,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         manifolds,
         plan,
         h,
-        calm_speed,
-        sticking,
+        limits,
         # write
         anchors_inout,
         constraints_out,
@@ -119,8 +133,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
         substep of h [s].
 
-        plan: see Plan. calm_speed [px/s]: what approaches no faster counts as still; sticking [px]: see sticks. Arms
-        go from the centres of mass to the contact point. O(constraints).
+        plan: see Plan, limits: see Limits. Arms go from the centres of mass to the contact point. O(constraints).
         """
         for i in range(plan.count):
             edge = plan.ordered[i]
@@ -137,7 +150,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
             q = bodies[m.body_row_b]
             r.manifold = first
             r.count = m.count
-            held = m.count == 2 and sticks(p, q, c, sticking)
+            held = m.count == 2 and sticks(p, q, c, limits.sticking)
             nx = c.held_nx if held else m.normal_x
             ny = c.held_ny if held else m.normal_y
             r.normal_x = nx
@@ -149,8 +162,11 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
             )
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
-            r.calm = m.speed_1 <= calm_speed and (m.count == 1 or m.speed_2 <= calm_speed)
+            r.calm = m.speed_1 <= limits.calm_speed and (m.count == 1 or m.speed_2 <= limits.calm_speed)
             r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
+            r.rests = touches_slowly(m.separation_1, m.speed_1, limits) or (
+                m.count == 2 and touches_slowly(m.separation_2, m.speed_2, limits)
+            )
             r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
             r.rolling_limit = c.rolling_resistance if friction else 0.0
             turning = a.inverse_inertia + b.inverse_inertia
@@ -347,9 +363,13 @@ class ContactSet:
         plan = Plan(self.count, self.selected, self.edges, self.colors, degrees, self.ordered)
         prepare = PREPARE[state.effects.friction, state.effects.conveyor]
         tolerances = state.tolerances
-        calm_speed, sticking = CALM_SHARE * tolerances.push_speed, STICKING_SHARE * tolerances.speculative
-        bodies, anchors = state.bodies, state.anchors
-        prepare(bodies, rows, manifolds, plan, h, calm_speed, sticking, anchors, self.constraints, state.work)
+        limits = Limits(
+            CALM_SHARE * tolerances.push_speed,
+            STICKING_SHARE * tolerances.speculative,
+            tolerances.slop,
+            tolerances.restitution_speed,
+        )
+        prepare(state.bodies, rows, manifolds, plan, h, limits, state.anchors, self.constraints, state.work)
 
     def store(self, state: StepState, motions: Motions, h: float) -> None:
         """Bounce what has met, end friction where less presses, and write the impulses back."""

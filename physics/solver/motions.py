@@ -43,6 +43,7 @@ def stand_still(motions_out, pushable_out):
     m.angular_acceleration = 0.0
     m.moves = False
     m.pushed = False
+    m.pressed = False
     m.walks = False
     pushable_out[0] = False
 
@@ -85,6 +86,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.turn = 0.0
             m.moves = b.kind != STATIC and b.awake and not b.quarantined
             m.pushed = m.moves and b.kind == DYNAMIC
+            m.pressed = False
             m.walks = False
             pushable_out[k + 1] = m.pushed and b.inverse_mass > 0.0
             if m.moves:
@@ -128,6 +130,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
             m = motions_inout[i]
             if not m.pushed:
                 continue
+            m.pressed = False
             m.vx += h * m.acceleration_x
             m.vy += h * m.acceleration_y
             if rotation:
@@ -153,7 +156,11 @@ def make_substep_positions(rotation: bool) -> Callable:
         motions_inout,
     ):
         """Move every body by one substep h [s], and by what lets it out of overlaps, at push_speed [px/s] at most,
-        however many push it: that is spent then. O(bodies)."""
+        however many push it: that is spent then. O(bodies).
+
+        What nothing presses flies on its parabola: with the speed of the end of each substep, which is what keeps piles
+        stable, a ball that bounces would lose h times its speed in height on every flight.
+        """
         for i in range(len(motions_inout)):
             m = motions_inout[i]
             if not m.moves:
@@ -161,6 +168,10 @@ def make_substep_positions(rotation: bool) -> Callable:
             m.dx += h * m.vx
             m.dy += h * m.vy
             turn = m.angular_velocity
+            if not m.pressed:
+                m.dx -= 0.5 * h * h * m.acceleration_x
+                m.dy -= 0.5 * h * h * m.acceleration_y
+                turn -= 0.5 * h * m.angular_acceleration
             if m.push_vx != 0.0 or m.push_vy != 0.0 or m.push_w != 0.0:
                 fast = length_of(m.push_vx, m.push_vy)
                 share = push_speed / fast if fast > push_speed else 1.0

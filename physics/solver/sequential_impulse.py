@@ -126,6 +126,9 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
                     impulse_2 = max(old_2 + r.normal_mass_2 * wanted_2, 0.0)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
+            if r.rests or impulse_1 + impulse_2 > 0.0:
+                a.pressed = True
+                b.pressed = True
             change = impulse_1 - old_1 + impulse_2 - old_2
             x += change * nx
             y += change * ny

@@ -185,6 +185,9 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
+            if biased and (r.rests or impulse_1 + impulse_2 > 0.0):
+                a.pressed = True
+                b.pressed = True
             if not biased:
                 r.normal_total_1 += impulse_1
                 r.normal_total_2 += impulse_2

@@ -22,6 +22,7 @@ MOTION = np.dtype(
         ("angular_acceleration", np.float64),
         ("moves", np.bool_),
         ("pushed", np.bool_),  # is integrated; feels drag and acceleration
+        ("pressed", np.bool_),  # something acts on it in this substep, or it lies on something: it does not fly freely
         ("walks", np.bool_),  # a character: what lies under its feet bears it, and is not held down by it
     ],
     align=True,
@@ -45,6 +46,7 @@ CONSTRAINT = np.dtype(
         ("push_share", np.float64),  # of the push-out speed
         ("calm", np.bool_),  # nothing approached before the step
         ("loaded", np.bool_),  # it bore something in the step before
+        ("rests", np.bool_),  # both sides touched before the step, too slow to bounce
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
         ("ax_1", np.float64),
         ("ay_1", np.float64),

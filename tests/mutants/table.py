@@ -50,7 +50,7 @@ MUTANTS = (
     Mutant("cast_on_polygon", "turn", ("test_ray_against_a_box",)),
     Mutant("sweep_circles", "minus", ("test_two_discs_in_closed_form",)),
     # motion, solvers
-    Mutant("integrate_velocities", "sign", ("test_free_fall_is_its_own_recurrence",), seed=4),
+    Mutant("integrate_velocities", "sign", ("test_free_fall_without_stacking_is_its_own_recurrence",), seed=4),
     Mutant("integrate_velocities", "factor", ("test_drag_and_wind_follow_the_implicit_recurrence",), seed=2),
     Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
     Mutant("warm_start", "sign", ("test_pyramid_that_starts_a_quarter_inside_itself",)),

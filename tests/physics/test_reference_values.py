@@ -10,53 +10,47 @@ import pytest
 
 from physics import Capsule, Circle, Material, Polygon
 from tests.stability.invariants import Watch, kinetic
-from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, on_slope, pile_effects
+from tests.stability.piles import SLOP, SOLVERS, column, floor, metres, needs_speed, on_slope, pile_effects
 
 G = 10.0
+STACKING = ("soft_step", "sequential_impulse")
 
 
 # --- flight -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    "solver, substeps, parts",
-    [
-        ("soft_step", 1, 1),
-        ("soft_step", 2, 2),
-        ("soft_step", 4, 4),
-        ("soft_step", 8, 8),
-        ("projection", 4, 1),
-        ("blocking", 4, 1),
-    ],
+    "solver, substeps", [("soft_step", 1), ("soft_step", 4), ("soft_step", 7), ("sequential_impulse", 4)]
 )
-def test_free_fall_is_its_own_recurrence(solver, substeps, parts):
-    """y_n = y0 + v0 n h + g h2 n (n + 1) / 2 with h the substep; at 240 Hz 1 s ends g h t / 2 below the parabola."""
+def test_free_fall_is_a_parabola(solver, substeps):
+    """What stacks flies as exactly as it adds up, whatever the length of a substep."""
     world = metres(solver, substeps=substeps)
     ball = world.add_body(Circle(0.1), position=(2.0, -7.0), velocity=(1.5, -3.0))
-    h = world.dt / parts
+    wheel = world.add_body(Circle(0.5), position=(9.0, -90.0), angular_velocity=0.5)
+    watch = Watch(world)
+    for n in range(1, 61):
+        wheel.apply_torque(2.0 * wheel.inertia)
+        watch.step()
+        t = n * world.dt
+        assert ball.position == pytest.approx((2.0 + 1.5 * t, -7.0 - 3.0 * t + G * t * t / 2), rel=1e-12)
+        assert ball.velocity == pytest.approx((1.5, -3.0 + G * t), rel=1e-12)
+        assert wheel.angle == pytest.approx(0.5 * t + t * t, rel=1e-12)
+
+
+@pytest.mark.parametrize("solver", ["projection", "blocking"])
+def test_free_fall_without_stacking_is_its_own_recurrence(solver):
+    """y_n = y0 + v0 n h + g h2 n (n + 1) / 2: it moves by the speed that it ends the step with; 1 s ends g h t / 2
+    below the parabola."""
+    world = metres(solver)
+    ball = world.add_body(Circle(0.1), position=(2.0, -7.0), velocity=(1.5, -3.0))
+    h = world.dt
     watch = Watch(world)
     for n in range(1, 61):
         watch.step()
-        k = n * parts
-        assert ball.position[1] == pytest.approx(-7.0 - 3.0 * k * h + G * h * h * k * (k + 1) / 2, rel=1e-12)
-        assert ball.position[0] == pytest.approx(2.0 + 1.5 * k * h, rel=1e-12)
-        assert ball.velocity == pytest.approx((1.5, -3.0 + G * k * h), rel=1e-12)
+        assert ball.position[1] == pytest.approx(-7.0 - 3.0 * n * h + G * h * h * n * (n + 1) / 2, rel=1e-12)
+        assert ball.position[0] == pytest.approx(2.0 + 1.5 * n * h, rel=1e-12)
+        assert ball.velocity == pytest.approx((1.5, -3.0 + G * n * h), rel=1e-12)
     assert ball.position[1] - (-7.0 - 3.0 + G / 2) == pytest.approx(G * h / 2, rel=1e-9)
-    if parts == 4:
-        assert ball.position[1] + 10.0 == pytest.approx(5.020833333333, abs=1e-11)
-
-
-def test_free_fall_of_sequential_impulse_is_a_recurrence_of_whole_parts():
-    world = metres("sequential_impulse")
-    ball = world.add_body(Circle(0.1), velocity=(1.5, -3.0))
-    world.step()
-    parts = round(G * world.dt / (2 * ball.position[1] / world.dt + 6.0 - G * world.dt))
-    assert parts in (1, world.substeps)
-    h = world.dt / parts
-    for n in range(2, 61):
-        world.step()
-        k = n * parts
-        assert ball.position[1] == pytest.approx(-3.0 * k * h + G * h * h * k * (k + 1) / 2, rel=1e-12, abs=1e-13)
 
 
 @pytest.mark.parametrize("rate", [0.1, 1.0, 40.0])
@@ -88,7 +82,7 @@ def apexes(world, ball, start, count, steps=1200):
         world.step()
         now = ball.velocity[1]
         if before < 0.0 <= now:
-            found.append((n * world.dt, -ball.position[1] - start))
+            found.append((n * world.dt, -ball.position[1] - start + now * now / (2 * G)))  # between two steps
             if len(found) == count:
                 break
         before = now
@@ -98,8 +92,8 @@ def apexes(world, ball, start, count, steps=1200):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.5, 0.8, 0.95])
 def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
-    """Apex k is h e^2k: the first within 0.05 h (as others, with substeps), all within g dt t,
-    what a step of time costs."""
+    """Apex k is h e^2k: within 0.5 % and the slop of what stacks, twice where it may lie in it before and after; else
+    within g dt t, what a step of time costs."""
     world = metres(solver)
     floor(world)
     ball = world.add_body(Circle(0.1), position=(0.0, -2.1), material=Material(restitution=restitution))
@@ -108,9 +102,8 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
     assert len(found) == 3
     for k, (at, height) in enumerate(found, 1):
         right = 2.0 * restitution ** (2 * k)
-        assert abs(height - right) <= (
-            min(0.05 * 2.0, G * world.dt * at) if k == 1 and solver == "soft_step" else G * world.dt * at
-        )
+        slop = SLOP if solver == "soft_step" else 2 * SLOP
+        assert abs(height - right) <= (0.005 * right + slop if solver in STACKING else G * world.dt * at)
     world = metres(solver)
     floor(world)
     world.add_body(Circle(0.1), position=(0.0, -2.1), material=Material(restitution=restitution))
@@ -122,7 +115,7 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_bounces_end_in_the_time_of_the_series(solver):
-    """sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s; what is missing shrinks with dt.
+    """sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s: within 0.5 % of what stacks; else what is missing shrinks with dt.
     Tolerances of 1/50, so that small ones count."""
     short = []
     for dt in (1 / 240, 1 / 960):
@@ -134,7 +127,10 @@ def test_bounces_end_in_the_time_of_the_series(solver):
             world.step()
             last = n * dt if len(world.events.hits) else last
         short.append(abs(5.6921 - last) / 5.6921)
-    assert short[0] < (0.05 if solver == "soft_step" else 0.15) and short[1] < 0.7 * short[0]
+    if solver in STACKING:
+        assert max(short) < 0.005
+    else:
+        assert short[0] < 0.15 and short[1] < 0.7 * short[0]
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
