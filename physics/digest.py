@@ -10,6 +10,7 @@ from physics.world_state import WorldState
 
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
+ASKED = ("substeps", "eased")  # where the number of substeps follows from the loads
 # What bodies and shapes were given. Materials are left out: where their effect is not declared they are inert.
 GIVEN = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
 SHAPE = ("id", "membership", "mask", "sensor")
@@ -42,10 +43,12 @@ def digest(world: WorldState) -> str:
     """blake2b-128 over length and solver of the step, ids, poses, velocities, flags, masses, filters, characters,
     contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
-    numbers = np.array((world.dt, world.substeps, world.tolerances.pixels_per_meter), np.float64)
+    auto = world.stacks and world.substeps == "auto"
+    pace = (0, world.accuracy) if auto else (world.substeps,) if world.stacks else ()
+    numbers = np.array((world.dt, *pace, world.tolerances.pixels_per_meter), np.float64)
     found.update(world.solver.encode() + numbers.tobytes())
     tables = (
-        (world.bodies, (*STATE, *CLOCK, *GIVEN)),
+        (world.bodies, (*STATE, *CLOCK, *GIVEN, *(ASKED if auto else ()))),
         (world.shapes, SHAPE),
         (world.characters.rows, WALK),
         (world.contacts, KEYS),

@@ -1,5 +1,7 @@
 """What a world is under, and can be set between steps: solver, broad phase, forces, the length of a step."""
 
+from typing import Any
+
 import numpy as np
 
 from physics import checks
@@ -8,6 +10,7 @@ from physics.checks import Pair
 from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
 from physics.profile import Profile
+from physics.settings import ACCURACY
 from physics.step import SOLVERS, STACKING, Workspace, plans
 from physics.tables.body import DYNAMIC
 from physics.tables.manifold import ANCHOR, MANIFOLD
@@ -17,11 +20,24 @@ from physics.world_state import WorldState
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
+def checked_substeps(value: Any) -> int | str:
+    """A number of substeps, or "auto". Raises TypeError, ValueError."""
+    if isinstance(value, str):
+        return checks.choice("substeps", value, ("auto",))
+    return checks.whole("substeps", value, 1, 1000)
+
+
+def checked_accuracy(value: Any) -> float | None:
+    """A length [px], or None. Raises TypeError, ValueError."""
+    return None if value is None else checks.number("accuracy", value, above=0.0)
+
+
 class Environment(WorldState):
     """The settings of a World, and the stages that follow from them; nothing else inherits from this."""
 
     _solver: str
-    _substeps: int
+    _substeps: int | str
+    _accuracy: float | None
     _gravity: Vec2
     _drag: float
     _wind: Vec2
@@ -80,14 +96,26 @@ class Environment(WorldState):
         self.sleepers.return_all(self)
 
     @property
-    def substeps(self) -> int:
-        """How often the stacking solvers look at the contacts in a step; can be set between steps."""
+    def substeps(self) -> int | str:
+        """How often the stacking solvers look at the contacts in a step; "auto": as often as each island needs for its
+        contacts to sink by no more than the accuracy, 4 to 32 times. Can be set between steps."""
         return self._substeps
 
     @substeps.setter
-    def substeps(self, value: int) -> None:
+    def substeps(self, value: int | str) -> None:
         self._unlocked()
-        self._substeps = checks.whole("substeps", value, 1, 1000)
+        self._substeps = checked_substeps(value)
+
+    @property
+    def accuracy(self) -> float:
+        """[px] what contacts may sink under their loads where substeps are "auto", as far as 32 of them reach; None: a
+        millimetre. Can be set between steps."""
+        return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
+
+    @accuracy.setter
+    def accuracy(self, value: float | None) -> None:
+        self._unlocked()
+        self._accuracy = checked_accuracy(value)
 
     @property
     def broadphase(self) -> Strategy:

@@ -27,7 +27,12 @@ RECYCLE_DISTANCE = (
 STICKING_TURN = 0.01  # [rad] two faces that stick keep their arms and normal while neither body turned more. Larger:
 # boxes tip late (Box2D knows no bound and tips at 35 degrees instead of 27). Smaller: columns buckle as springs do
 STICKING_SHARE = 0.5  # … and while they moved against each other by less than this share of SPECULATIVE_DISTANCE
-CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact, at most an eighth of the substeps per second
+CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact where the number of substeps is given
+AUTO_SUBSTEPS = (4, 8, 16, 32)  # that an island may take, where they follow from …
+ACCURACY = 0.001  # [m] … what its contacts may sink under their loads. Smaller: stiffer piles that cost more
+EASE_TIME = 0.25  # [s] for which fewer substeps would have done before an island takes fewer
+LEAN = 20.0  # times less that it may sink, at most, where one end of a face bears more than the other
+HERTZ_SHARE = 0.125  # of the substeps per second that a contact's frequency is at most: stiffer springs ring
 CONTACT_DAMPING = 10.0  # damping ratio: far above 1, so that overlap is let out without a bounce
 STILL_STIFFNESS = 2.0  # contacts with what cannot be pushed are this much stiffer: the ground wins
 PUSH_SPEED = 3.0  # [m/s] fastest push out of an overlap. Larger: a deep overlap explodes

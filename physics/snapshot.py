@@ -14,6 +14,7 @@ import numpy as np
 from physics import checks
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Island, Sleepers
+from physics.environment import checked_substeps
 from physics.shape_rows import MATERIAL
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
@@ -28,8 +29,8 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import PART, SHAPE
 from physics.world_state import WorldState
 
-VERSION = 9
-SETTINGS = ("solver", "dt", "substeps", "gravity", "drag", "wind")  # come back with a snapshot
+VERSION = 10
+SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # come back with a snapshot
 DAMAGE = (
     ValueError,
     TypeError,
@@ -237,9 +238,9 @@ def _unpack(arrays, facts, geometry):
         checks.vector(name, facts[name])
     for name in ("drag", "time"):
         checks.number(name, facts[name], low=0.0)
-    for name in ("dt", "pixels_per_meter"):
+    for name in ("dt", "pixels_per_meter", "accuracy"):
         checks.number(name, facts[name], above=0.0)
-    checks.whole("substeps", facts["substeps"], 1, 1000)
+    checked_substeps(facts["substeps"])
     checks.choice("solver", facts["solver"], SOLVERS if "stacking" in facts["effects"] else [*PUSHING])
     return library, shapes_of, sources, random
 

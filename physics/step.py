@@ -132,7 +132,8 @@ def begin(world: WorldState, dt: float) -> StepState:
     state = StepState()
     state.effects, state.tolerances, state.workspace = world.effects, world.tolerances, world.workspace
     state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
-    state.dt, state.substeps, state.broadphase = dt, world.substeps, world.broadphase
+    state.dt, state.broadphase, state.accuracy = dt, world.broadphase, world.accuracy
+    state.substeps = 0 if world.substeps == "auto" else world.substeps
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
     state.queries, state.steps = world.queries, world.steps
     state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers

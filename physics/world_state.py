@@ -84,7 +84,8 @@ class WorldState:
     workspace: Any  # a Workspace of step.py, whose stages are given what stands here
     # Properties of Environment.
     solver: str
-    substeps: int
+    substeps: Any
+    accuracy: float
     broadphase: Strategy
     gravity: Vec2
     drag: float

@@ -1,4 +1,4 @@
-"""The graph of bodies and constraints: islands, adjacency, colours.
+"""The graph of bodies and constraints: islands, their classes, colours.
 A constraint of any kind is an edge (a, b) of two nodes.
 
 Union-find over the edges in their canonical order, the lower node as the root, so islands are the same whatever found
@@ -7,8 +7,12 @@ pushed, so their order, and any number of lanes or threads that take them at onc
 Matters, 2024). Edges with what cannot be pushed get the last colours: they are solved last and win.
 """
 
+import numpy as np
+
 from physics.jit import kernel, subkernel
 from physics.settings import COLORS
+
+NO_CLASSES = np.zeros(0, np.int32)  # all nodes are of one class
 
 
 @subkernel
@@ -18,6 +22,17 @@ def root_of(node, parents_inout):
         parents_inout[node] = parents_inout[parents_inout[node]]
         node = parents_inout[node]
     return node
+
+
+@subkernel
+def join_nodes(a, b, parents_inout):
+    """Make one island of those of two nodes; the lower root stays."""
+    first = root_of(a, parents_inout)
+    second = root_of(b, parents_inout)
+    if first < second:
+        parents_inout[second] = first
+    elif second < first:
+        parents_inout[first] = second
 
 
 @kernel
@@ -30,12 +45,36 @@ def join(
 ):
     """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: root, or way to it. O(count)."""
     for i in range(count):
-        first = root_of(edges[i, 0], parents_inout)
-        second = root_of(edges[i, 1], parents_inout)
-        if first < second:
-            parents_inout[second] = first
-        elif second < first:
-            parents_inout[first] = second
+        join_nodes(edges[i, 0], edges[i, 1], parents_inout)
+
+
+@kernel
+def join_classes(
+    # read
+    edges,
+    count,
+    joins,
+    # write
+    classes_inout,
+    parents_out,
+):
+    """Give every node the greatest class of its island, and its root as parent. O(nodes + count).
+
+    edges (count, 2) int32; joins (nodes) bool: what does not join belongs to no island; classes_inout, parents_out
+    (nodes) int32.
+    """
+    for i in range(len(parents_out)):
+        parents_out[i] = i
+    for i in range(count):
+        if joins[edges[i, 0]] and joins[edges[i, 1]]:
+            join_nodes(edges[i, 0], edges[i, 1], parents_out)
+    # Roots are lower than the rest of their island.
+    for i in range(len(parents_out)):
+        root = root_of(i, parents_out)
+        parents_out[i] = root
+        classes_inout[root] = max(classes_inout[root], classes_inout[i])
+    for i in range(len(parents_out)):
+        classes_inout[i] = classes_inout[parents_out[i]]
 
 
 @subkernel
@@ -58,19 +97,15 @@ def color_edges(
     taken_out,
     degrees_out,
     colors_out,
-    starts_out,
 ):
     """Give every edge, in order, the first colour that neither of its pushable nodes has yet.
 
     edges (count, 2) int32 nodes; pushable (nodes) bool; taken_out (nodes) int64 bits of the colours that a node has,
-    degrees_out (nodes) int64 how many edges; colors_out (count) int32, -1 where none was free; starts_out (COLORS + 2):
-    where each colour starts, the colourless first. O(nodes + count).
+    degrees_out (nodes) int64 how many edges; colors_out (count) int32, -1 where none was free. O(nodes + count).
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
         degrees_out[i] = 0
-    for i in range(len(starts_out)):
-        starts_out[i] = 0
     for i in range(count):
         a = edges[i, 0]
         b = edges[i, 1]
@@ -92,29 +127,72 @@ def color_edges(
             bit = 1 << color
             taken_out[a] |= bit
             taken_out[b] |= bit
-        starts_out[color + 2] += 1
-    for i in range(1, len(starts_out)):
-        starts_out[i] += starts_out[i - 1]
+
+
+@subkernel
+def slot_of(edge, edges, colors, classes):
+    """Where an edge stands among the slots: one for each colour of each class, the colourless first."""
+    slot = colors[edge] + 1
+    if len(classes) > 0:
+        slot += max(classes[edges[edge, 0]], classes[edges[edge, 1]]) * (COLORS + 1)
+    return slot
 
 
 @kernel
 def order_edges(
     # read
+    edges,
     count,
     colors,
-    starts,
+    classes,
     # write
+    starts_out,
     cursors_out,
     ordered_out,
 ):
-    """Sort the edges by colour, keeping their order within one: ordered_out (count) int32 edge numbers.
+    """Sort the edges by class and colour, keeping their order within one: ordered_out (count) int32 edge numbers.
 
-    cursors_out: scratch as long as starts. O(count).
+    classes (nodes) int32, 0 for what joins no island; or NO_CLASSES. starts_out: where each slot starts, and where the
+    last ends; cursors_out: scratch as long. O(count).
     """
-    for i in range(len(starts)):
-        cursors_out[i] = starts[i]
+    for i in range(len(starts_out)):
+        starts_out[i] = 0
     for i in range(count):
-        slot = colors[i] + 1
+        starts_out[slot_of(i, edges, colors, classes) + 1] += 1
+    for i in range(1, len(starts_out)):
+        starts_out[i] += starts_out[i - 1]
+    for i in range(len(starts_out)):
+        cursors_out[i] = starts_out[i]
+    for i in range(count):
+        slot = slot_of(i, edges, colors, classes)
         at = cursors_out[slot]
         cursors_out[slot] = at + 1
         ordered_out[at] = i
+
+
+@kernel
+def order_nodes(
+    # read
+    nodes,
+    classes,
+    # write
+    starts_out,
+    cursors_out,
+    ordered_out,
+):
+    """Sort some nodes by class, keeping their order within one: ordered_out (nodes) int32. O(nodes).
+
+    starts_out: where each class starts, and where the last ends; cursors_out: scratch as long.
+    """
+    for i in range(len(starts_out)):
+        starts_out[i] = 0
+    for k in range(len(nodes)):
+        starts_out[classes[nodes[k]] + 1] += 1
+    for i in range(1, len(starts_out)):
+        starts_out[i] += starts_out[i - 1]
+    for i in range(len(starts_out)):
+        cursors_out[i] = starts_out[i]
+    for k in range(len(nodes)):
+        at = cursors_out[classes[nodes[k]]]
+        cursors_out[classes[nodes[k]]] = at + 1
+        ordered_out[at] = nodes[k]

@@ -89,7 +89,6 @@ def restore_bounces(
     manifolds,
     anchors,
     threshold,
-    count,
     # write
     motions_inout,
     constraints_inout,
@@ -97,9 +96,9 @@ def restore_bounces(
 ):
     """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
 
-    MANIFOLD, ANCHOR and MOTION rows, constraints_inout CONSTRAINT (count). O(count).
+    MANIFOLD, ANCHOR, MOTION and CONSTRAINT rows. O(constraints).
     """
-    for i in range(count):
+    for i in range(len(constraints_inout)):
         r = constraints_inout[i]
         m = manifolds[r.manifold]
         restitution = anchors[r.manifold].restitution

@@ -12,64 +12,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.dynamics.graph import color_edges, order_edges
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of
-from physics.settings import CALM_SHARE, COLORS, CROWD, STICKING_SHARE, STICKING_TURN
+from physics.settings import CALM_SHARE, CROWD, STICKING_SHARE, STICKING_TURN
 from physics.solver.bounce import restore_bounces
 from physics.solver.motions import Motions
+from physics.solver.selection import Group, Selection
 from physics.tables.constraint import CONSTRAINT
 from physics.tables.counters import SOLVER_ROWS, TANGENT_ROWS
 from physics.tables.step_state import StepState
 
 BOTH = (False, True)
-
-
-class Plan(NamedTuple):
-    """Which manifolds are solved, and in which order."""
-
-    count: int
-    selected: np.ndarray  # (count) manifold of each edge
-    edges: np.ndarray  # (count, 2) int32 rows of MOTION
-    colors: np.ndarray  # (count) int32 of each edge
-    degrees: np.ndarray  # (motions) edges of each
-    ordered: np.ndarray  # (count) int32 edges by colour
-
-
-@kernel
-def select_manifolds(
-    # read
-    manifolds,
-    motion_of,
-    motions,
-    # write
-    selected_out,
-    edges_out,
-):
-    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns
-    their number. O(manifolds).
-
-    Sensors, pairs of which neither side can be pushed, and what lies under the feet of a character are left out.
-    """
-    found = 0
-    for i in range(len(manifolds)):
-        m = manifolds[i]
-        row_a = motion_of[m.body_row_a]
-        row_b = motion_of[m.body_row_b]
-        a = motions[row_a]
-        b = motions[row_b]
-        if (
-            m.sensor
-            or a.inverse_mass + b.inverse_mass == 0.0
-            or (a.walks and m.normal_y > abs(m.normal_x))
-            or (b.walks and -m.normal_y > abs(m.normal_x))
-        ):
-            continue
-        selected_out[found] = i
-        edges_out[found, 0] = row_a
-        edges_out[found, 1] = row_b
-        found += 1
-    return found
 
 
 @subkernel
@@ -123,6 +76,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         motions,
         manifolds,
         plan,
+        start,
         h,
         limits,
         # write
@@ -130,13 +84,13 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         constraints_out,
         work_inout,
     ):
-        """Fill the constraint rows in the order of their colours, with the impulses that the last step found for a
-        substep of h [s].
+        """Fill the constraint rows from `start` on in the order of the plan, with the impulses that the last step found
+        for a substep of h [s].
 
         plan: see Plan, limits: see Limits. Arms go from the centres of mass to the contact point. O(constraints).
         """
-        for i in range(plan.count):
-            edge = plan.ordered[i]
+        for i in range(len(constraints_out)):
+            edge = plan.ordered[start + i]
             first = plan.selected[edge]
             m = manifolds[first]
             c = anchors_inout[first]
@@ -157,6 +111,12 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
             r.normal_y = ny
             r.friction = c.friction if friction else 0.0
             r.surface_speed = c.surface_speed if conveyor else 0.0
+            # One contact below, and one above.
+            r.alone = (
+                held
+                and (a.inverse_mass == 0.0 or plan.degrees[r.motion_a] <= 2)
+                and (b.inverse_mass == 0.0 or plan.degrees[r.motion_b] <= 2)
+            )
             crowd = max(
                 plan.degrees[r.motion_a] if a.inverse_mass > 0.0 else 0,
                 plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
@@ -219,12 +179,11 @@ def make_warm_start(rotation: bool) -> Callable:
     def warm_start(
         # read
         constraints,
-        count,
         # write
         motions_inout,
     ):
-        """Apply the impulses that the rows hold already. O(count)."""
-        for i in range(count):
+        """Apply the impulses that the rows hold already. O(constraints)."""
+        for i in range(len(constraints)):
             r = constraints[i]
             a = motions_inout[r.motion_a]
             b = motions_inout[r.motion_b]
@@ -260,14 +219,13 @@ def make_warm_start(rotation: bool) -> Callable:
 def store_impulses(
     # read
     constraints,
-    count,
     inverse_h,
     # write
     manifolds_inout,
     anchors_inout,
 ):
-    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds. O(count)."""
-    for i in range(count):
+    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds. O(constraints)."""
+    for i in range(len(constraints)):
         r = constraints[i]
         m = manifolds_inout[r.manifold]
         c = anchors_inout[r.manifold]
@@ -287,15 +245,9 @@ def make_friction_limit(rotation: bool) -> Callable:
     """The pass that ends with friction what other impulses have left."""
 
     @kernel
-    def limit_friction(
-        # read
-        count,
-        # write
-        motions_inout,
-        constraints_inout,
-    ):
-        """Take back what friction is more than its share of the final normal impulse, over the step. O(count)."""
-        for i in range(count):
+    def limit_friction(motions_inout, constraints_inout):
+        """Take back what friction is more than its share of the final normal impulse, over the step. O(constraints)."""
+        for i in range(len(constraints_inout)):
             r = constraints_inout[i]
             for k in range(r.count):
                 total = r.tangent_total_1 if k == 0 else r.tangent_total_2
@@ -337,31 +289,19 @@ class ContactSet:
     """The contacts of one world as constraints; arrays are grown and used again."""
 
     def __init__(self) -> None:
-        self.count = 0
+        self.selection = Selection()
         self.constraints = np.zeros(16, CONSTRAINT)
-        self.selected, self.ordered, self.colors = (np.zeros(16, np.int32) for _ in range(3))
-        self.edges = np.zeros((16, 2), np.int32)
-        self.taken, self.degrees = np.zeros(16, np.int64), np.zeros(16, np.int64)
-        self.starts, self.cursors = np.zeros(COLORS + 2, np.int64), np.zeros(COLORS + 2, np.int64)
 
-    def _grow(self, motions: int, manifolds: int):
-        if len(self.taken) < motions:
-            self.taken, self.degrees = np.zeros(2 * motions, np.int64), np.zeros(2 * motions, np.int64)
-        if len(self.constraints) < manifolds:
-            n = 2 * manifolds
-            self.constraints, self.edges = np.zeros(n, CONSTRAINT), np.zeros((n, 2), np.int32)
-            self.selected, self.ordered, self.colors = (np.zeros(n, np.int32) for _ in range(3))
+    def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
+        """Which islands take how many substeps; 0: as many as they ask for."""
+        groups = self.selection.choose(state, motions, substeps)
+        if len(self.constraints) < self.selection.count:
+            self.constraints = np.zeros(2 * self.selection.count, CONSTRAINT)
+        return groups
 
-    def prepare(self, state: StepState, motions: Motions, h: float) -> None:
-        """Choose, colour and fill the rows, for substeps of h [s]."""
-        rows, manifolds = motions.used, state.manifolds
-        self._grow(len(rows), len(manifolds))
-        self.count = select_manifolds(manifolds, motions.motion_of, rows, self.selected, self.edges)
-        taken, degrees = self.taken[: len(rows)], self.degrees[: len(rows)]
-        color_edges(self.edges, self.count, motions.pushable, taken, degrees, self.colors, self.starts)
-        order_edges(self.count, self.colors, self.starts, self.cursors, self.ordered)
-        plan = Plan(self.count, self.selected, self.edges, self.colors, degrees, self.ordered)
-        prepare = PREPARE[state.effects.friction, state.effects.conveyor]
+    def prepare(self, state: StepState, motions: Motions, group: Group, h: float) -> np.ndarray:
+        """Fill the rows of a group, for substeps of h [s], and return them."""
+        rows = self.constraints[group.start : group.stop]
         tolerances = state.tolerances
         limits = Limits(
             CALM_SHARE * tolerances.push_speed,
@@ -369,20 +309,31 @@ class ContactSet:
             tolerances.slop,
             tolerances.restitution_speed,
         )
-        prepare(state.bodies, rows, manifolds, plan, h, limits, state.anchors, self.constraints, state.work)
+        PREPARE[state.effects.friction, state.effects.conveyor](
+            state.bodies,
+            motions.used,
+            state.manifolds,
+            self.selection.plan,
+            group.start,
+            h,
+            limits,
+            state.anchors,
+            rows,
+            state.work,
+        )
+        return rows
 
-    def store(self, state: StepState, motions: Motions, h: float) -> None:
-        """Bounce what has met, end friction where less presses, and write the impulses back."""
+    def store(self, state: StepState, motions: Motions, rows: np.ndarray, h: float) -> None:
+        """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""
         if state.effects.restitution:
             restore_bounces(
                 state.manifolds,
                 state.anchors,
                 state.tolerances.restitution_speed,
-                self.count,
                 motions.used,
-                self.constraints,
+                rows,
                 state.work,
             )
         if state.effects.friction:
-            FRICTION_LIMIT[state.effects.rotation](self.count, motions.used, self.constraints)
-        store_impulses(self.constraints, self.count, 1.0 / h, state.manifolds, state.anchors)
+            FRICTION_LIMIT[state.effects.rotation](motions.used, rows)
+        store_impulses(rows, 1.0 / h, state.manifolds, state.anchors)

@@ -22,7 +22,7 @@ BOTH = (False, True)
 
 
 @kernel
-def stand_still(motions_out, pushable_out):
+def stand_still(motions_out, pushable_out, joins_out):
     """Write row 0: what cannot be moved."""
     m = motions_out[0]
     m.vx = 0.0
@@ -41,11 +41,15 @@ def stand_still(motions_out, pushable_out):
     m.acceleration_x = 0.0
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
+    m.demand = 0.0
+    m.eased = 0.0
+    m.substeps = 0
     m.moves = False
     m.pushed = False
     m.pressed = False
     m.walks = False
     pushable_out[0] = False
+    joins_out[0] = False
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
@@ -61,14 +65,20 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
         motion_of_inout,
         motions_out,
         pushable_out,
+        joins_out,
+        lists_out,
         work_inout,
     ):
         """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed.
-        O(rows).
+        Returns how many are pushed, and how many move by hand. O(rows).
 
         air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of
-        each; pushable_out (motions) bool: whether an impulse changes its velocity.
+        each; pushable_out (motions) bool: whether an impulse changes its velocity; joins_out (motions) bool: whether
+        it is of an island; lists_out (2, motions) int32: the rows of MOTION of those that are pushed, and of those that
+        move by hand.
         """
+        pushed = 0
+        driven = 0
         for k in range(len(rows)):
             b = bodies[rows[k]]
             motion_of_inout[rows[k]] = k + 1
@@ -88,16 +98,25 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.pushed = m.moves and b.kind == DYNAMIC
             m.pressed = False
             m.walks = False
+            m.demand = 0.0
+            m.substeps = b.substeps
+            m.eased = b.eased
+            joins_out[k + 1] = m.pushed
             pushable_out[k + 1] = m.pushed and b.inverse_mass > 0.0
             if m.moves:
                 work_inout[BODIES_INTEGRATED] += 1
             if not m.pushed:
+                if m.moves:
+                    lists_out[1, driven] = k + 1
+                    driven += 1
                 m.inverse_mass = 0.0
                 m.inverse_inertia = 0.0
                 m.acceleration_x = 0.0
                 m.acceleration_y = 0.0
                 m.angular_acceleration = 0.0
                 continue
+            lists_out[0, pushed] = k + 1
+            pushed += 1
             m.inverse_mass = b.inverse_mass
             m.inverse_inertia = b.inverse_inertia if rotation else 0.0
             m.acceleration_x = b.inverse_mass * b.force_x
@@ -109,6 +128,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             if wind:
                 m.acceleration_x += air[2] * air[3]
                 m.acceleration_y += air[2] * air[4]
+        return pushed, driven
 
     return gather_motions
 
@@ -118,18 +138,18 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
     @subkernel
     def integrate_substep_velocities(
-        # read, scalars
+        # read
+        members,
         h,
         drag_rate,
         # write
         motions_inout,
     ):
-        """Add the accelerations of one substep h [s]; drag [1/s] implicitly, stable for any rate. O(bodies)."""
+        """Add the accelerations of one substep h [s] to the members, rows of MOTION; drag [1/s] implicitly, stable for
+        any rate. O(members)."""
         keep = 1.0 / (1.0 + drag_rate * h)
-        for i in range(len(motions_inout)):
-            m = motions_inout[i]
-            if not m.pushed:
-                continue
+        for i in range(len(members)):
+            m = motions_inout[members[i]]
             m.pressed = False
             m.vx += h * m.acceleration_x
             m.vy += h * m.acceleration_y
@@ -149,22 +169,21 @@ def make_substep_positions(rotation: bool) -> Callable:
 
     @subkernel
     def integrate_substep_positions(
-        # read, scalars
+        # read
+        members,
         h,
         push_speed,
         # write
         motions_inout,
     ):
-        """Move every body by one substep h [s], and by what lets it out of overlaps, at push_speed [px/s] at most,
-        however many push it: that is spent then. O(bodies).
+        """Move the members by one substep h [s], and by what lets them out of overlaps, at push_speed [px/s] at most,
+        however many push one: that is spent then. O(members).
 
         What nothing presses flies on its parabola: with the speed of the end of each substep, which is what keeps piles
         stable, a ball that bounces would lose h times its speed in height on every flight.
         """
-        for i in range(len(motions_inout)):
-            m = motions_inout[i]
-            if not m.moves:
-                continue
+        for i in range(len(members)):
+            m = motions_inout[members[i]]
             m.dx += h * m.vx
             m.dy += h * m.vy
             turn = m.angular_velocity
@@ -187,6 +206,22 @@ def make_substep_positions(rotation: bool) -> Callable:
                 m.sine = math.sin(m.turn)
 
     return integrate_substep_positions
+
+
+@subkernel
+def move_driven(driven, time, motions_inout):
+    """Put what moves by hand to where it is at a time [s] since the step began: so every island sees the same."""
+    for i in range(len(driven)):
+        m = motions_inout[driven[i]]
+        m.dx = time * m.vx
+        m.dy = time * m.vy
+        m.turn = time * m.angular_velocity
+        if m.turn != 0.0:
+            m.cosine = math.cos(m.turn)
+            m.sine = math.sin(m.turn)
+        else:
+            m.cosine = 1.0
+            m.sine = 0.0
 
 
 @kernel
@@ -215,6 +250,8 @@ def scatter_motions(
         b.vx = m.vx
         b.vy = m.vy
         b.angular_velocity = m.angular_velocity
+        b.substeps = m.substeps
+        b.eased = m.eased
         b.center_x += m.dx
         b.center_y += m.dy
         if m.turn == 0.0:
@@ -236,22 +273,29 @@ class Motions:
     """The MOTION rows of one world, grown and used again."""
 
     def __init__(self) -> None:
-        self.rows, self.pushable = np.zeros(16, MOTION), np.zeros(16, np.bool_)
         self.motion_of = np.zeros(16, np.int32)
-        self.used = self.rows[:1]
+        self._grow(16)
+        self.used, self.movers, self.driven = self.rows[:1], self.lists[0, :0], self.lists[1, :0]
+
+    def _grow(self, count):
+        self.rows, self.lists = np.zeros(count, MOTION), np.zeros((2, count), np.int32)
+        self.pushable, self.joins = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
 
     def gather(self, state: StepState) -> None:
         """Take the awake bodies in."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
-            self.rows, self.pushable = np.zeros(2 * len(rows) + 1, MOTION), np.zeros(2 * len(rows) + 1, np.bool_)
+            self._grow(2 * len(rows) + 1)
         if len(self.motion_of) < len(bodies):
             self.motion_of = np.zeros(2 * len(bodies), np.int32)
         self.used = self.rows[: len(rows) + 1]
-        stand_still(self.used, self.pushable)
+        stand_still(self.used, self.pushable, self.joins)
         air = np.array((*state.gravity, state.drag, *state.wind))
         gather = GATHER[effects.gravity, effects.wind, effects.rotation]
-        gather(rows, bodies, air, self.motion_of, self.used, self.pushable, state.work)
+        pushed, driven = gather(
+            rows, bodies, air, self.motion_of, self.used, self.pushable, self.joins, self.lists, state.work
+        )
+        self.movers, self.driven = self.lists[0, :pushed], self.lists[1, :driven]
         if len(state.characters):
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
@@ -272,6 +316,7 @@ READS = (
     "wind",
     "dt",
     "substeps",
+    "accuracy",
     "awake",
     "bodies",
     "shapes",
@@ -290,7 +335,7 @@ WRITES = (
     *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),
     *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-    *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction")),
+    *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "eased")),
 )
 
 

@@ -8,15 +8,26 @@ would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005,
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
+from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
 from physics.solver.contacts import WARM_START, ContactSet
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.two_points import solve_two
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
+
+
+class Pace(NamedTuple):
+    """What all passes of a step have in common."""
+
+    passes: int
+    dt: float  # [s]
+    inverse_dt: float
+    drag: float  # [1/s]
+    push_speed: float  # [px/s]
 
 
 @subkernel
@@ -33,7 +44,6 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     @subkernel
     def solve_sequential(
         # read, scalars
-        count,
         inverse_h,
         slow,
         slop,
@@ -42,12 +52,12 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         motions_inout,
         constraints_inout,
     ):
-        """Solve every constraint once, friction first, in the order of the rows. O(count).
+        """Solve every constraint once, friction first, in the order of the rows. O(constraints).
 
         What bears something lets its overlap out as in push_overlaps, as far as that takes a speed of no more than slow
         [px/s]: through all passes, and with the memory of contacts, or columns would sink.
         """
-        for i in range(count):
+        for i in range(len(constraints_inout)):
             r = constraints_inout[i]
             a = motions_inout[r.motion_a]
             b = motions_inout[r.motion_b]
@@ -158,7 +168,6 @@ def make_push_pass(rotation: bool) -> Callable:
     @subkernel
     def push_overlaps(
         # read, scalars
-        count,
         inverse_h,
         push_speed,
         slop,
@@ -167,12 +176,12 @@ def make_push_pass(rotation: bool) -> Callable:
         motions_inout,
         constraints_inout,
     ):
-        """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(count).
+        """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(constraints).
 
         Only where nothing was borne in the step before. slop [px]: overlap that is left in; share: of the rest, taken
         out per step, at push_speed [px/s] at most. Impulses of these speeds add up apart from the contacts'.
         """
-        for i in range(count):
+        for i in range(len(constraints_inout)):
             r = constraints_inout[i]
             a = motions_inout[r.motion_a]
             b = motions_inout[r.motion_b]
@@ -217,9 +226,9 @@ def make_push_pass(rotation: bool) -> Callable:
 
 
 @subkernel
-def sum_up(count, constraints_inout):
-    """The impulses of the one substep are those of the step. O(count)."""
-    for i in range(count):
+def sum_up(constraints_inout):
+    """The impulses of the one substep are those of the step. O(constraints)."""
+    for i in range(len(constraints_inout)):
         r = constraints_inout[i]
         r.normal_total_1 = r.normal_impulse_1
         r.tangent_total_1 = r.tangent_impulse_1
@@ -238,28 +247,27 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
 
     @kernel
     def run_passes(
-        # read, scalars
-        passes,
-        dt,
-        inverse_dt,
-        drag_rate,
-        push_speed,
+        # read
+        members,
+        driven,
+        pace,
         slow,
         slop,
-        count,
         # write
         motions_inout,
         constraints_inout,
     ):
-        """Advance the motions by dt [s] under the constraints. O(bodies + passes · constraints)."""
-        velocities(dt, drag_rate, motions_inout)
-        warm_start(constraints_inout, count, motions_inout)
-        for _ in range(passes):
-            solve_all(count, inverse_dt, slow, slop, BAUMGARTE, motions_inout, constraints_inout)
+        """Advance the members by a step under the constraints, and what moves by hand: rows of MOTION. pace: see Pace.
+        O(members + passes · constraints)."""
+        velocities(members, pace.dt, pace.drag, motions_inout)
+        warm_start(constraints_inout, motions_inout)
+        for _ in range(pace.passes):
+            solve_all(pace.inverse_dt, slow, slop, BAUMGARTE, motions_inout, constraints_inout)
         for _ in range(PUSH_PASSES):
-            push_out(count, inverse_dt, push_speed, 0.5 * slop, PUSH_SHARE, motions_inout, constraints_inout)
-        sum_up(count, constraints_inout)
-        positions(dt, push_speed, motions_inout)
+            push_out(pace.inverse_dt, pace.push_speed, 0.5 * slop, PUSH_SHARE, motions_inout, constraints_inout)
+        sum_up(constraints_inout)
+        positions(members, pace.dt, pace.push_speed, motions_inout)
+        move_driven(driven, pace.dt, motions_inout)
 
     return run_passes
 
@@ -270,14 +278,14 @@ PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH f
 def solve(state: StepState, contacts: ContactSet) -> float:
     """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    contacts.prepare(state, motions, dt)
     # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
     slow = BAUMGARTE / dt * tolerances.speculative
-    passes = math.ceil(ITERATIONS_PER_SUBSTEP * state.substeps)
     run = PASSES[effects.drag, effects.rotation, effects.friction]
-    count, rows = contacts.count, contacts.constraints
-    run(passes, dt, 1.0 / dt, state.drag, tolerances.push_speed, slow, tolerances.slop, count, motions.used, rows)
-    contacts.store(state, motions, dt)
+    for group in contacts.choose(state, motions, state.substeps or AUTO_SUBSTEPS[0]):
+        rows = contacts.prepare(state, motions, group, dt)
+        pace = Pace(math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps), dt, 1.0 / dt, state.drag, tolerances.push_speed)
+        run(group.members, motions.driven, pace, slow, tolerances.slop, motions.used, rows)
+        contacts.store(state, motions, rows, dt)
     return dt
 
 

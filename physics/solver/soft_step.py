@@ -12,9 +12,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import CALM_SHARE, CONTACT_DAMPING, CONTACT_HERTZ, PUSH_SHARE, STILL_STIFFNESS
+from physics.settings import CALM_SHARE, CONTACT_DAMPING, CONTACT_HERTZ, HERTZ_SHARE, PUSH_SHARE, STILL_STIFFNESS
 from physics.solver.contacts import WARM_START, ContactSet
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, push_piles
+from physics.solver.demand import ask_for_substeps
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.two_points import solve_two
 from physics.tables.step_state import StepState, stage
 
@@ -27,6 +28,16 @@ class Softness(NamedTuple):
     bias_rate: float
     mass_scale: float
     impulse_scale: float
+
+
+class Pace(NamedTuple):
+    """What all substeps of a group of islands have in common."""
+
+    substeps: int
+    h: float  # [s]
+    inverse_h: float
+    drag: float  # [1/s]
+    push_speed: float  # [px/s]
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
@@ -110,7 +121,6 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     @subkernel
     def solve_soft(
         # read, scalars
-        count,
         inverse_h,
         push_speed,
         soft,
@@ -119,12 +129,12 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
         motions_inout,
         constraints_inout,
     ):
-        """Solve every constraint once, in the order of the rows. O(count).
+        """Solve every constraint once, in the order of the rows. O(constraints).
 
         soft, soft_still: Softness of a contact between bodies and of one with what cannot be pushed.
         """
         calm_speed = CALM_SHARE * push_speed
-        for i in range(count):
+        for i in range(len(constraints_inout)):
             r = constraints_inout[i]
             a = motions_inout[r.motion_a]
             b = motions_inout[r.motion_b]
@@ -258,29 +268,32 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
 
     @kernel
     def run_substeps(
-        # read, scalars
-        substeps,
-        h,
-        inverse_h,
-        drag_rate,
-        push_speed,
+        # read
+        members,
+        driven,
+        pace,
         soft,
         soft_still,
-        count,
         # write
         motions_inout,
         constraints_inout,
     ):
-        """Advance the motions by substeps of h [s] under the constraints. O(substeps · (bodies + constraints)).
+        """Advance the members by substeps under the constraints, and what moves by hand beside them: rows of MOTION.
+        O(substeps · (members + constraints)).
 
-        One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
+        pace: see Pace. One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
         """
-        for _ in range(substeps):
-            velocities(h, drag_rate, motions_inout)
-            warm_start(constraints_inout, count, motions_inout)
-            push_out(count, inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
-            positions(h, push_speed, motions_inout)
-            relax(count, inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
+        h = pace.h
+        inverse_h = pace.inverse_h
+        push_speed = pace.push_speed
+        move_driven(driven, 0.0, motions_inout)
+        for n in range(pace.substeps):
+            velocities(members, h, pace.drag, motions_inout)
+            warm_start(constraints_inout, motions_inout)
+            push_out(inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
+            positions(members, h, push_speed, motions_inout)
+            move_driven(driven, (n + 1) * h, motions_inout)
+            relax(inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
 
     return run_substeps
 
@@ -289,17 +302,21 @@ SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BO
 
 
 def solve(state: StepState, contacts: ContactSet) -> float:
-    """Advance the motions by a step under the contacts. Returns the substep [s] that impulses belong to."""
-    effects, motions, push_speed = state.effects, state.workspace.motions, state.tolerances.push_speed
-    h = state.dt / state.substeps
-    hertz = min(CONTACT_HERTZ, 0.125 / h)
-    soft = softness(hertz, CONTACT_DAMPING, h)
-    soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
-    contacts.prepare(state, motions, h)
-    run = SUBSTEPS[effects.drag, effects.rotation, effects.friction]
-    count, rows = contacts.count, contacts.constraints
-    run(state.substeps, h, 1.0 / h, state.drag, push_speed, soft, soft_still, count, motions.used, rows)
-    contacts.store(state, motions, h)
+    """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
+    effects, motions, dt = state.effects, state.workspace.motions, state.dt
+    run, h = SUBSTEPS[effects.drag, effects.rotation, effects.friction], dt
+    for group in contacts.choose(state, motions, state.substeps):
+        h = dt / group.substeps
+        # Where the substeps follow from the loads, springs are as stiff as they allow.
+        hertz = HERTZ_SHARE / h if state.substeps == 0 else min(CONTACT_HERTZ, HERTZ_SHARE / h)
+        soft = softness(hertz, CONTACT_DAMPING, h)
+        soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
+        rows = contacts.prepare(state, motions, group, h)
+        pace = Pace(group.substeps, h, 1.0 / h, state.drag, state.tolerances.push_speed)
+        run(group.members, motions.driven, pace, soft, soft_still, motions.used, rows)
+        if state.substeps == 0:
+            ask_for_substeps(state, motions, contacts.selection.parents, group, rows)
+        contacts.store(state, motions, rows, h)
     return h
 
 

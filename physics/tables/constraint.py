@@ -20,6 +20,9 @@ MOTION = np.dtype(
         ("acceleration_x", np.float64),
         ("acceleration_y", np.float64),
         ("angular_acceleration", np.float64),
+        ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
+        ("eased", np.float64),  # [s] for which fewer substeps would have done
+        ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
         ("moves", np.bool_),
         ("pushed", np.bool_),  # is integrated; feels drag and acceleration
         ("pressed", np.bool_),  # something acts on it in this substep, or it lies on something: it does not fly freely
@@ -47,6 +50,7 @@ CONSTRAINT = np.dtype(
         ("calm", np.bool_),  # nothing approached before the step
         ("loaded", np.bool_),  # it bore something in the step before
         ("rests", np.bool_),  # both sides touched before the step, too slow to bounce
+        ("alone", np.bool_),  # its faces stick, and nothing but it bears the one side on the other
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
         ("ax_1", np.float64),
         ("ay_1", np.float64),

@@ -20,7 +20,8 @@ STAGE_FIELDS = (
     "drag",  # [1/s]
     "wind",  # [px/s]
     "dt",  # [s]
-    "substeps",
+    "substeps",  # 0: as many as each island asks for, …
+    "accuracy",  # [px] … so that no contact sinks further
     "broadphase",
     "steps",  # made before this one
     "kept_forces",  # collected for a step of some length, when this one has none; else None
@@ -65,6 +66,7 @@ class StepState:
     wind: tuple[float, float]
     dt: float
     substeps: int
+    accuracy: float
     broadphase: Any  # broadphase.proxies.Strategy
     steps: int
     kept_forces: np.ndarray | None

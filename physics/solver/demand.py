@@ -1,0 +1,97 @@
+"""How many substeps an island asks for: as many as keep its contacts from sinking further than the accuracy.
+
+A contact is a spring whose frequency is a share of the substeps per second: under a force F it sinks by F / (m ω²), a
+quarter of that with twice the substeps. What the last step bore tells what the next one needs. Up at once; down, by
+half, where the contacts would still sink by no more than half of the accuracy, or islands would go up and down.
+Source of the spring: Catto, Soft Constraints, GDC 2011.
+"""
+
+import numpy as np
+
+from physics.jit import kernel
+from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, STILL_STIFFNESS
+from physics.solver.motions import Motions
+from physics.solver.selection import Group, demand_rate
+from physics.tables.counters import CAP_HITS
+from physics.tables.step_state import StepState
+
+
+@kernel
+def add_demands(
+    # read
+    constraints,
+    rate,
+    rate_still,
+    # write
+    motions_inout,
+):
+    """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
+
+    rate, rate_still: that square per speed that the impulses of the step give [s/px], between bodies and with what
+    cannot be pushed. O(constraints).
+    """
+    for i in range(len(constraints)):
+        r = constraints[i]
+        speed = r.normal_total_1 / r.normal_mass_1
+        if r.count == 2:
+            speed_2 = r.normal_total_2 / r.normal_mass_2
+            if r.alone and speed > 0.0 and speed_2 > 0.0:
+                # What stands on an edge leans by the difference, and has no more than the rest of the face to lean.
+                speed = max(speed, speed_2) * min(max(speed, speed_2) / min(speed, speed_2), LEAN)
+            else:
+                speed = max(speed, speed_2)
+        demand = speed * (rate_still if r.still else rate)
+        a = motions_inout[r.motion_a]
+        b = motions_inout[r.motion_b]
+        a.demand = max(a.demand, demand)
+        b.demand = max(b.demand, demand)
+
+
+@kernel
+def choose_substeps(
+    # read
+    members,
+    parents,
+    substeps,
+    least,
+    most,
+    dt,
+    patience,
+    # write
+    motions_inout,
+):
+    """Write the substeps that the members ask for after a step of so many. Returns how many of their islands ask for
+    more than the most. O(members).
+
+    members: rows of MOTION; parents (motions) int32: the root of each one's island.
+    """
+    for k in range(len(members)):
+        i = members[k]
+        m = motions_inout[i]
+        root = motions_inout[parents[i]]
+        root.demand = max(root.demand, m.demand)
+        m.substeps = substeps
+        eased = 0.0
+        if m.demand > substeps * substeps:
+            while m.substeps < most and m.substeps * m.substeps < m.demand:
+                m.substeps *= 2
+        elif substeps > least and 8.0 * m.demand <= substeps * substeps:
+            eased = m.eased + dt
+            if eased >= patience:
+                m.substeps = substeps // 2
+                eased = 0.0
+        m.eased = eased
+    capped = 0
+    for k in range(len(members)):
+        i = members[k]
+        if parents[i] == i and motions_inout[i].demand > most * most:
+            capped += 1
+    return capped
+
+
+def ask_for_substeps(state: StepState, motions: Motions, parents: np.ndarray, group: Group, rows: np.ndarray) -> None:
+    """Have the bodies of a group ask for what their contacts, CONSTRAINT rows, need in the next step."""
+    rate = demand_rate(state)
+    add_demands(rows, rate, rate / STILL_STIFFNESS**2, motions.used)
+    least, most = AUTO_SUBSTEPS[0], AUTO_SUBSTEPS[-1]
+    state.work[CAP_HITS] += choose_substeps(group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used)
