@@ -43,12 +43,12 @@ def digest(world: WorldState) -> str:
     """blake2b-128 over length and solver of the step, ids, poses, velocities, flags, masses, filters, characters,
     contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
     found = hashlib.blake2b(digest_size=16)
-    auto = world.stacks and world.substeps == "auto"
-    pace = (0, world.accuracy) if auto else (world.substeps,) if world.stacks else ()
+    auto = world.substeps == "auto"
+    pace = (0, world.accuracy) if auto else (world.substeps,)
     numbers = np.array((world.dt, *pace, world.tolerances.pixels_per_meter), np.float64)
     found.update(world.solver.encode() + numbers.tobytes())
     tables = (
-        (world.bodies, (*STATE, *CLOCK, *GIVEN, *(ASKED if auto else ()))),
+        (world.bodies, (*STATE, *CLOCK, *GIVEN, *(ASKED if auto and world.stacks else ()))),
         (world.shapes, SHAPE),
         (world.characters.rows, WALK),
         (world.contacts, KEYS),

@@ -72,9 +72,10 @@ def is_corner(geometry, body, shape, corner, local_x, local_y):
 
 
 @subkernel
-def core_in_body(body, cosine, sine, x, y, nx, ny, inside):
-    """A point, moved by `inside` [px] along the normal, in a body's space."""
-    return turned(x + inside * nx - body.x, y + inside * ny - body.y, cosine, -sine)
+def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
+    """A point, moved by `inside` [px] along the normal and back by `behind` [px] along the tangent (-ny, nx), in a
+    body's space."""
+    return turned(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
 
 
 @subkernel
@@ -154,8 +155,8 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
     c.held_ax_2 = 0.0
     c.held_ay_2 = 0.0
     half = 0.5 * m.separation_1
-    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a))
-    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b)
+    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a), 0.0)
+    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b, m.lead)
     c.base_1 = m.separation_1
     c.share_1 = share_of(geometry, a, b, s, o, c, m.feature_1, False)
     c.local_ax_2 = 0.0
@@ -168,8 +169,8 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
         c.held_ax_2 = m.x_2 - a.center_x
         c.held_ay_2 = m.y_2 - a.center_y
         half = 0.5 * m.separation_2
-        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a))
-        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b)
+        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a), 0.0)
+        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b, m.lead)
         c.base_2 = m.separation_2
         c.share_2 = share_of(geometry, a, b, s, o, c, m.feature_2, True)
 

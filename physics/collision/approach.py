@@ -4,12 +4,13 @@ from physics.jit import kernel, subkernel
 
 
 @subkernel
-def closing_speed(a, b, x, y, nx, ny):
-    """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows."""
+def closing_speed(a, b, x, y, nx, ny, lead):
+    """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows;
+    lead [px]: see MANIFOLD."""
     ax = x - a.center_x
     ay = y - a.center_y
-    bx = x - b.center_x
-    by = y - b.center_y
+    bx = x - b.center_x + lead * ny
+    by = y - b.center_y - lead * nx
     vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
     vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
     return -(nx * vx + ny * vy)
@@ -22,6 +23,6 @@ def measure_approach(bodies, manifolds_inout):
         m = manifolds_inout[i]
         a = bodies[m.body_row_a]
         b = bodies[m.body_row_b]
-        m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y)
+        m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
         if m.count == 2:
-            m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y)
+            m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.lead)

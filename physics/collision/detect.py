@@ -67,7 +67,7 @@ def detect_ended(state: StepState) -> None:
 
 @stage(
     "narrow_phase",
-    reads=("tolerances", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
+    reads=("tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
     writes=("manifolds", "anchors", "work", "workspace"),
 )
 def detect_piles(state: StepState) -> None:
@@ -90,6 +90,7 @@ def detect_piles(state: StepState) -> None:
         anchors=state.anchors,
         recycle=tolerances.recycle,
         graze=tolerances.slop,
+        ahead=state.dt,
     )
     anchors = state.workspace.anchors_for(len(manifolds))
     carry_over(tables, bodies, state.shapes, previous, state.anchors, manifolds, anchors)

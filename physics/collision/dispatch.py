@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from physics.collision.ahead import reach_of
 from physics.collision.chain_pairs import collide_chain_pairs
 from physics.collision.hull_pairs import (
     collide_boxes,
@@ -92,6 +93,7 @@ def classify(
     candidates,
     count,
     margin,
+    ahead,
     which,
     # write
     kind_out,
@@ -100,7 +102,8 @@ def classify(
 ):
     """Write the kind of every candidate pair, and how many there are of each. O(candidates).
 
-    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or only
+    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
+    within `ahead` [s], or only
     the SENSORS. The others are NOTHING.
     """
     for i in range(len(counts_out)):
@@ -114,11 +117,14 @@ def classify(
         if which == ALL or sensor == (which == SENSORS):
             kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
         if kind != NOTHING and which != ALL:
+            reach = margin
+            if ahead > 0.0 and kind <= POLYGONS:
+                reach = reach_of(bodies[a.body_row], bodies[b.body_row], margin, ahead)
             if (
-                a.min_x - margin > b.max_x
-                or b.min_x - margin > a.max_x
-                or a.min_y - margin > b.max_y
-                or b.min_y - margin > a.max_y
+                a.min_x - reach > b.max_x
+                or b.min_x - reach > a.max_x
+                or a.min_y - reach > b.max_y
+                or b.min_y - reach > a.max_y
             ):
                 kind = NOTHING
             elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
@@ -173,24 +179,36 @@ class NarrowPhase:
         anchors: np.ndarray | None = None,
         recycle: float = 0.0,
         graze: float = 0.0,
+        ahead: float = 0.0,
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
         candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
         which: see classify; bias [px]: see hulls.collide_hulls. previous: manifolds of the step before, which tell who
         stood on what is open from below; with their anchors they are used again where nothing moved by more than
-        `recycle` [px]. graze [px]: see Batch.
+        `recycle` [px]. graze [px], ahead [s]: see Batch.
         """
         count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         if len(self.kinds) < count + 1:
             self.kinds = np.zeros(2 * count + 1, np.int64)
-        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, float(margin), float(bias), float(graze))
+        batch = Batch(
+            geometry,
+            bodies,
+            shapes,
+            candidates,
+            self.kinds,
+            count,
+            float(margin),
+            float(bias),
+            float(graze),
+            float(ahead),
+        )
         if self.boxes_only:
             found = self._with_room(work, lambda: collide_boxes(batch, self.raw, work))
             return self.raw[:found]
-        classify(bodies, shapes, candidates, count, margin, which, self.kinds, self.counts, work)
+        classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
         again, workspace = 0, self.workspace
         if previous is not None and len(previous):
             if anchors is not None:

@@ -5,6 +5,16 @@ Each runs through all candidates and takes those of its kind, so contacts come o
 
 import math
 
+from physics.collision.ahead import (
+    bring_together,
+    nears_fast,
+    reach_of,
+    set_back,
+    time_of_disc,
+    time_of_discs,
+    time_of_nearest,
+    velocity_at,
+)
 from physics.collision.circles import COVERED, collide_circles
 from physics.collision.clipping import ALL_EDGES, LEFT
 from physics.collision.features import CIRCLE_CORNER, CORNERS
@@ -30,9 +40,16 @@ from physics.tables.shape import BOUNDS, CIRCLE
 @subkernel
 def closing(p, q, ax, ay, bx, by):
     """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
-    vx = (q.vx - q.angular_velocity * (by - q.center_y)) - (p.vx - p.angular_velocity * (ay - p.center_y))
-    vy = (q.vy + q.angular_velocity * (bx - q.center_x)) - (p.vy + p.angular_velocity * (ax - p.center_x))
-    return vx, vy
+    px, py = velocity_at(p, ax, ay)
+    qx, qy = velocity_at(q, bx, by)
+    return qx - px, qy - py
+
+
+@subkernel
+def lead_on(before, found, lead, manifolds_out):
+    """Note how far [px] B slides before it touches, on what was added since there were `before`."""
+    if before < found <= len(manifolds_out):
+        manifolds_out[before].lead = lead
 
 
 @kernel
@@ -57,17 +74,26 @@ def collide_circle_pairs(
         ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
         bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
         nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
-        if 0.0 < separation <= margin:
-            vx, vy = closing(
-                bodies[shapes[candidates[i, 0]].body_row], bodies[shapes[candidates[i, 1]].body_row], ax, ay, bx, by
-            )
-            workspace.a[0, 0] = ax
-            workspace.a[0, 1] = ay
-            workspace.b[0, 0] = bx
-            workspace.b[0, 1] = by
-            if passes_by(workspace.a, 1, workspace.b, 1, a_radius + b_radius, vx, vy):
+        p = bodies[shapes[candidates[i, 0]].body_row]
+        q = bodies[shapes[candidates[i, 1]].body_row]
+        reach = reach_of(p, q, margin, batch.ahead)
+        if 0.0 < separation <= reach:
+            vx, vy = closing(p, q, ax, ay, bx, by)
+            time = time_of_discs(bx - ax, by - ay, a_radius + b_radius, vx, vy)
+            if time < 0.0:
+                # Nearest: what turns them aside must not drive them into each other.
+                time = time_of_nearest(bx - ax, by - ay, vx, vy)
+            # Those that touch in the next step too, or they would be turned aside in this one.
+            if 0.0 < time <= 2.0 * batch.ahead:
+                nx, ny, x, y, gap = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
+                way = -time * (vx * nx + vy * ny)
+                x += 0.5 * way * nx
+                y += 0.5 * way * ny
+                before = found
+                found = add_point(shapes, candidates, i, found, nx, ny, x, y, gap + way, 0.0, 0, manifolds_out)
+                lead_on(before, found, time * (vy * nx - vx * ny), manifolds_out)
                 continue
-        if separation <= margin:
+        if separation <= reach:
             found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
     return found
 
@@ -104,22 +130,58 @@ def collide_polygon_circle_pairs(
         else:
             n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), workspace.a)
         x, y, radius = circle_at(bodies, shapes, circle)
+        time = 0.0
+        vx = 0.0
+        vy = 0.0
+        reach = margin
+        if batch.ahead > 0.0:
+            q = bodies[shapes[circle].body_row]
+            reach = reach_of(p, q, margin, batch.ahead)
+            if reach > margin and nears_fast(p, q, margin, batch.ahead):
+                vx, vy = closing(p, q, x, y, x, y)
+                time = time_of_disc(
+                    workspace.a, n, rounding(shapes, polygon), x, y, radius, vx, vy, margin, batch.ahead
+                )
+                if time < 0.0:
+                    continue
         hit, nx, ny, px, py, separation, feature = collide_hull_circle(
-            workspace.a, n, ALL_EDGES ^ s.inner, rounding(shapes, polygon), x, y, radius
+            workspace.a, n, ALL_EDGES ^ s.inner, rounding(shapes, polygon), x + time * vx, y + time * vy, radius
         )
         if not hit and feature == COVERED:
             leave(i, workspace.left)
-        if hit and 0.0 < separation <= margin and feature >= CIRCLE_CORNER:
+        if hit and batch.graze < separation <= reach and feature >= CIRCLE_CORNER:
             q = bodies[shapes[circle].body_row]
-            vx, vy = closing(p, q, px, py, x, y)
+            wx, wy = closing(p, q, px, py, x, y)
             workspace.b[0, 0] = x
             workspace.b[0, 1] = y
-            if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, vx, vy):
+            if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, wx, wy):
                 continue
-        if hit and separation <= margin:
+        if hit and separation <= reach:
+            way = -time * (vx * nx + vy * ny)
+            # Midway between the surfaces as they are now: on the polygon's side of its way.
+            px += 0.5 * way * nx
+            py += 0.5 * way * ny
+            lead = time * (vy * nx - vx * ny)
+            if sign < 0.0:
+                # A is the disc, and its point is where the polygon's is now.
+                px += lead * ny
+                py -= lead * nx
+            before = found
             found = add_point(
-                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, 0.0, feature, manifolds_out
+                shapes,
+                candidates,
+                i,
+                found,
+                sign * nx,
+                sign * ny,
+                px,
+                py,
+                separation + way,
+                0.0,
+                feature,
+                manifolds_out,
             )
+            lead_on(before, found, lead, manifolds_out)
     return found
 
 
@@ -133,11 +195,11 @@ def slides_by(a, na, b, nb, rounding, graze, p, q, manifold):
     """
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
     corners = manifold[0] == 1.0 and manifold[6] >= CORNERS
-    if least <= (0.0 if corners else -graze):
+    if least <= -graze:
         return False
     vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
     if corners:
-        return passes_by(a, na, b, nb, rounding, vx, vy)
+        return passes_by(a, na, b, nb, rounding - graze, vx, vy)
     along = vx * manifold[1] + vy * manifold[2]
     # Only who comes along the normal passes a side: what it slides on is touched all the time.
     return 2.0 * along * along > vx * vx + vy * vy and passes_by(a, na, b, nb, rounding - graze, vx, vy)
@@ -196,14 +258,18 @@ def collide_polygon_pairs(
             b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
             # Who is never pushed is only told of: by whichever part is met.
             deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
-        points = collide_hulls(
-            a, na, a_radius, a_edges, b, nb, b_radius, b_edges, margin, batch.bias, deepest, manifold
-        )
+        time, vx, vy, reach = bring_together(batch, p, q, a, na, nb, a_radius + b_radius, b)
+        if time < 0.0:
+            continue
+        points = collide_hulls(a, na, a_radius, a_edges, b, nb, b_radius, b_edges, reach, batch.bias, deepest, manifold)
         if points > 0 and slides_by(a, na, b, nb, a_radius + b_radius, batch.graze, p, q, manifold):
             continue
         if manifold[0] == LEFT:
             leave(i, workspace.left)
+        lead = set_back(time, vx, vy, manifold) if points > 0 and time > 0.0 else 0.0
+        before = found
         found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
+        lead_on(before, found, lead, manifolds_out)
     return found
 
 

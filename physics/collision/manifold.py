@@ -35,6 +35,7 @@ class Batch(NamedTuple):
     margin: float  # [px] pairs apart by at most that are found too
     bias: float  # [px] see hulls.collide_hulls
     graze: float = 0.0  # [px] who would overlap by no more in passing does not meet: see hull_pairs
+    ahead: float = 0.0  # [s] in which what meets is found: see ahead.py
 
 
 class Workspace(NamedTuple):
@@ -96,6 +97,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.count = 0
     m.normal_x = nx
     m.normal_y = ny
+    m.lead = 0.0
     m.sensor = a.sensor or b.sensor
     m.swept = False
     m.persisted_1 = False
@@ -203,6 +205,7 @@ def copy_manifold(manifolds, source, target, manifolds_out):
     d.count = s.count
     d.normal_x = s.normal_x
     d.normal_y = s.normal_y
+    d.lead = s.lead
     d.sensor = s.sensor
     d.swept = s.swept
     d.persisted_1 = s.persisted_1

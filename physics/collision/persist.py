@@ -66,6 +66,7 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout
     face's end cuts off wanders along the edge, which counts only where much has moved.
     """
     m = manifold_inout
+    m.lead = 0.0
     slid = 0.0
     changed = 0.0
     old_x = m.normal_x
@@ -85,7 +86,9 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout
         share = anchor.share_1 if k == 0 else anchor.share_2
         if anchor.frame == CORES:
             nx, ny = unit(dx, dy, old_x, old_y)
-            slid = max(slid, length_of(nx - old_x, ny - old_y) * max(anchor.radius_a, anchor.radius_b))
+            # Against where it was detected: what rolls round a corner leaves it.
+            turn = length_of(nx - anchor.local_nx, ny - anchor.local_ny)
+            slid = max(slid, turn * max(anchor.radius_a, anchor.radius_b))
         else:
             nx = anchor.local_nx
             ny = anchor.local_ny

@@ -71,7 +71,7 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
         return 0.0
-    impulse = max(closing_speed(a_inout, b_inout, x, y, nx, ny), 0.0) / inverse_masses
+    impulse = max(closing_speed(a_inout, b_inout, x, y, nx, ny, 0.0), 0.0) / inverse_masses
     a_inout.vx -= a_inout.inverse_mass * impulse * nx
     a_inout.vy -= a_inout.inverse_mass * impulse * ny
     b_inout.vx += b_inout.inverse_mass * impulse * nx

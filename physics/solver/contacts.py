@@ -149,8 +149,8 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                 y = m.y_1 if k == 0 else m.y_2
                 ax = x - p.center_x
                 ay = y - p.center_y
-                bx = x - q.center_x
-                by = y - q.center_y
+                bx = x - q.center_x + m.lead * ny  # where B's point is now
+                by = y - q.center_y - m.lead * nx
                 if held:
                     ax = c.held_ax_1 if k == 0 else c.held_ax_2
                     ay = c.held_ay_1 if k == 0 else c.held_ay_2
@@ -224,7 +224,8 @@ def store_impulses(
     manifolds_inout,
     anchors_inout,
 ):
-    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds. O(constraints)."""
+    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds.
+    O(constraints)."""
     for i in range(len(constraints)):
         r = constraints[i]
         m = manifolds_inout[r.manifold]
@@ -327,12 +328,7 @@ class ContactSet:
         """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""
         if state.effects.restitution:
             restore_bounces(
-                state.manifolds,
-                state.anchors,
-                state.tolerances.restitution_speed,
-                motions.used,
-                rows,
-                state.work,
+                state.manifolds, state.anchors, state.tolerances.restitution_speed, motions.used, rows, state.work
             )
         if state.effects.friction:
             FRICTION_LIMIT[state.effects.rotation](motions.used, rows)

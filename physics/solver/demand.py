@@ -6,6 +6,8 @@ half, where the contacts would still sink by no more than half of the accuracy, 
 Source of the spring: Catto, Soft Constraints, GDC 2011.
 """
 
+import math
+
 import numpy as np
 
 from physics.jit import kernel
@@ -22,25 +24,27 @@ def add_demands(
     constraints,
     rate,
     rate_still,
+    most,
     # write
     motions_inout,
 ):
     """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
 
     rate, rate_still: that square per speed that the impulses of the step give [s/px], between bodies and with what
-    cannot be pushed. O(constraints).
+    cannot be pushed; most: the square of the most substeps, than which nobody asks for more because it leans.
+    O(constraints).
     """
     for i in range(len(constraints)):
         r = constraints[i]
-        speed = r.normal_total_1 / r.normal_mass_1
+        per_speed = rate_still if r.still else rate
+        demand = per_speed * r.normal_total_1 / r.normal_mass_1
         if r.count == 2:
-            speed_2 = r.normal_total_2 / r.normal_mass_2
-            if r.alone and speed > 0.0 and speed_2 > 0.0:
-                # What stands on an edge leans by the difference, and has no more than the rest of the face to lean.
-                speed = max(speed, speed_2) * min(max(speed, speed_2) / min(speed, speed_2), LEAN)
-            else:
-                speed = max(speed, speed_2)
-        demand = speed * (rate_still if r.still else rate)
+            other = per_speed * r.normal_total_2 / r.normal_mass_2
+            least = min(demand, other)
+            demand = max(demand, other)
+            if r.alone and least > 0.0:
+                # What stands on an edge leans by the difference, and has but the rest of the face to lean.
+                demand = max(demand, min(demand * min(demand / least, LEAN), most))
         a = motions_inout[r.motion_a]
         b = motions_inout[r.motion_b]
         a.demand = max(a.demand, demand)
@@ -60,19 +64,21 @@ def choose_substeps(
     # write
     motions_inout,
 ):
-    """Write the substeps that the members ask for after a step of so many. Returns how many of their islands ask for
-    more than the most. O(members).
+    """Write the substeps that the members ask for after a step of so many. Returns how many of their islands have asked
+    for more than the most for as long as `patience` [s], which is none of an impact. O(members).
 
     members: rows of MOTION; parents (motions) int32: the root of each one's island.
     """
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
-        root = motions_inout[parents[i]]
-        root.demand = max(root.demand, m.demand)
         m.substeps = substeps
         eased = 0.0
-        if m.demand > substeps * substeps:
+        if m.demand > most * most and substeps == most:
+            eased = min(m.eased, 0.0) - dt
+            if eased <= -patience:
+                motions_inout[parents[i]].demand = math.inf
+        elif m.demand > substeps * substeps:
             while m.substeps < most and m.substeps * m.substeps < m.demand:
                 m.substeps *= 2
         elif substeps > least and 8.0 * m.demand <= substeps * substeps:
@@ -84,14 +90,15 @@ def choose_substeps(
     capped = 0
     for k in range(len(members)):
         i = members[k]
-        if parents[i] == i and motions_inout[i].demand > most * most:
-            capped += 1
+        capped += int(parents[i] == i and motions_inout[i].demand == math.inf)
     return capped
 
 
 def ask_for_substeps(state: StepState, motions: Motions, parents: np.ndarray, group: Group, rows: np.ndarray) -> None:
     """Have the bodies of a group ask for what their contacts, CONSTRAINT rows, need in the next step."""
     rate = demand_rate(state)
-    add_demands(rows, rate, rate / STILL_STIFFNESS**2, motions.used)
     least, most = AUTO_SUBSTEPS[0], AUTO_SUBSTEPS[-1]
-    state.work[CAP_HITS] += choose_substeps(group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used)
+    add_demands(rows, rate, rate / STILL_STIFFNESS**2, float(most * most), motions.used)
+    state.work[CAP_HITS] += choose_substeps(
+        group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used
+    )

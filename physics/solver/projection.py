@@ -77,7 +77,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
                 a_arm = ax * ny - ay * nx
                 b_arm = bx * ny - by * nx
                 effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
-            change = (wanted + closing_speed(a, b, c.x, c.y, nx, ny)) / effective
+            change = (wanted + closing_speed(a, b, c.x, c.y, nx, ny, 0.0)) / effective
             impulse = max(c.normal_impulse + change, 0.0)
             change = impulse - c.normal_impulse
             c.normal_impulse = impulse

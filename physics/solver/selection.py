@@ -79,7 +79,7 @@ def select_manifolds(
 
 @kernel
 def class_motions(motions, degrees, choices, classes_out):
-    """Write the place of each motion's substeps among the choices; what nothing touches takes the fewest. O(motions)."""
+    """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest. O(motions)."""
     for i in range(len(classes_out)):
         classes_out[i] = 0
         if degrees[i] > 0 and motions[i].pushed:
@@ -118,7 +118,10 @@ def expect_impacts(
         for side in range(2):
             node = edges[i, side]
             if motions[node].pushed:
-                while classes_inout[node] < len(choices) - 1 and choices[classes_inout[node]] * choices[classes_inout[node]] < demand:
+                while (
+                    classes_inout[node] < len(choices) - 1
+                    and choices[classes_inout[node]] * choices[classes_inout[node]] < demand
+                ):
                     classes_inout[node] += 1
 
 

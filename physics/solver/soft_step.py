@@ -12,7 +12,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
-from physics.settings import CALM_SHARE, CONTACT_DAMPING, CONTACT_HERTZ, HERTZ_SHARE, PUSH_SHARE, STILL_STIFFNESS
+from physics.settings import (
+    AUTO_SUBSTEPS,
+    CALM_SHARE,
+    CONTACT_DAMPING,
+    CONTACT_HERTZ,
+    HERTZ_SHARE,
+    PUSH_SHARE,
+    STILL_STIFFNESS,
+)
 from physics.solver.contacts import WARM_START, ContactSet
 from physics.solver.demand import ask_for_substeps
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
@@ -38,6 +46,9 @@ class Pace(NamedTuple):
     inverse_h: float
     drag: float  # [1/s]
     push_speed: float  # [px/s]
+    push_rate: float  # [1/s] of an overlap that bears nothing
+    deep_rate: float  # [1/s] of one that is deep, beyond …
+    shallow_speed: float  # [px/s] … 0: those too as fast as they can
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
@@ -65,15 +76,15 @@ def wanted_change(speed, separation, given, inverse_h, biased, spring, push_spee
 
 
 @subkernel
-def let_out(speed, separation, mass, inverse_h, push_speed):
-    """Impulse that lets an overlap out, at push_speed [px/s] at most: PUSH_SHARE of it in a substep."""
+def let_out(speed, separation, mass, pace):
+    """Impulse that lets an overlap out: by a share of it per second, at the push speed at most."""
     if separation > 0.0:
-        return max(-mass * (speed + separation * inverse_h), 0.0)
-    return max(mass * (min(PUSH_SHARE * inverse_h * -separation, push_speed) - speed), 0.0)
+        return max(-mass * (speed + separation * pace.inverse_h), 0.0)
+    return max(mass * (min(-separation * pace.push_rate, pace.push_speed) - speed), 0.0)
 
 
 @subkernel
-def let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a_inout, b_inout):
+def let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, pace, rotation, a_inout, b_inout):
     """Push two bodies apart at the points of a constraint row that bears nothing, by the speeds that only move them.
 
     speeds [px/s] of their own and gaps [px] at both points; k_12: speed of one point per impulse on the other.
@@ -88,13 +99,13 @@ def let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed,
     total = speed_1 + pushed
     if rotation:
         total += b_inout.push_w * b_1 - a_inout.push_w * a_1
-    push_1 = let_out(total, gap_1, r.normal_mass_1, inverse_h, push_speed)
+    push_1 = let_out(total, gap_1, r.normal_mass_1, pace)
     push_2 = 0.0
     if r.count == 2:
         total = speed_2 + pushed + k_12 * push_1
         if rotation:
             total += b_inout.push_w * b_2 - a_inout.push_w * a_2
-        push_2 = let_out(total, gap_2, r.normal_mass_2, inverse_h, push_speed)
+        push_2 = let_out(total, gap_2, r.normal_mass_2, pace)
     if push_1 + push_2 > 0.0:
         x = (push_1 + push_2) * nx
         y = (push_1 + push_2) * ny
@@ -121,8 +132,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     @subkernel
     def solve_soft(
         # read, scalars
-        inverse_h,
-        push_speed,
+        pace,
         soft,
         soft_still,
         # write
@@ -131,8 +141,10 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every constraint once, in the order of the rows. O(constraints).
 
-        soft, soft_still: Softness of a contact between bodies and of one with what cannot be pushed.
+        pace: see Pace; soft, soft_still: Softness of a contact between bodies and of one with what cannot be pushed.
         """
+        inverse_h = pace.inverse_h
+        push_speed = pace.push_speed
         calm_speed = CALM_SHARE * push_speed
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -156,6 +168,9 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             # Arms turn with their bodies where separations are measured, and stay where speeds are.
             gap = core + (b.dx - a.dx) * nx + (b.dy - a.dy) * ny
             gap_1 = gap + r.base_1 + turned_along(a, b, r.ax_1, r.ay_1, r.bx_1, r.by_1, nx, ny)
+            gap_2 = gap_1
+            if r.count == 2:
+                gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
             speed_1 = vx * nx + vy * ny
             speed_2 = speed_1
             if rotation:
@@ -163,6 +178,10 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 speed_2 += wb * b_2 - wa * a_2
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
+            if pace.deep_rate > 0.0:
+                # Deep overlaps come out as slowly as with the fewest substeps; shallow ones may be what bears a load.
+                deep = -gap_1 if r.count == 1 else -min(gap_1, gap_2)
+                most = min(most, max(pace.deep_rate * deep, pace.shallow_speed))
             # A spring would let a fast impact through: what has just met is stopped hard, and pushed out from then on.
             still = speed_1 >= -calm_speed and (r.count == 1 or speed_2 >= -calm_speed)
             bears = old_1 > calm_speed * r.normal_mass_1 or old_2 > calm_speed * r.normal_mass_2
@@ -173,10 +192,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             wanted_1 = wanted_change(speed_1, gap_1, k_11 * old_1, inverse_h, soft_now, spring, most)
             impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
             impulse_2 = old_2
-            gap_2 = gap_1
             k_12 = 0.0
             if r.count == 2:
-                gap_2 = gap + r.base_2 + turned_along(a, b, r.ax_2, r.ay_2, r.bx_2, r.by_2, nx, ny)
                 k_12 = masses
                 if rotation:
                     k_12 += a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
@@ -192,7 +209,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
             if free:
                 impulse_1 = 0.0
                 impulse_2 = 0.0
-                let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, inverse_h, push_speed, rotation, a, b)
+                let_out_both(r, speed_1, speed_2, gap_1, gap_2, k_12, pace, rotation, a, b)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if biased and (r.rests or impulse_1 + impulse_2 > 0.0):
@@ -284,16 +301,14 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
         pace: see Pace. One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
         """
         h = pace.h
-        inverse_h = pace.inverse_h
-        push_speed = pace.push_speed
         move_driven(driven, 0.0, motions_inout)
         for n in range(pace.substeps):
             velocities(members, h, pace.drag, motions_inout)
             warm_start(constraints_inout, motions_inout)
-            push_out(inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
-            positions(members, h, push_speed, motions_inout)
+            push_out(pace, soft, soft_still, motions_inout, constraints_inout)
+            positions(members, h, pace.push_speed, motions_inout)
             move_driven(driven, (n + 1) * h, motions_inout)
-            relax(inverse_h, push_speed, soft, soft_still, motions_inout, constraints_inout)
+            relax(pace, soft, soft_still, motions_inout, constraints_inout)
 
     return run_substeps
 
@@ -303,7 +318,7 @@ SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BO
 
 def solve(state: StepState, contacts: ContactSet) -> float:
     """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
-    effects, motions, dt = state.effects, state.workspace.motions, state.dt
+    effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run, h = SUBSTEPS[effects.drag, effects.rotation, effects.friction], dt
     for group in contacts.choose(state, motions, state.substeps):
         h = dt / group.substeps
@@ -312,7 +327,14 @@ def solve(state: StepState, contacts: ContactSet) -> float:
         soft = softness(hertz, CONTACT_DAMPING, h)
         soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
         rows = contacts.prepare(state, motions, group, h)
-        pace = Pace(group.substeps, h, 1.0 / h, state.drag, state.tolerances.push_speed)
+        # More substeps let nothing out faster.
+        push_rate = PUSH_SHARE * min(group.substeps, AUTO_SUBSTEPS[0]) / dt
+        deep_rate = shallow_speed = 0.0
+        if state.substeps == 0:
+            slowest = dt / AUTO_SUBSTEPS[0]
+            deep_rate = softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate
+            shallow_speed = soft.bias_rate * tolerances.speculative
+        pace = Pace(group.substeps, h, 1.0 / h, state.drag, tolerances.push_speed, push_rate, deep_rate, shallow_speed)
         run(group.members, motions.driven, pace, soft, soft_still, motions.used, rows)
         if state.substeps == 0:
             ask_for_substeps(state, motions, contacts.selection.parents, group, rows)

@@ -52,7 +52,7 @@ BODY = np.dtype(
         ("still_angle", np.float64),
         ("sleep_time", np.float64),  # … for so long [s]
         ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
-        ("eased", np.float64),  # [s] for which fewer would have done
+        ("eased", np.float64),  # [s] for which fewer would have done, or, below 0, the most were too few
         ("substeps", np.int64),  # that its island is to take in the next step, where they are not given
         ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
         ("fraction", np.float64),  # of this step's motion that was free, 1 when nothing was in the way

@@ -21,7 +21,7 @@ MOTION = np.dtype(
         ("acceleration_y", np.float64),
         ("angular_acceleration", np.float64),
         ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
-        ("eased", np.float64),  # [s] for which fewer substeps would have done
+        ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
         ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
         ("moves", np.bool_),
         ("pushed", np.bool_),  # is integrated; feels drag and acceleration

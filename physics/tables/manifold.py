@@ -23,6 +23,7 @@ MANIFOLD = np.dtype(
         ("count", np.int64),  # of its points
         ("normal_x", np.float64),  # unit, from A to B
         ("normal_y", np.float64),
+        ("lead", np.float64),  # [px] that B slides along the tangent (-ny, nx) before they touch; see ahead.py
         ("sensor", np.bool_),
         ("swept", np.bool_),  # met on the way, not at the end of the step
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before

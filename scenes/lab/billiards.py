@@ -164,7 +164,8 @@ class Billiards(Scene):
         px, py, steps = self.budget
         steps += 1
         bodies, begun = self.world.bodies, self.world.events.begin
-        met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
+        borne = self.world.contacts[self.world.contacts["normal_impulse"] > 0.0]  # by who lay on a cushion already
+        met = {each for rows in (begun, borne) for name in ("body_a", "body_b") for each in rows[name].tolist()}
         if met & self.cushions or len(self.world.events.sensor_begin):
             self.budget = None
             return

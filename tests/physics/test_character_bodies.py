@@ -147,7 +147,7 @@ def test_pushes_a_crate_at_the_speed_of_the_move_and_never_faster(speed):
             start = crate.position[0]
     assert fastest <= speed * (1 + 1e-9)
     rubbed = 0.6 * G / 60  # what friction takes in each step, before he pushes again
-    assert crate.position[0] - start == pytest.approx(speed - rubbed, abs=2.5), "a second of pushing"
+    assert crate.position[0] - start == pytest.approx(speed - rubbed, abs=3.5), "a second of pushing"
     assert abs(crate.angle) < 0.01
     assert hero.position[0] + 5 > crate.position[0] - 12 - 2.5, "and he is right behind it"
 
@@ -264,7 +264,8 @@ def test_a_lift_raises_him_and_the_crate_on_his_head_and_squeezes_him_under_a_ce
         -178, abs=1.5
     )
     world.add_body(Polygon.box(200, 20), position=(0, crate.position[1] - 30), kind="static")
-    assert any(each.squeezed for each in play(world, 30, hero, dy=1.0))
+    # A third of a second to the ceiling, and as long until the crate gives way no more.
+    assert any(each.squeezed for each in play(world, 45, hero, dy=1.0))
 
 
 def test_a_piston_pushes_a_crate_and_the_crate_him_until_a_wall_squeezes_him():

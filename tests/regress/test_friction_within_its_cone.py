@@ -26,7 +26,7 @@ def test_random_piles(solver, seed):
         frictions[body.id] = own
     frictions[0] = 0.9
     slid = 0
-    for _ in range(150 if JIT else 50):
+    for _ in range(150 if JIT else 110):
         world.step()
         for contact in world.contacts:
             mu = (frictions[int(contact["body_a"])] * frictions[int(contact["body_b"])]) ** 0.5

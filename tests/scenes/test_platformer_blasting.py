@@ -51,6 +51,7 @@ class Cave:
         self.run("left focus")
         self.until(lambda: self.bomb.phase == GONE, "right")
         self.run("", 150)
+        self.until(lambda: not any(piece.body.awake for piece in self.scene.things.rubble))
 
 
 class Over:

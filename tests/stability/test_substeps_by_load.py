@@ -1,0 +1,226 @@
+"""Substeps that follow from the load, island by island: no contact sinks further than the accuracy, and nothing that an
+island does depends on what else there is."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import Circle, Material, Polygon, World
+from tests.stability.invariants import Watch, deepest
+from tests.stability.piles import floor, metres, needs_speed, pile_effects, pyramid
+
+MILLIMETRE = 0.001
+
+
+def heap(world, boxes, x=0.0, density=1.0, top=None):
+    """A column of unit boxes on the floor at x; top: the density of the last."""
+    return [
+        world.add_body(
+            Polygon.box(1, 1),
+            position=(x, -0.5 - k),
+            material=Material(density=top if top and k == boxes - 1 else density, friction=0.6),
+        )
+        for k in range(boxes)
+    ]
+
+
+def asked(world, *bodies):
+    """The most substeps that some bodies ask for."""
+    return max(int(world.bodies["substeps"][world.rows(each.id)]) for each in bodies)
+
+
+@pytest.mark.parametrize("boxes", [1, 5, 12])
+def test_no_contact_of_a_column_sinks_further_than_a_millimetre(boxes):
+    """With four substeps it does: that is what they cost."""
+    world = metres(substeps="auto")
+    floor(world)
+    heap(world, boxes)
+    for _ in range(120):
+        world.step()
+        assert deepest(world) <= MILLIMETRE
+    soft = metres(substeps=4)
+    floor(soft)
+    heap(soft, boxes)
+    Watch(soft).step(120)
+    assert boxes == 1 or deepest(soft) > MILLIMETRE
+
+
+@needs_speed
+def test_a_pyramid_of_twenty_rows_and_the_accuracy_that_is_asked_for():
+    found = {}
+    for accuracy in (None, 0.01):
+        world = metres(substeps="auto", accuracy=accuracy)
+        floor(world)
+        pyramid(world, 20)
+        Watch(world).step(120)
+        found[accuracy] = int(world.bodies["substeps"][1:].max())
+        assert deepest(world) <= world.accuracy
+    assert found[0.01] < found[None]
+
+
+def test_who_bears_little_takes_few_once_that_is_known():
+    """From the most, by half after a quarter of a second each: so much is forgotten of an impact."""
+    world = metres(substeps="auto")
+    floor(world)
+    box = heap(world, 1)[0]
+    taken = []
+    for _ in range(60):
+        taken.append(asked(world, box))
+        world.step()
+    assert [taken[k] for k in (0, 14, 17, 31, 34, 46, 50, 59)] == [32, 32, 16, 16, 8, 8, 4, 4]
+    ball = world.add_body(Circle(0.5), position=(5.0, -8.0))
+    world.step(0.1)
+    assert asked(world, ball) == 4, "what nothing touches takes the fewest"
+
+
+def test_what_lands_on_something_light_is_expected():
+    """With the momentum of what is heavy: or the first step of an impact would be the worst."""
+    world = metres(substeps="auto")
+    floor(world)
+    light = heap(world, 1)[0]
+    Watch(world).step(60)
+    assert asked(world, light) == 4
+    world.add_body(Polygon.box(1, 1), position=(0.0, -1.6), velocity=(0.0, 12.0), material=Material(density=100.0))
+    world.step()
+    assert asked(world, light) == 32
+    for _ in range(60):
+        world.step()
+        assert deepest(world) <= 0.005
+
+
+@pytest.mark.parametrize("first", ["column", "box"])
+def test_no_island_feels_another(first):
+    """To the bit, in whichever order they were made."""
+
+    def alone(which):
+        world = metres(substeps="auto")
+        floor(world)
+        return world, build[which](world)
+
+    def poses(world, bodies):
+        rows = world.bodies[world.rows(np.array([each.id for each in bodies]))]
+        return [rows[name].tolist() for name in ("x", "y", "angle", "vx", "vy", "angular_velocity")]
+
+    build = {
+        "column": lambda world: heap(world, 8),
+        "box": lambda world: [world.add_body(Polygon.box(1, 1), position=(20.0, -1.5), angle=0.2, velocity=(1.0, 0.0))],
+    }
+    second = "box" if first == "column" else "column"
+    world = metres(substeps="auto")
+    floor(world)
+    both = {which: build[which](world) for which in (first, second)}
+    apart = {which: alone(which) for which in both}
+    classes = set()
+    for _ in range(90):
+        world.step()
+        classes.add((asked(world, *both["column"]), asked(world, *both["box"])))
+        for which, (own, bodies) in apart.items():
+            own.step()
+            assert poses(world, both[which]) == poses(own, bodies)
+    assert any(column != box for column, box in classes), "the test has teeth"
+
+
+def test_islands_share_what_moves_by_hand():
+    """A turning plate bears a column and, metres away, a light box: where it is follows from the time alone."""
+    world = metres(substeps="auto")
+    plate = world.add_body(
+        Polygon.box(40, 1), position=(0.0, 0.5), kind="kinematic", velocity=(0.5, 0.0), angular_velocity=0.05
+    )
+    column = heap(world, 6, x=-2.0)
+    light = world.add_body(Polygon.box(1, 0.2), position=(15.0, -0.1))
+    for n in range(1, 61):
+        world.step()
+        assert plate.position.x == pytest.approx(0.5 * n / 60, rel=1e-12)
+        assert plate.angle == pytest.approx(0.05 * n / 60, rel=1e-12)
+        assert deepest(world) <= 2 * MILLIMETRE
+    assert asked(world, *column) > asked(world, light) or asked(world, light) == 4
+
+
+@needs_speed
+def test_what_32_cannot_reach_is_counted():
+    """A thousand to one: while it lies there, and not the impact of a ball."""
+    world = metres(substeps="auto")
+    floor(world)
+    heap(world, 2, top=1000.0)
+    world.add_body(Circle(0.5), position=(20.0, -3.0), velocity=(0.0, 9.0))
+    counted = []
+    for _ in range(90):
+        world.step()
+        counted.append(world.profile.counters["cap_hits"])
+    assert counted[:15] == [0] * 15 and counted[-30:] == [1] * 30
+    assert deepest(world) <= 0.006
+
+
+def test_sequential_impulses_take_the_passes_of_four():
+    one, other = (metres("sequential_impulse", substeps=substeps) for substeps in ("auto", 4))
+    for world in (one, other):
+        floor(world)
+        heap(world, 3)
+        world.step()
+    for name in ("x", "y", "angle", "vx", "vy"):
+        assert one.bodies[name].tolist() == other.bodies[name].tolist()
+
+
+@needs_speed
+def test_snapshots_go_on_to_the_bit():
+    """600 steps, back, and 600 again, with faces that stick and islands at 32."""
+
+    def made():
+        world = World(pile_effects(sleeping=True), gravity=(0, 10), pixels_per_meter=1.0)
+        floor(world)
+        heap(world, 12)
+        heap(world, 3, x=8.0, top=500.0)
+        pyramid(world, 6, x=-20.0)
+        for k in range(6):
+            world.add_body(Circle(0.4), position=(20.0 + 0.3 * k, -1.0 - k), velocity=(-3.0, 0.0))
+        return world
+
+    world = made()
+    Watch(world, capped=True).step(40)
+    assert 32 in world.bodies["substeps"][1:]
+    taken, digests = world.snapshot(), []
+    for _ in range(2):
+        for n in range(600):
+            world.step()
+            if n % 100 == 99:
+                digests.append(world.digest())
+        world.restore(taken)
+    assert digests[:6] == digests[6:]
+    other = made()
+    other.restore(taken)
+    for _ in range(100):
+        other.step()
+    assert other.digest() == digests[0]
+
+
+@pytest.mark.parametrize("value", ["many", "", 0, -1, 1.5, None, True, math.nan])
+def test_substeps_that_are_none(value):
+    with pytest.raises((TypeError, ValueError), match="substeps"):
+        World(substeps=value)
+    world = World()
+    with pytest.raises((TypeError, ValueError), match="substeps"):
+        world.substeps = value
+    assert world.substeps == "auto"
+
+
+@pytest.mark.parametrize("value", [0, -1.0, math.nan, math.inf, "fine", True])
+def test_accuracies_that_are_none(value):
+    with pytest.raises((TypeError, ValueError), match="accuracy"):
+        World(accuracy=value)
+    world = World(accuracy=0.5)
+    with pytest.raises((TypeError, ValueError), match="accuracy"):
+        world.accuracy = value
+    assert world.accuracy == 0.5
+
+
+def test_the_accuracy_is_a_millimetre_of_the_world_unless_it_is_given():
+    world = World(pixels_per_meter=50.0)
+    assert (world.substeps, world.accuracy) == ("auto", pytest.approx(0.05))
+    before = world.digest()
+    world.accuracy = 0.2
+    assert world.accuracy == 0.2 and world.digest() != before
+    world.accuracy = None
+    assert world.accuracy == pytest.approx(0.05) and world.digest() == before
+    world.substeps = 7
+    assert world.substeps == 7 and World(substeps=7).substeps == 7
