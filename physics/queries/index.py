@@ -195,7 +195,8 @@ class QueryIndex:
             if not moved:
                 return
             rows = self.moved[:moved]  # the boxes that the structure knows are the same
-        self.seen, self.step, self.awake = seen, world.steps, awake.bodies
+        self.seen, self.step = seen, world.steps
+        self.awake = np.arange(len(bodies)) if awake.stale else awake.bodies  # what is stale names rows of before
         of = awake.shapes_of(rows) if some else np.arange(len(shapes))
         if some:
             of = np.union1d(of, self.loose[: self.loose_count])
