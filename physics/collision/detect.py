@@ -3,7 +3,7 @@
 import numpy as np
 
 from physics.collision.approach import measure_approach
-from physics.collision.dispatch import SENSORS, SOLIDS
+from physics.collision.box_pairs import SENSORS, SOLIDS
 from physics.collision.materials import mix_materials
 from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import in_order

@@ -3,13 +3,9 @@
 import numpy as np
 
 from physics.collision.ahead import reach_of
+from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, collide_boxes, may_change
 from physics.collision.chain_pairs import collide_chain_pairs
-from physics.collision.hull_pairs import (
-    collide_boxes,
-    collide_circle_pairs,
-    collide_polygon_circle_pairs,
-    collide_polygon_pairs,
-)
+from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.left_over import drop_opposed, settle_left
 from physics.collision.manifold import (
     CHAIN_ANY,
@@ -37,14 +33,11 @@ from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_p
 from physics.collision.persist import recycle_manifolds, remember_ground
 from physics.collision.surfaces import admit_to_surfaces
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
-from physics.dynamics.awake import is_active, wakes
 from physics.jit import kernel, subkernel
 from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
 from physics.tables.geometry import Geometry
 from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
-
-ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
 
 
 @subkernel
@@ -77,12 +70,6 @@ def as_snapped(kind, a, b):
     if kind == MASK_CIRCLE or kind == MASK_POLYGON:
         return kind if a.snap or b.snap else MASK_HULL_EXACT
     return kind
-
-
-@subkernel
-def may_change(a, b):
-    """Whether a step can change the contact of two bodies."""
-    return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @kernel
@@ -206,7 +193,7 @@ class NarrowPhase:
             float(ahead),
         )
         if self.boxes_only:
-            found = self._with_room(work, lambda: collide_boxes(batch, self.raw, work))
+            found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
             return self.raw[:found]
         classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
         again, workspace = 0, self.workspace

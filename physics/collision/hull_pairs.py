@@ -1,4 +1,4 @@
-"""Passes over the candidate pairs of circles and other hulls, and the pass that stops at AABBs.
+"""Passes over the candidate pairs of circles and other hulls.
 
 Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
 """
@@ -33,7 +33,6 @@ from physics.collision.upright import collide_upright, upright_corners
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import polygon_at, rounding
 from physics.tables.body import DYNAMIC
-from physics.tables.counters import SENSOR_TESTS
 from physics.tables.shape import BOUNDS, CIRCLE
 
 
@@ -270,47 +269,4 @@ def collide_polygon_pairs(
         before = found
         found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
         lead_on(before, found, lead, manifolds_out)
-    return found
-
-
-@kernel
-def collide_boxes(
-    # read
-    batch,
-    # write
-    manifolds_out,
-    work_inout,
-):
-    """Contacts of all candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
-
-    Returns the number of contacts. O(candidates).
-    """
-    shapes = batch.shapes
-    candidates = batch.candidates
-    found = 0
-    for i in range(batch.count):
-        a = shapes[candidates[i, 0]]
-        b = shapes[candidates[i, 1]]
-        if a.sensor or b.sensor:
-            work_inout[SENSOR_TESTS] += 1
-        right = a.max_x - b.min_x
-        left = b.max_x - a.min_x
-        down = a.max_y - b.min_y
-        up = b.max_y - a.min_y
-        least = min(min(right, left), min(down, up))
-        if least < 0.0:
-            continue
-        nx = 0.0
-        ny = -1.0
-        if least == right:
-            nx = 1.0
-            ny = 0.0
-        elif least == left:
-            nx = -1.0
-            ny = 0.0
-        elif least == down:
-            ny = 1.0
-        x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
-        y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
-        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
     return found

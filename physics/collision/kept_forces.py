@@ -6,8 +6,9 @@ the spot, and each new point takes over from the old one that stood where it sta
 
 import numpy as np
 
+from physics.collision.box_pairs import SOLIDS
 from physics.collision.detect import BIAS
-from physics.collision.dispatch import SOLIDS, no_work
+from physics.collision.dispatch import no_work
 from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import order_of
 from physics.shapes.placement import refresh_aabbs

@@ -1,0 +1,38 @@
+"""Worlds that stop at AABBs told of sensors as of what is solid, and of what sleeps as of what is awake."""
+
+import numpy as np
+import pytest
+
+from physics import Character, Circle, Effects, PixelMask, Polygon, World
+
+PILES = Effects(narrowphase=False, response=True, stacking=True, sleeping=True, sensors=True)
+
+
+def test_sensors_push_nobody_without_a_narrow_phase():
+    """The ball lifts the plank into the sensor, which tells of it as a sensor, once."""
+    world = World(PILES)
+    world.add_body(Circle(20.0), PixelMask(np.ones((5, 24), bool)), position=(0.0, 32.0))
+    zone = world.add_body(Circle(30.0), PixelMask(np.ones((2, 6), bool)), sensor=True)
+    world.add_body(Polygon.box(117.0, 2.0), position=(0.0, 29.0))
+    told = []
+    for _ in range(12):
+        world.step()
+        assert zone.id not in (*world.contacts["body_a"], *world.events.begin["body_a"], *world.events.begin["body_b"])
+        for row in world.events.sensor_begin:
+            assert zone.id in (row["body_a"], row["body_b"])
+            told.append((int(row["shape_a"]), int(row["shape_b"])))
+    assert len(told) == len(set(told)) > 0
+
+
+@pytest.mark.parametrize("narrowphase", [True, False])
+def test_pair_that_falls_asleep_begins_once(narrowphase):
+    """A hero who stands still is awake and can wake nobody: what lies on him sleeps, and is told of no more."""
+    world = World(PILES.with_(narrowphase=narrowphase))
+    plank = world.add_body(Polygon.box(172.0, 2.0))
+    Character(world, Circle(7.0), (0.0, 0.0))
+    began = 0
+    for _ in range(60):
+        world.step()
+        began += len(world.events.begin)
+    assert not plank.awake and began == 1
+    assert len(world.contacts) == 0 and len(world.sleeping_contacts) == 1
