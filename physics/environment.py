@@ -93,6 +93,7 @@ class Environment(WorldState):
         self.bodies["active"] = not sleeping
         self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
         self.pairs.let_sleep(sleeping)
+        self._broadphase = self._broadphase.fresh()  # it is told of all there is, and of nothing that is gone
         self.sleepers.return_all(self)
 
     @property
