@@ -56,7 +56,7 @@ class PairList:
     def ids(self, shapes: np.ndarray) -> np.ndarray:
         """(n, 2) shape ids of the candidates, whose rows are those of the SHAPE rows given, unless named before."""
         if self.known_ids is None:
-            owners = self.name(shapes)
+            owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask stand in rows after those of later shapes
             keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each once, in the order of both
             self.known_ids = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
         return self.known_ids

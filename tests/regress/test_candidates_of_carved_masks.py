@@ -1,0 +1,17 @@
+"""A pair with a carved mask was a candidate twice: its new parts stand in rows after those of what was added later."""
+
+import numpy as np
+
+from physics import Circle, Effects, PixelMask, Polygon, World
+
+
+def test_pair_is_a_candidate_once_after_a_carve():
+    world = World(Effects(response=True, carving=True))
+    mask = world.add_body(PixelMask(np.ones((40, 40), bool)), kind="static")
+    box = world.add_body(Polygon.box(60.0, 60.0), kind="kinematic")
+    world.step()
+    pair = [[*mask.shape_ids, *box.shape_ids]]
+    assert world.candidates.tolist() == pair
+    mask.carve(Circle(8.0), (0.0, 0.0))
+    world.step()
+    assert world.candidates.tolist() == pair
