@@ -1,0 +1,190 @@
+"""What holds after every line of every program (hard_cases section 1): numbers, normals, handles, events, contacts.
+
+Reads the tables and asks the public functions; knows nothing of how a step is made.
+"""
+
+import numpy as np
+
+from physics import Capsule, Circle, Polygon, distance
+from tests.stability.invariants import BODY_NUMBERS, CONTACT_NUMBERS
+
+STATIC, DYNAMIC = 0, 2
+CONVEX = (Circle, Capsule, Polygon)
+BAND = 1e-9  # of where and how large things are: nearer to touching, either answer is right
+
+
+class Broken(AssertionError):
+    """An invariant does not hold; its name, and what was found."""
+
+    def __init__(self, name, found=""):
+        super().__init__(f"{name}: {found}")
+        self.name = name
+
+
+def hold(condition, name, found=""):
+    """Raises Broken unless a condition holds."""
+    if not condition:
+        raise Broken(name, found)
+
+
+class Watch:
+    """Looks at one world; remembers which pairs have begun to touch."""
+
+    def __init__(self, world):
+        self.world = world
+        self.touching, self.sensing = set(), set()
+        self.kept = None  # the two, when the snapshot was taken
+
+    def before(self):
+        """What a wrong call must not change."""
+        return self.world.digest()
+
+    def unchanged(self, before, error):
+        """Raises Broken when a call that raised has changed the world."""
+        hold(self.world.digest() == before, "a wrong call changes nothing", repr(error))
+        self.handles()
+
+    def after_edit(self, line, space):
+        """After anything but a step."""
+        if line.startswith("kept ="):
+            self.kept = set(self.touching), set(self.sensing)
+        if line == "world.restore(kept)":
+            self.touching, self.sensing = set(self.kept[0]), set(self.kept[1])
+        self.handles()
+
+    def after_step(self):
+        """After every step."""
+        self.numbers()
+        self.handles()
+        self.contacts()
+        self.touching = self.events(self.touching, "begin", "end", "persist")
+        self.sensing = self.events(self.sensing, "sensor_begin", "sensor_end", None)
+        self.contacts_begin()
+        if not self.world.effects.response and not self.world.effects.continuous and self.world.effects.narrowphase:
+            self.as_the_shapes_are()
+
+    def alike(self, twin):
+        """A world that was restored from a snapshot of this one has gone on as it has."""
+        hold(twin.digest() == self.world.digest(), "a restored world goes on alike")
+
+    # --- numbers ---------------------------------------------------------------------------------------------------
+
+    def numbers(self):
+        """U1, U2: finite, of unit length."""
+        world = self.world
+        events = world.events
+        told = (events.begin, events.end, events.persist, events.sensor_begin, events.sensor_end)
+        tables = [(world.bodies, BODY_NUMBERS), (world.contacts, CONTACT_NUMBERS)]
+        tables += [(rows, CONTACT_NUMBERS[:4]) for rows in told]
+        tables += [(events.hits, (*CONTACT_NUMBERS[:4], "speed", "normal_impulse"))]
+        tables += [(world.sleeping_contacts, CONTACT_NUMBERS)]
+        for rows, names in tables:
+            for name in names:
+                hold(np.isfinite(rows[name]).all(), "numbers are finite", name)
+        for rows in (world.contacts, events.begin, events.persist, events.hits, events.sensor_begin):
+            off = np.abs(rows["normal_x"] ** 2 + rows["normal_y"] ** 2 - 1.0)
+            hold((off <= 2e-12).all(), "normals are of unit length", off)
+        hold((world.contacts["normal_impulse"] >= 0.0).all(), "contacts push", world.contacts["normal_impulse"])
+
+    # --- handles ---------------------------------------------------------------------------------------------------
+
+    def handles(self):
+        """Tables, bodies and shapes say the same of who is there."""
+        world = self.world
+        ids, shapes = world.bodies["id"], world.shapes
+        hold((np.diff(ids) > 0).all(), "bodies stand in the order of ids", ids)
+        hold([body.id for body in world] == ids.tolist() and len(world) == len(ids), "a world lists its bodies")
+        rows = shapes["body_row"]
+        hold(((rows >= 0) & (rows < len(ids))).all(), "shapes have a body", rows)
+        hold((ids[rows] == shapes["body"]).all(), "shapes know their body's row")
+        for body in world:
+            own = body.shape_ids
+            hold(body in world and body.id in world and world.body(body.id) == body, "a body is in its world")
+            hold(len(own) == len(body.shapes), "a body has an id for each shape", (own, body.shapes))
+            hold(set(own) <= set(shapes["id"][shapes["body"] == body.id].tolist()), "shape ids are its own")
+            row = world.bodies[world.rows([body.id])[0]]
+            told, held = (*body.position, body.angle), tuple(row[["x", "y", "angle"]])
+            hold(np.array_equal(told, held, equal_nan=True), "a handle says what the row says", (told, held))
+            if row["kind"] == DYNAMIC and body.shapes:
+                hold(body.mass > 0.0, "what is dynamic has mass", (body.mass, body.inertia))
+            if row["kind"] == STATIC:
+                still = row["vx"] == row["vy"] == row["angular_velocity"] == 0.0
+                hold(still, "what is static does not move", row)
+
+    # --- contacts and events ---------------------------------------------------------------------------------------
+
+    def contacts(self):
+        """U10: of two shapes that are there, of two bodies, not both static, that may meet."""
+        world = self.world
+        pairs = world.candidates
+        once = len(np.unique(pairs, axis=0)) == len(pairs) and (pairs[:, 0] < pairs[:, 1]).all()
+        hold(once and np.isin(pairs, world.shapes["id"]).all(), "candidates are of what is there, each once", pairs)
+        for rows in (world.contacts, world.sleeping_contacts):
+            for row in rows:
+                a, b = int(row["shape_a"]), int(row["shape_b"])
+                hold(a < b, "A is the shape with the smaller id", (a, b))
+                one, two = self._shape(a), self._shape(b)
+                hold(one["body"] == row["body_a"] and two["body"] == row["body_b"], "a contact knows its bodies", row)
+                hold(one["body"] != two["body"], "no body meets itself", row)
+                kinds = world.bodies["kind"][[one["body_row"], two["body_row"]]]
+                hold((kinds != STATIC).any(), "two that are static do not meet", row)
+                meet = one["membership"] & two["mask"] and two["membership"] & one["mask"]
+                hold(bool(meet), "filters are kept", row)
+                hold(not one["sensor"] and not two["sensor"], "sensors have no contacts", row)
+
+    def _shape(self, identity):
+        found = self.world.shapes[self.world.shapes["id"] == identity]
+        hold(len(found) == 1, "told is only of shapes that are there", identity)
+        return found[0]
+
+    def events(self, before, begin, end, persist):
+        """An end for every begin: each pair begins when it did not touch, and goes on or ends when it did."""
+        told = {name: self._pairs(name) for name in (begin, end, persist) if name}
+        for name, pairs in told.items():
+            hold(len(set(pairs)) == len(pairs), f"{name} is told once of a pair", pairs)
+        hold(not before & set(told[begin]), f"{begin} is told of what did not touch", before & set(told[begin]))
+        now = before | set(told[begin])
+        hold(now >= set(told[end]), f"{end} is told of what touched", set(told[end]) - now)
+        now -= set(told[end])
+        here = set(self.world.shapes["id"].tolist())
+        gone = {pair for pair in now if not set(pair) <= here}
+        hold(not gone, f"{end} is told of what is gone", gone)
+        if persist:
+            hold(set(told[persist]) <= now - set(told[begin]), "persist is told of what goes on", told[persist])
+        return now
+
+    def _pairs(self, name):
+        rows = getattr(self.world.events, name)
+        return list(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
+
+    def contacts_begin(self):
+        """Who overlaps, or is pushed, has begun to touch."""
+        rows = self.world.contacts
+        rows = rows[(rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0)]
+        found = set(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
+        hold(found <= self.touching, "contacts have begun", found - self.touching)
+
+    def as_the_shapes_are(self):
+        """U10 in worlds that only look: contacts are of those shapes, and no others, whose distance is not above 0."""
+        world = self.world
+        rows = world.contacts[world.contacts["separation"] <= 0.0]
+        told = set(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
+        placed = []
+        for body in world:
+            row = world.bodies[world.rows([body.id])[0]]
+            for identity, shape in zip(body.shape_ids, body.shapes, strict=True):
+                if isinstance(shape, CONVEX) and not row["quarantined"]:
+                    placed.append((identity, shape, (row["x"].item(), row["y"].item(), row["angle"].item()), row))
+        placed.sort(key=lambda each: each[0])
+        for at, (a, shape_a, pose_a, row_a) in enumerate(placed):
+            for b, shape_b, pose_b, row_b in placed[at + 1 :]:
+                one, two = self._shape(a), self._shape(b)
+                meet = one["membership"] & two["mask"] and two["membership"] & one["mask"]
+                if row_a["id"] == row_b["id"] or not meet or row_a["kind"] == row_b["kind"] == STATIC:
+                    continue
+                if one["sensor"] or two["sensor"]:
+                    continue
+                gap = distance(shape_a, pose_a, shape_b, pose_b).distance
+                room = BAND * (abs(gap) + max(map(abs, (*pose_a, *pose_b))) + 100.0)
+                if abs(gap) > room:
+                    hold(((a, b) in told) == (gap <= 0.0), "contacts are of what overlaps", (a, b, gap))

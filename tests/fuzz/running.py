@@ -1,0 +1,175 @@
+"""Runs the lines of a program one by one, looks at the world after each, and says where and how it went wrong."""
+
+import linecache
+import random
+import re
+import traceback
+import warnings
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+import physics
+from tests.fuzz.invariants import Broken, Watch
+from tests.fuzz.writing import Writer
+
+PHYSICS = str(Path(physics.__file__).parent)
+LINES = 60  # of a program
+LOOP = re.compile(r"for _ in range\((\d+)\): (.*)")
+TWIN = "twin = "
+PROGRAM = "<program>"
+
+
+class Failure(NamedTuple):
+    """How a program fails: what kind of failure, in one line; where, and all that is known."""
+
+    kind: str
+    line: int
+    story: str
+
+
+def space_of():
+    """The namespace that programs are run in."""
+    return {"np": np, **{name: getattr(physics, name) for name in physics.__all__}}
+
+
+def is_documented(error):
+    """Whether an error was raised by physics with a raise, for something wrong that it was handed."""
+    if not isinstance(error, (ValueError, TypeError, RuntimeError, KeyError)):
+        return False
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    if not last.filename.startswith(PHYSICS):
+        return False
+    said = linecache.getline(last.filename, last.lineno).strip()
+    return said.startswith("raise ") or said == ")"
+
+
+class Runner:
+    """Runs lines in a namespace of its own. strategy: the broad phase to use instead of all that are named."""
+
+    def __init__(self, strategy=None):
+        self.space, self.watch, self.strategy = space_of(), None, strategy
+        self.lines, self.digests = [], []
+
+    def run(self, line):
+        """Run one line, with the looks that belong to it. Returns a Failure or None."""
+        self.lines.append(line)
+        if self.strategy is not None and line.startswith("world.broadphase ="):
+            line = "pass"
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", RuntimeWarning)
+                self._run(line)
+        except Broken as broken:
+            return self._failure(f"invariant: {broken.name}", broken)
+        except Exception as error:  # whatever it is, it is what is looked for
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            if last.filename == PROGRAM:
+                return None  # the line itself: what it needs was shrunk away
+            place = f"{Path(last.filename).name}:{last.name}"
+            return self._failure(f"{type(error).__name__} in {place}", error)
+        world = self.space.get("world")
+        self.digests.append(world.digest() if world is not None else "")
+        return None
+
+    def _failure(self, kind, error):
+        story = "".join(traceback.format_exception(error))
+        return Failure(kind, len(self.lines) - 1, story)
+
+    def _run(self, line):
+        loop = LOOP.fullmatch(line)
+        times, line = (int(loop[1]), loop[2]) if loop else (1, line)
+        code = compile(line, PROGRAM, "exec")
+        for _ in range(times):
+            before = self.watch.before() if self.watch else None
+            try:
+                exec(code, self.space)
+            except Exception as error:
+                if not is_documented(error):
+                    raise
+                if self.watch:
+                    self.watch.unchanged(before, error)
+                return
+            if self.watch is None:
+                if "world" not in self.space:
+                    return
+                self.watch = Watch(self.space["world"])
+                if self.strategy is not None:
+                    self.space["world"].broadphase = eval(self.strategy, self.space)
+            elif line.startswith("world.step("):
+                self.watch.after_step()
+                self._step_twin(line)
+            else:
+                self.watch.after_edit(line, self.space)
+                self._forget_twin(line)
+
+    def _step_twin(self, line):
+        """The twin that was restored from a snapshot goes on as the world does."""
+        if "twin" in self.space:
+            exec(line.replace("world", "twin"), self.space)
+            self.watch.alike(self.space["twin"])
+
+    def _forget_twin(self, line):
+        asks = ("world.ray", "world.shape_cast", "world.overlap", "world.query", "world.closest")
+        if line.startswith(TWIN):
+            self.space["twin"].restore(self.space["world"].snapshot())
+        elif not line.startswith(asks):
+            self.space.pop("twin", None)
+
+
+def run_lines(lines, strategy=None):
+    """(failure or None, the runner) of a program."""
+    runner = Runner(strategy)
+    for line in lines:
+        failure = runner.run(line)
+        if failure:
+            return failure, runner
+    return None, runner
+
+
+def failure_of(lines, strategy=None):
+    """How a program fails, None if it does not. strategy: the other broad phase that it has to end alike under."""
+    failure, runner = run_lines(lines)
+    if failure or strategy is None:
+        return failure
+    failure, other = run_lines(lines, strategy)
+    if failure:
+        return failure
+    for line, (one, two) in enumerate(zip(runner.digests, other.digests, strict=True)):
+        if one != two:
+            return Failure("broad phases differ", line, f"after line {line} the digest is another under {strategy}")
+    return None
+
+
+def write_program(seed, lines=LINES):
+    """(lines, failure or None, strategy) of a random program, run while it is written."""
+    rng = random.Random(seed)
+    writer, runner = Writer(rng), Runner()
+    failure = runner.run(writer.first())
+    while failure is None and len(runner.lines) < lines:
+        failure = runner.run(writer.next(runner.space))
+    strategy = rng.choice(("BruteForce()", "SweepAndPrune()", "SpatialHashGrid()", "DynamicTree()"))
+    if failure is None:
+        failure = failure_of(runner.lines, strategy)
+    else:
+        strategy = None
+    return runner.lines, failure, strategy
+
+
+def script_of(lines, strategy=None):
+    """A program as it can be pasted into a test."""
+    text, alike = ["import numpy as np", "from physics import *", ""], False
+    for line in lines:
+        text.append(line)
+        if line.startswith(TWIN):
+            alike = True
+            text.append("twin.restore(world.snapshot())")
+        elif alike and "world.step(" in line:
+            loop = LOOP.fullmatch(line)
+            step = loop[2] if loop else line
+            text[-1] = f"for _ in range({loop[1] if loop else 1}): {step}; {step.replace('world', 'twin')}"
+            text.append("assert world.digest() == twin.digest()")
+    if strategy is not None:
+        text.append(f"# the digest is another one with world.broadphase = {strategy} after the first line")
+    return "\n".join(text)

@@ -1,0 +1,93 @@
+"""Random programs over the whole API: nothing breaks, and what does is shown in a few lines."""
+
+import numpy as np
+import pytest
+
+from physics import JIT, World
+from tests.fuzz.running import failure_of, run_lines, script_of, write_program
+from tests.fuzz.shrinking import shrink
+
+PROGRAMS = 132 if JIT else 12  # a minute of steps; kernels of five sets of effects are compiled before
+PARTS = 12  # so that several processes share them
+
+
+@pytest.mark.parametrize("part", range(PARTS))
+def test_random_programs_keep_the_invariants(part):
+    """A failure shows the shortest program found: paste it into tests/regress, and mend what it shows."""
+    for seed in range(part, PROGRAMS, PARTS):
+        lines, failure, strategy = write_program(seed)
+        if failure is not None:
+            short = shrink(lines, failure, strategy, tries=400)
+            pytest.fail(f"seed {seed}: {failure.kind}\n\n{script_of(short, strategy)}\n\n{failure.story}")
+
+
+def test_programs_are_the_same_every_time():
+    assert write_program(5, lines=20) == write_program(5, lines=20)
+
+
+def test_wrong_calls_are_no_failure():
+    """What is documented to raise is tried, and must change nothing."""
+    failure, runner = run_lines(
+        [
+            "world = World()",
+            "b1 = world.add_body(Circle(-1.0))",
+            "b2 = world.add_body(Circle(4.0))",
+            "b2.velocity = 'fast'",
+            "b2.remove()",
+            "b2.velocity = (1.0, 2.0)",
+            "world.step(-1.0)",
+            "b3.velocity = (1.0, 2.0)",
+        ]
+    )
+    assert failure is None and "b1" not in runner.space and len(runner.space["world"]) == 0
+
+
+PROGRAM = [
+    "world = World(Effects(response=True, gravity=True), BruteForce(), gravity=(0.0, 100.0))",
+    "b1 = world.add_body(Circle(3.127, (1.5, 0.25)), position=(50.0, 3.333), material=Material(density=2.0))",
+    "b2 = world.add_body(Polygon.box(20.0, 10.0), position=(-80.0, 7.0), velocity=(1.25, 0.0), fixed_rotation=True)",
+    "world.step()",
+    "b1.velocity = (12.75, -3.5)",
+    "for _ in range(10): world.step()",
+    "world.ray_cast_all((0.0, 0.0), (100.0, 3.0))",
+    "b2.position = (-33.3, 4.0)",
+    "world.step()",
+]
+
+
+def test_broken_world_is_found_and_shown_in_three_lines(monkeypatch):
+    """A speed that is written wrong in the third step: what is left is a world, a body and its steps."""
+    step = World.step
+
+    def wrong(self, dt=None):
+        step(self, dt)
+        if len(self) and self.time > 2.5 / 60:
+            self.bodies["vx"][0] = np.nan
+
+    assert failure_of(PROGRAM) is None
+    monkeypatch.setattr(World, "step", wrong)
+    failure = failure_of(PROGRAM)
+    assert failure is not None and failure.kind == "invariant: numbers are finite"
+    short = shrink(PROGRAM, failure)
+    assert len(short) == 3 and short[2] == "for _ in range(3): world.step()"
+    assert short[1] == "b1 = world.add_body(Circle(3.0, (1.5, 0.0)))"
+    assert script_of(short).startswith("import numpy as np\nfrom physics import *\n\nworld = World(")
+
+
+def test_error_that_nobody_raised_is_a_failure(monkeypatch):
+    """A TypeError of NumPy's or Python's own is no answer to a wrong argument."""
+    monkeypatch.setattr(World, "ray_cast_all", lambda self, origin, way: len(origin) + way)
+    failure = failure_of(PROGRAM)
+    assert failure is not None and failure.kind.startswith("TypeError in test_fuzz.py")
+
+
+def test_wrong_call_that_changes_the_world_is_a_failure(monkeypatch):
+    step = World.step
+
+    def wrong(self, dt=None):
+        self.dt = 0.5
+        step(self, dt)
+
+    monkeypatch.setattr(World, "step", wrong)
+    failure = failure_of(["world = World()", "world.step(-1.0)"])
+    assert failure is not None and failure.kind == "invariant: a wrong call changes nothing"
