@@ -4,6 +4,7 @@ python -m tests.bench masks                                one bench: masks, bro
 python -m tests.bench                                      all three, one after the other
 python -m tests.bench --json docs/bench/0.1.0.json         the ratios as JSON, in a file (- or nothing: printed)
 python -m tests.bench --compare docs/bench/0.1.0.json      each ratio beside the kept one, more than 5 % pointed at
+python -m tests.bench stability                            what stands, how deep it overlaps: see stability.py
 """
 
 import argparse
@@ -37,6 +38,9 @@ def main(arguments=None):
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["stability"]:  # no ratios of times: rows, engines and a record of its own
+        return importlib.import_module("tests.bench.stability").main(arguments[1:])
     options = read_arguments(arguments)
     try:
         kept = read_record(options.compare) if options.compare else None

@@ -1,0 +1,194 @@
+"""The stability study: every row of tests/stability/study/rows.py on each engine that can be had here, in one run.
+
+python -m tests.bench stability                                  all rows, all engines
+python -m tests.bench stability --list                           the rows' names and limits
+python -m tests.bench stability --rows crooked_20,"offset_*"     some rows, as shell patterns
+python -m tests.bench stability --engines hb4,pymunk --quick     some engines; one seed instead of five
+python -m tests.bench stability --json FILE                      the figures as JSON, printed (-) or in a file
+
+A cell is the figure that the row's limit is about, "!" behind it where it is beyond; X and the second where something
+falls that ought to stand, and of how many seeds the others stood; "-" where it does not show. Hitbox is soft_step with
+4 and 8 substeps ("hb4", "hb8"), with the substeps that the world chooses ("auto"), and sequential_impulse; pymunk is
+made to take four steps of 1/240 s with 10 iterations. "quoted" is not measured here: figures of the study.
+"""
+
+import argparse
+import contextlib
+import json
+import math
+import sys
+from fnmatch import fnmatchcase
+from time import perf_counter
+
+from game import VERSION
+from tests.bench.record import machine
+from tests.stability.study.engines import engines
+from tests.stability.study.recording import record
+from tests.stability.study.rows import rows, worst
+
+NAME, LIMIT, CELL = 20, 12, 12  # [characters]
+
+
+class Played:
+    """Runs by engine and scene, each played once however many rows look at it."""
+
+    def __init__(self, made):
+        self.made, self.runs = made, {}
+
+    def run(self, engine, scene):
+        key = engine, scene
+        if key not in self.runs:
+            self.runs[key] = record(self.made[engine](scene), scene)
+        return self.runs[key]
+
+    def forget(self, scenes):
+        """Drop all but these scenes' runs: poses of long runs are large."""
+        self.runs = {key: run for key, run in self.runs.items() if key[1] in scenes}
+
+
+def measured(row, engine, played, seeds):
+    """{figure, stood, seeds, fell} of one row and engine; figure: None when it falls or does not show."""
+    found, fell = [], []
+    for scene in scenes_of(row, seeds):
+        run = played.run(engine, scene)
+        if row.stands and run.fell is not None:
+            fell.append(run.fell)
+        else:
+            found.append(float(row.measure(run)))
+    figure = worst(found) if found and not fell else math.nan
+    return {
+        "figure": figure,
+        "met": not fell and row.met(figure),
+        "fell": min(fell, default=None),
+        "stood": seeds_of(row, seeds) - len(fell),
+        "seeds": seeds_of(row, seeds),
+    }
+
+
+def seeds_of(row, most):
+    return min(row.seeds, most)
+
+
+def scenes_of(row, seeds):
+    return [row.scene(seed) for seed in range(seeds_of(row, seeds))]
+
+
+def shown(found):
+    """The cell of what was measured."""
+    if found["fell"] is not None:
+        return f"X{found['fell']:.1f}" + (f" {found['stood']}/{found['seeds']}" if found["seeds"] > 1 else "")
+    figure = found["figure"]
+    text = "-" if math.isnan(figure) else "never" if math.isinf(figure) else number(figure)
+    return text + ("" if found["met"] else "!")
+
+
+def number(value):
+    """Three digits, without an exponent down to a thousandth."""
+    size = abs(value)
+    if size >= 100.0:
+        return f"{value:.0f}"
+    if size >= 1e-3:
+        return f"{value:.3g}"
+    return "0" if size < 1e-9 else f"{value:.1e}"
+
+
+def limit_of(row):
+    if row.limit is None:
+        return "stands" if row.stands else row.unit
+    return f"{row.limit:g} {row.unit}".strip()
+
+
+def line(name, limit, cells, quoted):
+    return " | ".join([name.ljust(NAME), limit.ljust(LIMIT), *(cell.rjust(CELL) for cell in cells), quoted])
+
+
+def study(chosen, names, seeds):
+    """Play the rows, print each as it is done.
+
+    Returns {row: {limit, unit, source, engines: {name: what was found}}}.
+    """
+    made = engines()
+    played, table, started = Played(made), {}, perf_counter()
+    print(line("row", "limit", names, "quoted"), flush=True)
+    for place, row in enumerate(chosen):
+        cells = {}
+        for name in names:
+            sys.stderr.write(f"{perf_counter() - started:6.1f} s  {place + 1}/{len(chosen)} {row.name} {name}\n")
+            cells[name] = measured(row, name, played, seeds)
+        print(line(row.name, limit_of(row), [shown(found) for found in cells.values()], row.quoted), flush=True)
+        table[row.name] = {"limit": row.limit, "unit": row.unit, "source": row.source, "engines": cells}
+        following = chosen[place + 1 : place + 3]
+        played.forget({scene for each in following for scene in scenes_of(each, seeds)})
+    for name in names:
+        missed = [row.name for row in chosen if not table[row.name]["engines"][name]["met"]]
+        print(f"{name}: {len(chosen) - len(missed)} of {len(chosen)} rows within their limits")
+    print(f"{perf_counter() - started:.0f} s")
+    return table
+
+
+def finite(value):
+    """The value with what JSON has no word for as a text."""
+    if isinstance(value, dict):
+        return {key: finite(each) for key, each in value.items()}
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def to_text(table, quick):
+    """The study as JSON, with the machine that it ran on."""
+    return (
+        json.dumps(finite({"version": VERSION, "quick": quick, "machine": machine(), "rows": table}), indent=1) + "\n"
+    )
+
+
+def chosen_names(text, known, what):
+    """Those of the known names that any of the patterns, separated by commas, fits. Raises ValueError for one that fits
+    none."""
+    found = []
+    for pattern in filter(None, text.split(",")):
+        fitting = [name for name in known if fnmatchcase(name, pattern)]
+        if not fitting:
+            raise ValueError(f"no {what} is named {pattern}; there are {', '.join(known)}")
+        found += fitting
+    return [name for name in known if name in found]
+
+
+def read_arguments(arguments):
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.bench stability", description="What stands, how deep it overlaps."
+    )
+    parser.add_argument("--rows", default="*", metavar="NAME,…", help="only these; * stands for anything")
+    parser.add_argument("--engines", default="*", metavar="NAME,…", help="only these")
+    parser.add_argument("--quick", action="store_true", help="one seed instead of five")
+    parser.add_argument("--list", action="store_true", help="name the rows and their limits, play none")
+    parser.add_argument(
+        "--json", nargs="?", const="-", metavar="FILE", help="the figures as JSON, printed or in a file"
+    )
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    """Run the study. Returns 0 whatever it finds, 2 for a name that there is not or a file that cannot be written."""
+    options = read_arguments(arguments)
+    table = {row.name: row for row in rows()}
+    try:
+        chosen = [table[name] for name in chosen_names(options.rows, list(table), "row")]
+        names = chosen_names(options.engines, list(engines()), "engine here")
+    except ValueError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2
+    if options.list:
+        for row in chosen:
+            print(f"{row.name.ljust(NAME)}  {limit_of(row).ljust(LIMIT)}  {row.source}")
+        return 0
+    with contextlib.redirect_stdout(sys.stderr) if options.json == "-" else contextlib.nullcontext():
+        found = study(chosen, names, 1 if options.quick else max(row.seeds for row in chosen))
+    if options.json == "-":
+        sys.stdout.write(to_text(found, options.quick))
+    elif options.json:
+        try:
+            with open(options.json, "w", encoding="utf-8") as file:
+                file.write(to_text(found, options.quick))
+        except OSError as error:
+            sys.stderr.write(f"{error}\n")
+            return 2
+    return 0

@@ -1,0 +1,176 @@
+"""One figure read off a run. Lengths in mm, angles in degrees, shares in %; nan: the run does not show it."""
+
+import math
+
+import numpy as np
+
+from tests.stability.study.motions import BALL, DROP, PLATE_SPIN, ROOM, SEAM_FRICTION, SLOPE, SPIN, oblique_pairs
+from tests.stability.study.overlap import Overlaps
+from tests.stability.study.scene import GRAVITY, STEP
+
+MM = 1e3
+SETTLED = 30  # [steps] after which a box has settled on its plate
+SLIPPED, TIPPED = 0.002, 0.02  # [m], [rad] against the plate
+
+
+def depths(run, first=1, every=10):
+    """The deepest overlap [m] of every so many steps from one on."""
+    overlaps = Overlaps(run.scene)
+    return np.array([overlaps.deepest(run.poses[k]) for k in range(first, len(run.poses), every)])
+
+
+def overlap_at_end(run):
+    """[mm] The deepest of the last tenth."""
+    return MM * depths(run, first=len(run.poses) - max(1, len(run.poses) // 10)).max()
+
+
+def overlap_share(run, share):
+    """[mm] The deepest overlap of a step, below which it stays in so many % of them."""
+    return MM * np.percentile(depths(run, every=5), share)
+
+
+def sway(run):
+    """[mm] The farthest that a body was sideways of its start, at any time."""
+    return MM * np.nanmax(np.abs(run.moving[:, :, 0] - run.moving[0, :, 0]))
+
+
+def lean(run):
+    """[mm] The farthest that a body is sideways of its start at the end."""
+    return MM * np.nanmax(np.abs(run.moving[-1, :, 0] - run.moving[0, :, 0]))
+
+
+def fall_over_theory(run, theory):
+    """The time until a body has turned by 0.1 rad, over that of the rigid upper part [s]; inf: none has."""
+    return math.inf if run.fell is None else run.fell / theory
+
+
+def rise(run, index):
+    """[mm] How far above its start a body comes once the other is gone."""
+    gone = run.scene.removals[0][0]
+    return MM * -(run.poses[gone:, index, 1] - run.poses[0, index, 1]).min() if len(run.poses) > gone else math.nan
+
+
+def asleep_after(run):
+    """[s] From when on all sleep; inf: some are awake at the end."""
+    awake = run.awake[:, run.scene.dynamic].any(axis=1)
+    return math.inf if awake[-1] else (np.flatnonzero(awake)[-1] + 1) * STEP if awake.any() else 0.0
+
+
+def milliseconds(run):
+    """[ms] Median of a step in the later half."""
+    return 1e3 * float(np.median(run.times[len(run.times) // 2 :]))
+
+
+def _on_plate(run):
+    """Of the box on the plate, per step: where along it, and its turn against it."""
+    plate, box = run.poses[:, 0], run.poses[:, 1]
+    dx, dy = box[:, 0] - plate[:, 0], box[:, 1] - plate[:, 1]
+    return dx * np.cos(plate[:, 2]) + dy * np.sin(plate[:, 2]), box[:, 2] - plate[:, 2]
+
+
+def _angle_when(changed):
+    """Degrees of the plate less what theory says, atan(1/2) for both, at the first step at which something changed."""
+    when = np.flatnonzero(changed)
+    theory = math.degrees(math.atan(0.5))
+    return math.degrees(PLATE_SPIN) * when[0] * STEP - theory if len(when) else math.inf
+
+
+def slips_late(run):
+    """[degrees] By how much later than atan(friction) the box begins to slide."""
+    along, _ = _on_plate(run)
+    return _angle_when(np.abs(along - along[min(SETTLED, len(along) - 1)]) > SLIPPED)
+
+
+def tips_late(run):
+    """[degrees] By how much later than atan(width / height) the box begins to tip."""
+    _, turn = _on_plate(run)
+    return _angle_when(np.abs(turn - turn[min(SETTLED, len(turn) - 1)]) > TIPPED)
+
+
+def _down(run, first):
+    """Way and speed down the slope of body 1, of two columns from this one on."""
+    return run.poses[:, 1, first] * math.cos(SLOPE) + run.poses[:, 1, first + 1] * math.sin(SLOPE)
+
+
+def slide_error(run, share):
+    """[%] The acceleration down the slope against g (sin - friction cos), after two seconds."""
+    speed, start = _down(run, 3), 120
+    if len(speed) <= start + 1:
+        return math.nan
+    found = (speed[-1] - speed[start]) / ((len(speed) - 1 - start) * STEP)
+    return 100.0 * (found / (GRAVITY * math.sin(SLOPE) * (1.0 - share)) - 1.0)
+
+
+def creep(run):
+    """[mm] How far the box comes down the slope after the first second."""
+    way = _down(run, 0)
+    return MM * (way[-1] - way[min(60, len(way) - 1)])
+
+
+def apexes(heights):
+    """Heights of the tops of a flight: the vertex of the parabola through the three samples about each."""
+    found = []
+    for before, top, after in zip(heights, heights[1:], heights[2:], strict=False):
+        if top > before and top >= after:
+            bend = before - 2.0 * top + after
+            found.append(top - (after - before) ** 2 / (8.0 * bend))
+    return found
+
+
+def bounce_error(run, restitution, count=17):
+    """[%] Worst of the first so many apexes against theirs, drop e^(2 k); of those that theory puts within the run."""
+    found = apexes((-run.poses[:, 1, 1] - BALL).tolist())
+    fall, time, errors = math.sqrt(2.0 * DROP / GRAVITY), 0.0, []
+    for k in range(1, count + 1):
+        time += fall * (restitution ** (k - 1) + restitution**k)
+        if time < (len(run.poses) - 2) * STEP:
+            height = DROP * restitution ** (2 * k)
+            errors.append((found[k - 1] / height if k <= len(found) else 0.0) - 1.0)
+    return 100.0 * max(errors, key=abs) if errors else math.nan
+
+
+def oblique_errors(run):
+    """Difference of the struck-off disc's velocity to theory's over the speed, of each pair.
+
+    The normal at the touch is (sqrt(1 - b²), b) for an offset of b diameters; equal masses exchange what is along it.
+    """
+    errors = []
+    for k, (offset, speed, _) in enumerate(oblique_pairs()):
+        nx, ny = math.sqrt(1.0 - offset * offset), offset
+        vx, vy = speed - speed * nx * nx, -speed * nx * ny
+        errors.append(math.hypot(run.poses[-1, 2 * k, 3] - vx, run.poses[-1, 2 * k, 4] - vy) / speed)
+    return np.array(errors)
+
+
+def oblique_worst(run):
+    return oblique_errors(run).max()
+
+
+def oblique_mean(run):
+    return oblique_errors(run).mean()
+
+
+def stop_error(run):
+    """[%] The way of the last body until it rests against v² / (2 friction g)."""
+    found = run.poses[-1, -1, 0] - run.poses[0, -1, 0]
+    return 100.0 * (found * 2.0 * SEAM_FRICTION * GRAVITY / run.poses[0, -1, 3] ** 2 - 1.0)
+
+
+def hop(run):
+    """[mm] The highest that the last body comes above its start."""
+    return MM * max(0.0, -(run.poses[:, -1, 1] - run.poses[0, -1, 1]).min())
+
+
+def out_of_room(run):
+    """How many bodies are outside the tumbler at the end."""
+    (x, y, angle), others = run.poses[-1, 0, :3], run.moving[-1]
+    dx, dy = others[:, 0] - x, others[:, 1] - y
+    across = np.abs(dx * math.cos(angle) + dy * math.sin(angle))
+    along = np.abs(dy * math.cos(angle) - dx * math.sin(angle))
+    return float((np.maximum(across, along) > 0.5 * ROOM).sum())
+
+
+def spin_error(run):
+    """[%] The turn of a free body against spin times time."""
+    time = (len(run.poses) - 1) * STEP
+    return 100.0 * (run.poses[-1, 0, 2] / (SPIN * time) - 1.0)

@@ -1,0 +1,55 @@
+"""When a tower of unit boxes must fall, and how long its rigid upper part takes about its edge.
+
+For the part above each interface: it stands while its centre of mass lies over what carries it, the stretch that the
+two boxes of the interface share (the floor's is the lowest box's foot). Beyond, it turns about that stretch's end as a
+rigid body. No engine, no small angles.
+"""
+
+import math
+
+from tests.stability.study.scene import GRAVITY
+
+FINE = 1e-4  # [s] step of the integration
+
+
+def overhangs(places, size=1.0):
+    """(boxes of it, distance of its centre of mass beyond the edge [m], x of the edge) of each upper part, the whole
+    tower first; places: x of the boxes [m], the lowest first. A distance below 0: it stands."""
+    found = []
+    for k in range(len(places)):
+        below = places[max(0, k - 1)]
+        low, high = max(places[k], below) - 0.5 * size, min(places[k], below) + 0.5 * size
+        centre = sum(places[k:]) / (len(places) - k)
+        beyond = max(centre - high, low - centre)
+        found.append((len(places) - k, beyond, high if centre - high >= low - centre else low))
+    return found
+
+
+def stands(places):
+    """Whether every upper part has its centre of mass over what carries it."""
+    return all(beyond <= 0.0 for _, beyond, _ in overhangs(places))
+
+
+def pendulum(arm, height, inertia, turn, gravity=GRAVITY):
+    """Seconds that a rigid body takes from rest to turn about an edge; arm, height: of its centre of mass beyond and
+    above the edge [m]; inertia: about the edge, per mass [m2]. Inf when it does not turn that way."""
+    angle = speed = time = 0.0
+    if arm <= 0.0:
+        return math.inf
+    while angle < turn:  # leapfrog: the error of the angle is of the order of FINE squared
+        speed += 0.5 * FINE * gravity * (arm * math.cos(angle) + height * math.sin(angle)) / inertia
+        angle += FINE * speed
+        speed += 0.5 * FINE * gravity * (arm * math.cos(angle) + height * math.sin(angle)) / inertia
+        time += FINE
+    return time
+
+
+def fall_time(places, turn=0.1, size=1.0):
+    """Seconds until the first of the upper parts that cannot stand has turned so far [rad]; inf when all stand."""
+    least = math.inf
+    for count, beyond, edge in overhangs(places, size):
+        upper = places[len(places) - count :]
+        heights = [(k + 0.5) * size for k in range(count)]
+        about = sum(size * size / 6 + (x - edge) ** 2 + y * y for x, y in zip(upper, heights, strict=True)) / count
+        least = min(least, pendulum(beyond, 0.5 * count * size, about, turn))
+    return least
