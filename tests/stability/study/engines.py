@@ -27,7 +27,7 @@ class Hitbox:
             gravity=(0.0, scene.gravity),
             pixels_per_meter=1.0,
             dt=STEP,
-            substeps=substeps,  # pyright: ignore[reportArgumentType]
+            substeps=substeps,
         )
         self.bodies = [self._add(solid) for solid in scene.solids]
         self.ids = np.array([body.id for body in self.bodies])
@@ -126,7 +126,7 @@ class Pymunk:
 def takes_auto():
     """Whether a world chooses its substeps itself."""
     try:
-        World(substeps="auto")  # pyright: ignore[reportArgumentType]
+        World(substeps="auto")
     except (TypeError, ValueError):
         return False
     return True

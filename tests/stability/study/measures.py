@@ -13,10 +13,10 @@ SETTLED = 30  # [steps] after which a box has settled on its plate
 SLIPPED, TIPPED = 0.002, 0.02  # [m], [rad] against the plate
 
 
-def depths(run, first=1, every=10):
-    """The deepest overlap [m] of every so many steps from one on."""
+def depths(run, first=1, every=5):
+    """The deepest overlap [m] of every so many steps, from the last back to the first that is asked for."""
     overlaps = Overlaps(run.scene)
-    return np.array([overlaps.deepest(run.poses[k]) for k in range(first, len(run.poses), every)])
+    return np.array([overlaps.deepest(run.poses[k]) for k in range(len(run.poses) - 1, first - 1, -every)])
 
 
 def overlap_at_end(run):
@@ -26,7 +26,7 @@ def overlap_at_end(run):
 
 def overlap_share(run, share):
     """[mm] The deepest overlap of a step, below which it stays in so many % of them."""
-    return MM * np.percentile(depths(run, every=5), share)
+    return MM * np.percentile(depths(run), share)
 
 
 def sway(run):

@@ -12,7 +12,7 @@ SLOPE = math.radians(30.0)
 PLATE_FRICTION, PLATE_SPIN = 0.5, math.radians(5.0)  # [rad/s]
 BALL, DROP = 0.5, 2.0  # [m] radius; height of its lowest point
 SEAMS, SEAM_FRICTION = 40, 0.2
-SEAM_SPEED = math.sqrt(2 * SEAM_FRICTION * GRAVITY * SEAMS)  # [m/s] comes to rest after as many metres
+TILES = (1.0, 0.75, 0.5, 0.4, 0.25)  # [m] widths
 SLIDE_SPEED = 8.0  # [m/s]
 SPIN = 100.0  # [rad/s]
 ROOM, WALL = 10.0, 0.5  # [m] of the tumbler: between the middles of opposite walls; their thickness
@@ -58,10 +58,19 @@ def oblique():
     return Scene(tuple(solids), 1.5, gravity=0.0)
 
 
-def seams():
-    """A box slides over a floor of single boxes of 1 m, and ought to stop after forty of them. It is the last body."""
-    tiles = [Solid(UNIT, k - 2.0, 0.5, kind="static", friction=SEAM_FRICTION) for k in range(SEAMS + 6)]
-    return Scene((*tiles, Solid(UNIT, 0.0, -0.5, vx=SEAM_SPEED, friction=SEAM_FRICTION)), 7.0)
+def seams(seed):
+    """A box slides over a floor of single boxes and ought to stop after forty of them. It is the last body.
+
+    Each seed has boxes of another width, and starts elsewhere on one.
+    """
+    width, start = TILES[seed % len(TILES)], float(np.random.default_rng(seed).uniform())
+    speed = math.sqrt(2 * SEAM_FRICTION * GRAVITY * SEAMS * width)
+    tile, around = (box(width, 1.0),), math.ceil(1.0 / width) + 1
+    tiles = [
+        Solid(tile, (k + start) * width, 0.5, kind="static", friction=SEAM_FRICTION)
+        for k in range(-around, SEAMS + around)
+    ]
+    return Scene((*tiles, Solid(UNIT, 0.0, -0.5, vx=speed, friction=SEAM_FRICTION)), 7.0)
 
 
 def slide():

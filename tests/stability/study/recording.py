@@ -23,18 +23,26 @@ class Run:
         return self.poses[:, self.scene.dynamic]
 
 
-def fallen(scene, start, now):
-    """Whether any of the dynamic bodies has fallen; start, now: (bodies, 6)."""
-    for k in scene.dynamic:
-        shift, turn = abs(now[k, 0] - start[k, 0]), abs(now[k, 2] - start[k, 2])
-        if turn > scene.fall.turn or shift > max(scene.fall.share * scene.solids[k].least, scene.fall.shift):
-            return True
-    return False
+class Watch:
+    """Whether any of a scene's dynamic bodies has fallen since its start (bodies, 6)."""
+
+    def __init__(self, scene, start):
+        self.fall, self.rows, self.start = scene.fall, scene.dynamic, start[scene.dynamic]
+        if self.fall is not None:
+            least = np.array([scene.solids[k].least for k in self.rows])
+            self.shift = np.maximum(self.fall.share * least, self.fall.shift)
+
+    def sees_fall(self, now):
+        if self.fall is None:
+            return False
+        moved = np.abs(now[self.rows] - self.start)
+        return bool(((moved[:, 0] > self.shift) | (moved[:, 2] > self.fall.turn)).any())
 
 
 def record(engine, scene, steps=None):
     """Play a scene with an engine made for it, at most so many steps (None: all of it)."""
     poses, awake, times, fell = [engine.poses()], [engine.awake()], [], None
+    watch = Watch(scene, poses[0])
     for step in range(scene.steps if steps is None else min(steps, scene.steps)):
         for when, index in scene.removals:
             if when == step:
@@ -42,7 +50,7 @@ def record(engine, scene, steps=None):
         times.append(engine.step())
         poses.append(engine.poses())
         awake.append(engine.awake())
-        if scene.fall is not None and fallen(scene, poses[0], poses[-1]):
+        if watch.sees_fall(poses[-1]):
             fell = (step + 1) * STEP
             break
     return Run(scene, np.array(poses), np.array(awake), np.array(times), fell)

@@ -1,8 +1,9 @@
 """The table of the study: what is played, what is read off it, and the limit that Hitbox is held to.
 
 Two sources. ISSUE: the limits that the work on stability set itself. BEST: the design's rule that every row is at least
-the best peer's, where the issue names none. quoted: Box2D 3.2 (native C, 4 substeps), Rapier 0.21 and AVBD (10
-iterations) as the study of 2026-11-22 measured them on scenes of the same kind; a dash where it did not.
+the best peer's, where the issue names none: AVBD's quoted figure or what pymunk shows here. quoted: Box2D 3.2 (native
+C, 4 substeps), Rapier 0.21 and AVBD (10 iterations) as the study of 2026-11-22 measured them on scenes of the same
+kind; a dash where it did not.
 """
 
 import math
@@ -19,6 +20,8 @@ ISSUE, BEST = "issue", "best peer"
 INSIDE, OUTSIDE = 0.95, 1.05  # of the analytic limit
 LATE = 1.25  # times the rigid part's time
 SEEDS = 5
+SLIDING = 0.105  # [%] of the way to rest: what soft_step with 4 substeps showed when the study began
+EXACT = 1e-9  # [%] of the turn, that showed rounding alone
 
 
 @dataclass(frozen=True)
@@ -162,7 +165,7 @@ def _piles():
         "card_house",
         lambda _: structures.card_house(4),
         measures.lean,
-        2.0,
+        3.3,
         "mm",
         quoted="Box2D 60, Rapier 13, AVBD X1.6",
         source=BEST,
@@ -172,7 +175,7 @@ def _piles():
         "arch",
         lambda _: structures.arch(),
         measures.overlap_at_end,
-        0.7,
+        0.75,
         "mm",
         quoted="Box2D 12.4, Rapier 12.4",
         source=BEST,
@@ -200,9 +203,9 @@ def _friction():
     )
     yield Row("slope_holds", lambda _: motions.slope(1.01, 10.0), measures.creep, 0.01, "mm", quoted="AVBD 437")
     quoted = "Box2D -61, Rapier -80, AVBD 19"
-    yield Row("seams", lambda _: motions.seams(), measures.stop_error, 1.0, "%", quoted=quoted)
-    yield Row("seams_hop", lambda _: motions.seams(), measures.hop, 0.1, "mm")
-    yield Row("sliding", lambda _: motions.slide(), measures.stop_error, None, "%")
+    yield Row("seams", motions.seams, measures.stop_error, 1.0, "%", quoted=quoted, seeds=SEEDS)
+    yield Row("seams_hop", motions.seams, measures.hop, 0.1, "mm", seeds=SEEDS)
+    yield Row("sliding", lambda _: motions.slide(), measures.stop_error, SLIDING, "%")
 
 
 def _bounces():
@@ -227,7 +230,7 @@ def _bounces():
         quoted="Box2D .217, Rapier .217",
     )
     yield Row("oblique_mean", lambda _: motions.oblique(), measures.oblique_mean, 0.006, "v")
-    yield Row("free_spin", lambda _: motions.free_spin(), measures.spin_error, None, "%")
+    yield Row("free_spin", lambda _: motions.free_spin(), measures.spin_error, EXACT, "%")
 
 
 def _tumbler():

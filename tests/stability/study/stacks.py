@@ -1,7 +1,5 @@
 """Columns, towers, mass ratios and pyramids of boxes, 1 m each, on a floor at y = 0."""
 
-import math
-
 import numpy as np
 
 from tests.stability.study.scene import TURNS, Fall, Scene, Solid, box, floor
@@ -88,8 +86,3 @@ def dropped_on_pyramid(ratio):
     """A box of so many times the mass falls two metres, onto a pyramid of ten rows that lacks its top."""
     solids = pyramid_solids(10, spread=1.01)
     return Scene((floor(), *solids[:-1], Solid(BOX, 0.0, -11.5, density=float(ratio))), 10.0, fall=Fall())
-
-
-def reach(places):
-    """How far the uppermost box stands out over the lowest [m]."""
-    return math.fabs(places[-1] - places[0])
