@@ -47,7 +47,7 @@ class Played:
 
 
 def measured(row, engine, played, seeds):
-    """{figure, stood, seeds, fell} of one row and engine; figure: None when it falls or does not show."""
+    """{figure, met, fell, stood, seeds} of a row and an engine; figure: nan when one falls or it does not show."""
     found, fell = [], []
     for scene in scenes_of(row, seeds):
         run = played.run(engine, scene)

@@ -273,10 +273,10 @@ def test_slope_plate_floor_drum_and_spin_are_read_as_they_are_moved():
     drum = motions.tumbler()
     poses = np.repeat(poses_of(drum)[None], 2, axis=0)
     assert measures.out_of_room(run_of(drum, poses)) == 0.0
-    poses[1, 0, 2] = 0.25 * math.pi
-    poses[1, 1, :2], poses[1, 2, :2], poses[1, 3, :2] = (6.0, 0.0), (4.0, 4.0), (0.0, -7.2)
-    poses[1, 4:, :2] = 0.0
-    assert measures.out_of_room(run_of(drum, poses)) == 2.0, "turned, its corners are where 6 m along an axis are in it"
+    poses[1, 0, 2], poses[1, 1:, :2] = 0.5, 0.0
+    for body, (far, way) in enumerate([(6.9, 0.5 + 0.25 * math.pi), (6.9, 0.25 * math.pi - 0.5), (5.1, 0.5)]):
+        poses[1, 1 + body, :2] = far * math.cos(way), far * math.sin(way)
+    assert measures.out_of_room(run_of(drum, poses)) == 2.0, "only the first is in a corner as it is turned"
 
     rod = motions.free_spin()
     poses = np.zeros((61, 1, 6))
@@ -326,6 +326,41 @@ def test_scenes_start_without_overlap():
 
 
 # --- the program ------------------------------------------------------------------------------------------------------
+
+
+@needs_speed
+@pytest.mark.parametrize("name", engines())
+def test_what_is_taken_away_is_gone_in_every_engine(name):
+    scene = replace(stacks.heavy_taken_away(), removals=((2, 3),))
+    run = record(engines()[name](scene), scene, steps=4)
+    assert np.isnan(run.poses[3:, 3]).all() and np.isfinite(run.poses[:3]).all() and np.isfinite(run.poses[:, :3]).all()
+    assert not run.awake[3:, 3].any() and run.awake[:, 1:3].all()
+
+
+def played_as(script):
+    """What the program plays when an engine does as the script says."""
+    return stability.Played({"scripted": lambda scene: Scripted(scene, script)})
+
+
+def test_what_falls_misses_where_it_ought_to_stand_and_is_measured_where_it_ought_to_fall():
+    table, turned = {row.name: row for row in rows()}, {30: {(2, 2): 0.4}}
+    found = stability.measured(table["offset_5_in"], "scripted", played_as(turned), seeds=1)
+    assert not found["met"] and found["fell"] == pytest.approx(0.5) and stability.shown(found) == "X0.5"
+    found = stability.measured(table["offset_5_out"], "scripted", played_as(turned), seeds=1)
+    assert found["met"] and 0.2 < found["figure"] < 0.5 and "X" not in stability.shown(found)
+    found = stability.measured(table["offset_5_out"], "scripted", played_as({}), seeds=1)
+    assert not found["met"] and stability.shown(found) == "never!"
+
+
+def test_seeds_are_played_and_the_worst_is_told():
+    sway = {row.name: row for row in rows()}["crooked_15_sway"]
+    played = played_as({60: {(2, 0): -0.031}})
+    found = stability.measured(sway, "scripted", played, seeds=5)
+    assert len(played.runs) == 5 == found["seeds"] and stability.shown(found) == "31!"
+    assert stability.measured(sway, "scripted", played, seeds=2)["seeds"] == 2
+    assert len(played.runs) == 5, "a scene is played once"
+    played.forget({sway.scene(3)})
+    assert len(played.runs) == 1
 
 
 @needs_speed
