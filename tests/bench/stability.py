@@ -17,69 +17,26 @@ import contextlib
 import json
 import math
 import sys
+from dataclasses import asdict
 from fnmatch import fnmatchcase
 from time import perf_counter
 
 from game import VERSION
 from tests.bench.record import machine
 from tests.stability.study.engines import engines
-from tests.stability.study.recording import record
-from tests.stability.study.rows import rows, worst
+from tests.stability.study.rows import table
+from tests.stability.study.verdict import Played, Verdict, judge, scenes_of
 
 NAME, LIMIT, CELL = 20, 12, 12  # [characters]
 
 
-class Played:
-    """Runs by engine and scene, each played once however many rows look at it."""
-
-    def __init__(self, made):
-        self.made, self.runs = made, {}
-
-    def run(self, engine, scene):
-        key = engine, scene
-        if key not in self.runs:
-            self.runs[key] = record(self.made[engine](scene), scene)
-        return self.runs[key]
-
-    def forget(self, scenes):
-        """Drop all but these scenes' runs: poses of long runs are large."""
-        self.runs = {key: run for key, run in self.runs.items() if key[1] in scenes}
-
-
-def measured(row, engine, played, seeds):
-    """{figure, met, fell, stood, seeds} of a row and an engine; figure: nan when one falls or it does not show."""
-    found, fell = [], []
-    for scene in scenes_of(row, seeds):
-        run = played.run(engine, scene)
-        if row.stands and run.fell is not None:
-            fell.append(run.fell)
-        else:
-            found.append(float(row.measure(run)))
-    figure = worst(found) if found and not fell else math.nan
-    return {
-        "figure": figure,
-        "met": not fell and row.met(figure),
-        "fell": min(fell, default=None),
-        "stood": seeds_of(row, seeds) - len(fell),
-        "seeds": seeds_of(row, seeds),
-    }
-
-
-def seeds_of(row, most):
-    return min(row.seeds, most)
-
-
-def scenes_of(row, seeds):
-    return [row.scene(seed) for seed in range(seeds_of(row, seeds))]
-
-
-def shown(found):
-    """The cell of what was measured."""
-    if found["fell"] is not None:
-        return f"X{found['fell']:.1f}" + (f" {found['stood']}/{found['seeds']}" if found["seeds"] > 1 else "")
-    figure = found["figure"]
+def shown(verdict):
+    """Its cell."""
+    if verdict.fell is not None:
+        return f"X{verdict.fell:.1f}" + (f" {verdict.stood}/{verdict.seeds}" if verdict.seeds > 1 else "")
+    figure = verdict.figure
     text = "-" if math.isnan(figure) else "never" if math.isinf(figure) else number(figure)
-    return text + ("" if found["met"] else "!")
+    return text + ("" if verdict.met else "!")
 
 
 def number(value):
@@ -103,41 +60,43 @@ def line(name, limit, cells, quoted):
 
 
 def study(chosen, names, seeds):
-    """Play the rows, print each as it is done.
+    """Play the rows, print each as it is done: of their first so many seeds, None: of all.
 
-    Returns {row: {limit, unit, source, engines: {name: what was found}}}.
+    Returns {row: {limit, unit, source, engines: {name: its verdict}}}.
     """
-    made = engines()
-    played, table, started = Played(made), {}, perf_counter()
+    made, found, started = engines(), {}, perf_counter()
+    played = {name: Played(made[name]) for name in names}
     print(line("row", "limit", names, "quoted"), flush=True)
     for place, row in enumerate(chosen):
-        cells = {}
+        verdicts = {}
         for name in names:
             sys.stderr.write(f"{perf_counter() - started:6.1f} s  {place + 1}/{len(chosen)} {row.name} {name}\n")
-            cells[name] = measured(row, name, played, seeds)
-        print(line(row.name, limit_of(row), [shown(found) for found in cells.values()], row.quoted), flush=True)
-        table[row.name] = {"limit": row.limit, "unit": row.unit, "source": row.source, "engines": cells}
-        following = chosen[place + 1 : place + 3]
-        played.forget({scene for each in following for scene in scenes_of(each, seeds)})
+            verdicts[name] = judge(row, played[name], seeds)
+        print(line(row.name, limit_of(row), [shown(each) for each in verdicts.values()], row.quoted), flush=True)
+        found[row.name] = {"limit": row.limit, "unit": row.unit, "source": row.source, "engines": verdicts}
+        following = {scene for each in chosen[place + 1 : place + 3] for scene in scenes_of(each, seeds)}
+        for each in played.values():
+            each.forget(following)
     for name in names:
-        missed = [row.name for row in chosen if not table[row.name]["engines"][name]["met"]]
-        print(f"{name}: {len(chosen) - len(missed)} of {len(chosen)} rows within their limits")
+        met = sum(each["engines"][name].met for each in found.values())
+        print(f"{name}: {met} of {len(chosen)} rows within their limits")
     print(f"{perf_counter() - started:.0f} s")
-    return table
+    return found
 
 
 def finite(value):
-    """The value with what JSON has no word for as a text."""
+    """The value with verdicts as dicts, and what JSON has no word for as a text."""
+    if isinstance(value, Verdict):
+        value = asdict(value)
     if isinstance(value, dict):
         return {key: finite(each) for key, each in value.items()}
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def to_text(table, quick):
+def to_text(found, quick):
     """The study as JSON, with the machine that it ran on."""
-    return (
-        json.dumps(finite({"version": VERSION, "quick": quick, "machine": machine(), "rows": table}), indent=1) + "\n"
-    )
+    record = {"version": VERSION, "quick": quick, "machine": machine(), "rows": finite(found)}
+    return json.dumps(record, indent=1) + "\n"
 
 
 def chosen_names(text, known, what):
@@ -169,9 +128,9 @@ def read_arguments(arguments):
 def main(arguments=None):
     """Run the study. Returns 0 whatever it finds, 2 for a name that there is not or a file that cannot be written."""
     options = read_arguments(arguments)
-    table = {row.name: row for row in rows()}
+    known = table()
     try:
-        chosen = [table[name] for name in chosen_names(options.rows, list(table), "row")]
+        chosen = [known[name] for name in chosen_names(options.rows, list(known), "row")]
         names = chosen_names(options.engines, list(engines()), "engine here")
     except ValueError as error:
         sys.stderr.write(f"{error}\n")
@@ -181,7 +140,7 @@ def main(arguments=None):
             print(f"{row.name.ljust(NAME)}  {limit_of(row).ljust(LIMIT)}  {row.source}")
         return 0
     with contextlib.redirect_stdout(sys.stderr) if options.json == "-" else contextlib.nullcontext():
-        found = study(chosen, names, 1 if options.quick else max(row.seeds for row in chosen))
+        found = study(chosen, names, 1 if options.quick else None)
     if options.json == "-":
         sys.stdout.write(to_text(found, options.quick))
     elif options.json:

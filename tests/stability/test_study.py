@@ -16,9 +16,10 @@ from tests.stability.study import measures, motions, stacks
 from tests.stability.study.engines import Hitbox, engines
 from tests.stability.study.overlap import Overlaps
 from tests.stability.study.recording import Run, record
-from tests.stability.study.rows import rows, worst
+from tests.stability.study.rows import table
 from tests.stability.study.scene import STEP, Fall, Scene, Solid, box, disc, polygon
 from tests.stability.study.toppling import fall_time, overhangs, pendulum, stands
+from tests.stability.study.verdict import Played, Verdict, judge, worst
 
 PARTS = {
     "box": box(1.0, 0.6),
@@ -288,16 +289,16 @@ def test_slope_plate_floor_drum_and_spin_are_read_as_they_are_moved():
 
 
 def test_worst_is_the_farthest_from_nothing_and_unknown_when_one_is():
+    assert math.isnan(worst([]))
     assert worst([1.0, -3.0, 2.0]) == -3.0 and math.isnan(worst([1.0, math.nan])) and worst([math.inf, 1.0]) == math.inf
 
 
-def test_rows_have_names_of_their_own_and_limits_that_are_two_sided_unless_said():
-    table = {row.name: row for row in rows()}
-    assert len(table) == len(rows()) >= 50
-    assert table["slope_slides"].met(-0.4) and not table["slope_slides"].met(-0.6)
-    assert table["heavy_taken_away"].met(-40.0) and not table["heavy_taken_away"].met(1.1)
-    assert not table["seams"].met(math.nan) and not table["pyramid_20_asleep"].met(math.inf)
-    for row in table.values():
+def test_limits_are_two_sided_unless_said():
+    assert table()["slope_slides"].met(-0.4) and not table()["slope_slides"].met(-0.6)
+    assert table()["heavy_taken_away"].met(-40.0) and not table()["heavy_taken_away"].met(1.1)
+    assert not table()["seams"].met(math.nan) and not table()["pyramid_20_asleep"].met(math.inf)
+    assert len(table()) == 50
+    for row in table().values():
         assert row.limit is not None or row.stands or row.unit == "ms", f"{row.name} asks nothing"
         assert row.scene(0) == row.scene(0), "the same scene each time, so that rows can share a run"
 
@@ -307,7 +308,7 @@ def test_rows_have_names_of_their_own_and_limits_that_are_two_sided_unless_said(
 def test_every_row_can_be_played(name):
     """Three steps of each; what ought to stand is where it was put."""
     make = engines()[name]
-    for row in rows():
+    for row in table().values():
         scene = row.scene(0)
         run = record(make(scene), scene, steps=3)
         assert len(run.poses) == 4 and run.fell is None and np.isfinite(run.poses).all()
@@ -321,7 +322,7 @@ def test_every_row_can_be_played(name):
 
 
 def test_scenes_start_without_overlap():
-    for row in rows():
+    for row in table().values():
         assert overlap(row.scene(0)) < 1e-9, row.name
 
 
@@ -338,28 +339,26 @@ def test_what_is_taken_away_is_gone_in_every_engine(name):
 
 
 def played_as(script):
-    """What the program plays when an engine does as the script says."""
-    return stability.Played({"scripted": lambda scene: Scripted(scene, script)})
+    """What an engine plays that does as the script says."""
+    return Played(lambda scene: Scripted(scene, script))
 
 
 def test_what_falls_misses_where_it_ought_to_stand_and_is_measured_where_it_ought_to_fall():
-    table, turned = {row.name: row for row in rows()}, {30: {(2, 2): 0.4}}
-    found = stability.measured(table["offset_5_in"], "scripted", played_as(turned), seeds=1)
-    assert not found["met"] and found["fell"] == pytest.approx(0.5) and stability.shown(found) == "X0.5"
-    found = stability.measured(table["offset_5_out"], "scripted", played_as(turned), seeds=1)
-    assert found["met"] and 0.2 < found["figure"] < 0.5 and "X" not in stability.shown(found)
-    found = stability.measured(table["offset_5_out"], "scripted", played_as({}), seeds=1)
-    assert not found["met"] and stability.shown(found) == "never!"
+    turned = {30: {(2, 2): 0.4}}
+    found = judge(table()["offset_5_in"], played_as(turned))
+    assert not found.met and found.fell == pytest.approx(0.5) and stability.shown(found) == "X0.5"
+    found = judge(table()["offset_5_out"], played_as(turned))
+    assert found.met and 0.2 < found.figure < 0.5 and "X" not in stability.shown(found)
+    found = judge(table()["offset_5_out"], played_as({}))
+    assert not found.met and stability.shown(found) == "never!"
 
 
 def test_seeds_are_played_and_the_worst_is_told():
-    sway = {row.name: row for row in rows()}["crooked_15_sway"]
-    played = played_as({60: {(2, 0): -0.031}})
-    found = stability.measured(sway, "scripted", played, seeds=5)
-    assert len(played.runs) == 5 == found["seeds"] and stability.shown(found) == "31!"
-    assert stability.measured(sway, "scripted", played, seeds=2)["seeds"] == 2
-    assert len(played.runs) == 5, "a scene is played once"
-    played.forget({sway.scene(3)})
+    row, played = table()["crooked_15_sway"], played_as({60: {(2, 0): -0.031}})
+    found = judge(row, played)
+    assert len(played.runs) == 5 == found.seeds and stability.shown(found) == "31!"
+    assert judge(row, played, seeds=2).seeds == 2 and len(played.runs) == 5, "a scene is played once"
+    played.forget({row.scene(3)})
     assert len(played.runs) == 1
 
 
@@ -398,6 +397,6 @@ def test_program_lists_rows_and_refuses_names_that_there_are_not(capsys):
     ],
 )
 def test_cells(figure, met, fell, cell):
-    found = {"figure": figure, "met": met, "fell": fell, "stood": 4, "seeds": 5}
+    found = Verdict(figure, met, fell, stood=4, seeds=5)
     assert stability.shown(found) == cell
     assert json.loads(stability.to_text({"row": found}, quick=True))["rows"]["row"]["stood"] == 4

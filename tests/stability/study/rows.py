@@ -9,7 +9,7 @@ kind; a dash where it did not.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 from tests.stability.study import measures, motions, stacks, structures
 from tests.stability.study.recording import Run
@@ -242,14 +242,8 @@ def _tumbler():
         yield Row(name, lambda _: motions.tumbler(), measure, limit, unit, quoted=quoted)
 
 
-def rows():
-    """Every row, in the order of the study."""
-    return [
-        *_crooked(), *_towers(), *_ratios(), *_piles(), *_friction(), *_bounces(), *_tumbler(),
-    ]  # fmt: skip
-
-
-def worst(values):
-    """The one whose size is greatest; nan when any is."""
-    values = list(values)
-    return math.nan if any(math.isnan(each) for each in values) else max(values, key=abs)
+@cache
+def table():
+    """{name: row}, in the order of the study."""
+    groups = (_crooked, _towers, _ratios, _piles, _friction, _bounces, _tumbler)
+    return {row.name: row for group in groups for row in group()}

@@ -1,0 +1,59 @@
+"""What an engine makes of a row: its scenes played, the worst of their figures, and whether that is within the limit.
+
+A test that holds an engine to a row of the table reads
+
+    assert judge(table()["crooked_20"], Played(partial(Hitbox, substeps=8))).met
+"""
+
+import math
+from dataclasses import dataclass
+
+from tests.stability.study.recording import record
+
+
+class Played:
+    """Runs of one engine by scene, each played once however many rows look at it. make: scene -> engine."""
+
+    def __init__(self, make):
+        self.make, self.runs = make, {}
+
+    def run(self, scene):
+        if scene not in self.runs:
+            self.runs[scene] = record(self.make(scene), scene)
+        return self.runs[scene]
+
+    def forget(self, scenes):
+        """Drop all but these scenes' runs: poses of long runs are large."""
+        self.runs = {scene: run for scene, run in self.runs.items() if scene in scenes}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A row's worst figure, and what became of its seeds."""
+
+    figure: float  # nan: something falls that ought to stand, or the run does not show it
+    met: bool
+    fell: float | None  # [s] the first fall of one that ought to stand
+    stood: int
+    seeds: int
+
+
+def worst(values):
+    """The one whose size is greatest; nan when any is, or when there are none."""
+    values = list(values)
+    if not values or any(math.isnan(each) for each in values):
+        return math.nan
+    return max(values, key=abs)
+
+
+def scenes_of(row, seeds=None):
+    """The scenes of a row's first so many seeds; None: all."""
+    return [row.scene(seed) for seed in range(row.seeds if seeds is None else min(row.seeds, seeds))]
+
+
+def judge(row, played, seeds=None):
+    """The verdict on a row, of its first so many seeds (None: all)."""
+    runs = [played.run(scene) for scene in scenes_of(row, seeds)]
+    fell = [run.fell for run in runs if row.stands and run.fell is not None]
+    figure = math.nan if fell else worst(float(row.measure(run)) for run in runs)
+    return Verdict(figure, not fell and row.met(figure), min(fell, default=None), len(runs) - len(fell), len(runs))
