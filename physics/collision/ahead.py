@@ -8,6 +8,7 @@ search is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1
 
 import math
 
+from physics.collision.approach import nearing
 from physics.collision.clipping import ALL_EDGES, best_edge, edge_normal
 from physics.collision.hulls import collide_hull_circle
 from physics.jit import subkernel
@@ -19,25 +20,6 @@ NEVER = -1.0
 
 
 @subkernel
-def velocity_at(body, x, y):
-    """Velocity [px/s] of a point of a BODY row."""
-    return (
-        body.vx - body.angular_velocity * (y - body.center_y),
-        body.vy + body.angular_velocity * (x - body.center_x),
-    )
-
-
-@subkernel
-def nearing(a, b):
-    """Velocity [px/s] of B seen from A, BODY rows, at the centre of the smaller."""
-    x = a.center_x if a.extent < b.extent else b.center_x
-    y = a.center_y if a.extent < b.extent else b.center_y
-    ax, ay = velocity_at(a, x, y)
-    bx, by = velocity_at(b, x, y)
-    return bx - ax, by - ay
-
-
-@subkernel
 def is_swept(body, way):
     """Whether a body, BODY row, moves by more than half its size on a way [px]: that is left to the sweeps, or passes
     where there are none."""
@@ -45,32 +27,21 @@ def is_swept(body, way):
 
 
 @subkernel
-def reach_of(a, b, margin, ahead):
-    """How far apart [px] two bodies, BODY rows, may be and still be told to meet: the margin, or as far as they near
-    each other in `ahead` [s], or would if one of them were stopped."""
-    if ahead == 0.0:
-        return margin
-    vx, vy = nearing(a, b)
-    way = ahead * max(length_of(vx, vy), length_of(a.vx, a.vy), length_of(b.vx, b.vy))
+def reach_of(a, b, speed, margin, ahead):
+    """How far apart [px] two bodies, BODY rows, that near each other at a speed [px/s] may be and still be told to
+    meet: the margin, or as far as that takes them in `ahead` [s], or would if one of them were stopped."""
+    way = ahead * max(speed, length_of(a.vx, a.vy), length_of(b.vx, b.vy))
     return margin if is_swept(a, way) or is_swept(b, way) else max(margin, way)
 
 
 @subkernel
-def reach_turning(a, b, margin, ahead):
+def reach_turning(a, b, speed, margin, ahead):
     """The same, as far as their corners get by turning: half the size of the smaller at most."""
-    vx, vy = nearing(a, b)
-    way = ahead * length_of(vx, vy)
-    if ahead == 0.0 or is_swept(a, way) or is_swept(b, way):
+    way = ahead * speed
+    if is_swept(a, way) or is_swept(b, way):
         return margin
     turn = ahead * (abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent)
     return max(margin, min(turn, 0.5 * min(a.extent, b.extent)))
-
-
-@subkernel
-def nears_fast(a, b, margin, ahead):
-    """Whether two bodies near each other, or pass, by more than the margin [px] in `ahead` [s]."""
-    vx, vy = nearing(a, b)
-    return ahead * length_of(vx, vy) > margin
 
 
 @subkernel
@@ -141,11 +112,11 @@ def bring_together(batch, p, q, a, a_count, b_count, radii, b_inout):
     """
     if batch.ahead == 0.0:
         return 0.0, 0.0, 0.0, batch.margin
-    far = reach_of(p, q, batch.margin, batch.ahead)
-    reach = max(far, reach_turning(p, q, batch.margin, batch.ahead))
-    if far <= batch.margin or not nears_fast(p, q, batch.margin, batch.ahead):
+    vx, vy, speed = nearing(p, q)
+    far = reach_of(p, q, speed, batch.margin, batch.ahead)
+    reach = max(far, reach_turning(p, q, speed, batch.margin, batch.ahead))
+    if far <= batch.margin or batch.ahead * speed <= batch.margin:
         return 0.0, 0.0, 0.0, reach
-    vx, vy = nearing(p, q)
     return time_of_hulls(a, a_count, b_count, radii, vx, vy, batch.margin, batch.ahead, b_inout), vx, vy, reach
 
 
@@ -170,16 +141,23 @@ def time_of_disc(corners, count, rounding, x, y, radius, vx, vy, target, most):
 
 
 @subkernel
+def way_back(time, vx, vy, nx, ny):
+    """What B, found where it had moved for a time [s] at vx, vy [px/s], has to go along the normal until then, and
+    slides along the tangent (-ny, nx) [px]."""
+    return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
+
+
+@subkernel
 def set_back(time, vx, vy, points_inout):
     """Tell a manifold in flight, found where B had moved for a time [s] at vx, vy [px/s], for where B is. Returns how
-    far [px] B slides along the face until then: its way along the tangent (-ny, nx)."""
+    far [px] B slides along the face until then."""
     nx = points_inout[1]
     ny = points_inout[2]
-    way = -time * (vx * nx + vy * ny)
+    way, lead = way_back(time, vx, vy, nx, ny)
     for k in range(int(points_inout[0])):
         at = 3 + 4 * k
         # Midway between the two surfaces, as they are now.
         points_inout[at] += 0.5 * way * nx
         points_inout[at + 1] += 0.5 * way * ny
         points_inout[at + 2] += way
-    return time * (vy * nx - vx * ny)
+    return lead

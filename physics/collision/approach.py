@@ -1,6 +1,33 @@
 """How fast two bodies close in on each other at a contact: what hits report and bounces are made of."""
 
 from physics.jit import kernel, subkernel
+from physics.math2d import length_of
+
+
+@subkernel
+def velocity_at(body, x, y):
+    """Velocity [px/s] of a point of a BODY row."""
+    return (
+        body.vx - body.angular_velocity * (y - body.center_y),
+        body.vy + body.angular_velocity * (x - body.center_x),
+    )
+
+
+@subkernel
+def closing(p, q, ax, ay, bx, by):
+    """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
+    px, py = velocity_at(p, ax, ay)
+    qx, qy = velocity_at(q, bx, by)
+    return qx - px, qy - py
+
+
+@subkernel
+def nearing(a, b):
+    """Velocity [px/s] of B seen from A, BODY rows, at the centre of the smaller, and how fast that is."""
+    x = a.center_x if a.extent < b.extent else b.center_x
+    y = a.center_y if a.extent < b.extent else b.center_y
+    vx, vy = closing(a, b, x, y, x, y)
+    return vx, vy, length_of(vx, vy)
 
 
 @subkernel

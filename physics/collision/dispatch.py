@@ -3,6 +3,7 @@
 import numpy as np
 
 from physics.collision.ahead import reach_of
+from physics.collision.approach import nearing
 from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, collide_boxes, may_change
 from physics.collision.chain_pairs import collide_chain_pairs
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
@@ -72,6 +73,17 @@ def as_snapped(kind, a, b):
     return kind
 
 
+@subkernel
+def boxes_apart(a, b, margin):
+    """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
+    return (
+        a.min_x - margin > b.max_x
+        or b.min_x - margin > a.max_x
+        or a.min_y - margin > b.max_y
+        or b.min_y - margin > a.max_y
+    )
+
+
 @kernel
 def classify(
     # read
@@ -90,8 +102,7 @@ def classify(
     """Write the kind of every candidate pair, and how many there are of each. O(candidates).
 
     which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
-    within `ahead` [s], or only
-    the SENSORS. The others are NOTHING.
+    within `ahead` [s], or only the SENSORS. The others are NOTHING.
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
@@ -104,15 +115,13 @@ def classify(
         if which == ALL or sensor == (which == SENSORS):
             kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
         if kind != NOTHING and which != ALL:
-            reach = margin
-            if ahead > 0.0 and kind <= POLYGONS:
-                reach = reach_of(bodies[a.body_row], bodies[b.body_row], margin, ahead)
-            if (
-                a.min_x - reach > b.max_x
-                or b.min_x - reach > a.max_x
-                or a.min_y - reach > b.max_y
-                or b.min_y - reach > a.max_y
-            ):
+            apart = boxes_apart(a, b, margin)
+            if apart and ahead > 0.0 and kind <= POLYGONS:
+                p = bodies[a.body_row]
+                q = bodies[b.body_row]
+                _, _, speed = nearing(p, q)
+                apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
+            if apart:
                 kind = NOTHING
             elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
                 kind = NOTHING

@@ -7,14 +7,14 @@ import math
 
 from physics.collision.ahead import (
     bring_together,
-    nears_fast,
     reach_of,
     set_back,
     time_of_disc,
     time_of_discs,
     time_of_nearest,
-    velocity_at,
+    way_back,
 )
+from physics.collision.approach import closing, nearing
 from physics.collision.circles import COVERED, collide_circles
 from physics.collision.clipping import ALL_EDGES, LEFT
 from physics.collision.features import CIRCLE_CORNER, CORNERS
@@ -34,14 +34,6 @@ from physics.jit import kernel, subkernel
 from physics.shapes.placement import polygon_at, rounding
 from physics.tables.body import DYNAMIC
 from physics.tables.shape import BOUNDS, CIRCLE
-
-
-@subkernel
-def closing(p, q, ax, ay, bx, by):
-    """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
-    px, py = velocity_at(p, ax, ay)
-    qx, qy = velocity_at(q, bx, by)
-    return qx - px, qy - py
 
 
 @subkernel
@@ -73,10 +65,14 @@ def collide_circle_pairs(
         ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
         bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
         nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
-        p = bodies[shapes[candidates[i, 0]].body_row]
-        q = bodies[shapes[candidates[i, 1]].body_row]
-        reach = reach_of(p, q, margin, batch.ahead)
-        if 0.0 < separation <= reach:
+        lead = 0.0
+        if separation > 0.0:
+            p = bodies[shapes[candidates[i, 0]].body_row]
+            q = bodies[shapes[candidates[i, 1]].body_row]
+            if separation > margin:
+                _, _, speed = nearing(p, q)
+                if separation > reach_of(p, q, speed, margin, batch.ahead):
+                    continue
             vx, vy = closing(p, q, ax, ay, bx, by)
             time = time_of_discs(bx - ax, by - ay, a_radius + b_radius, vx, vy)
             if time < 0.0:
@@ -84,16 +80,14 @@ def collide_circle_pairs(
                 time = time_of_nearest(bx - ax, by - ay, vx, vy)
             # Those that touch in the next step too, or they would be turned aside in this one.
             if 0.0 < time <= 2.0 * batch.ahead:
-                nx, ny, x, y, gap = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
-                way = -time * (vx * nx + vy * ny)
+                nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
+                way, lead = way_back(time, vx, vy, nx, ny)
                 x += 0.5 * way * nx
                 y += 0.5 * way * ny
-                before = found
-                found = add_point(shapes, candidates, i, found, nx, ny, x, y, gap + way, 0.0, 0, manifolds_out)
-                lead_on(before, found, time * (vy * nx - vx * ny), manifolds_out)
-                continue
-        if separation <= reach:
-            found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
+                separation += way
+        before = found
+        found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
+        lead_on(before, found, lead, manifolds_out)
     return found
 
 
@@ -133,10 +127,11 @@ def collide_polygon_circle_pairs(
         vx = 0.0
         vy = 0.0
         reach = margin
+        q = bodies[shapes[circle].body_row]
         if batch.ahead > 0.0:
-            q = bodies[shapes[circle].body_row]
-            reach = reach_of(p, q, margin, batch.ahead)
-            if reach > margin and nears_fast(p, q, margin, batch.ahead):
+            _, _, speed = nearing(p, q)
+            reach = reach_of(p, q, speed, margin, batch.ahead)
+            if reach > margin and batch.ahead * speed > margin:
                 vx, vy = closing(p, q, x, y, x, y)
                 time = time_of_disc(
                     workspace.a, n, rounding(shapes, polygon), x, y, radius, vx, vy, margin, batch.ahead
@@ -149,18 +144,16 @@ def collide_polygon_circle_pairs(
         if not hit and feature == COVERED:
             leave(i, workspace.left)
         if hit and batch.graze < separation <= reach and feature >= CIRCLE_CORNER:
-            q = bodies[shapes[circle].body_row]
             wx, wy = closing(p, q, px, py, x, y)
             workspace.b[0, 0] = x
             workspace.b[0, 1] = y
             if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, wx, wy):
                 continue
         if hit and separation <= reach:
-            way = -time * (vx * nx + vy * ny)
+            way, lead = way_back(time, vx, vy, nx, ny)
             # Midway between the surfaces as they are now: on the polygon's side of its way.
             px += 0.5 * way * nx
             py += 0.5 * way * ny
-            lead = time * (vy * nx - vx * ny)
             if sign < 0.0:
                 # A is the disc, and its point is where the polygon's is now.
                 px += lead * ny

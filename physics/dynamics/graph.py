@@ -138,6 +138,15 @@ def slot_of(edge, edges, colors, classes):
     return slot
 
 
+@subkernel
+def add_up(starts_inout, cursors_out):
+    """Turn how many each slot has, each counted one further on, into where it starts; cursors_out: the same."""
+    for i in range(1, len(starts_inout)):
+        starts_inout[i] += starts_inout[i - 1]
+    for i in range(len(starts_inout)):
+        cursors_out[i] = starts_inout[i]
+
+
 @kernel
 def order_edges(
     # read
@@ -159,10 +168,7 @@ def order_edges(
         starts_out[i] = 0
     for i in range(count):
         starts_out[slot_of(i, edges, colors, classes) + 1] += 1
-    for i in range(1, len(starts_out)):
-        starts_out[i] += starts_out[i - 1]
-    for i in range(len(starts_out)):
-        cursors_out[i] = starts_out[i]
+    add_up(starts_out, cursors_out)
     for i in range(count):
         slot = slot_of(i, edges, colors, classes)
         at = cursors_out[slot]
@@ -188,10 +194,7 @@ def order_nodes(
         starts_out[i] = 0
     for k in range(len(nodes)):
         starts_out[classes[nodes[k]] + 1] += 1
-    for i in range(1, len(starts_out)):
-        starts_out[i] += starts_out[i - 1]
-    for i in range(len(starts_out)):
-        cursors_out[i] = starts_out[i]
+    add_up(starts_out, cursors_out)
     for k in range(len(nodes)):
         at = cursors_out[classes[nodes[k]]]
         cursors_out[classes[nodes[k]]] = at + 1

@@ -43,9 +43,9 @@ def speed_of_impact(speed, separation, acceleration):
 
 
 @subkernel
-def bounces(speed, restitution, threshold, total):
+def bounces(speed, threshold, total):
     """Whether a point bounces: fast enough before the step, and an impulse acted in it."""
-    return speed > threshold and total > 0.0 and restitution > 0.0
+    return speed > threshold and total > 0.0
 
 
 @subkernel
@@ -102,14 +102,16 @@ def restore_bounces(
         r = constraints_inout[i]
         m = manifolds[r.manifold]
         restitution = anchors[r.manifold].restitution
+        if restitution <= 0.0:
+            continue
         a = motions_inout[r.motion_a]
         b = motions_inout[r.motion_b]
         nearing = (a.acceleration_x - b.acceleration_x) * r.normal_x
         nearing += (a.acceleration_y - b.acceleration_y) * r.normal_y
         speed_1 = speed_of_impact(m.speed_1, m.separation_1, nearing)
         speed_2 = speed_of_impact(m.speed_2, m.separation_2, nearing) if r.count == 2 else 0.0
-        first = bounces(speed_1, restitution, threshold, r.normal_total_1)
-        second = r.count == 2 and bounces(speed_2, restitution, threshold, r.normal_total_2)
+        first = bounces(speed_1, threshold, r.normal_total_1)
+        second = r.count == 2 and bounces(speed_2, threshold, r.normal_total_2)
         if not (first or second):
             continue
         work_inout[RESTITUTION_ROWS] += int(first) + int(second)

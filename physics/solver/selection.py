@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.dynamics.graph import NO_CLASSES, color_edges, join_classes, order_edges, order_nodes
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE
 from physics.solver.motions import Motions
 from physics.tables.step_state import StepState
@@ -77,14 +77,23 @@ def select_manifolds(
     return found
 
 
+@subkernel
+def class_for(choices, square, least):
+    """Where among the choices, from the place `least` on, is the first whose square is at least that; or the last."""
+    place = least
+    while place < len(choices) - 1 and choices[place] * choices[place] < square:
+        place += 1
+    return place
+
+
 @kernel
 def class_motions(motions, degrees, choices, classes_out):
     """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest. O(motions)."""
     for i in range(len(classes_out)):
         classes_out[i] = 0
-        if degrees[i] > 0 and motions[i].pushed:
-            while classes_out[i] < len(choices) - 1 and choices[classes_out[i]] < motions[i].substeps:
-                classes_out[i] += 1
+        m = motions[i]
+        if degrees[i] > 0 and m.pushed:
+            classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
 
 
 @kernel
@@ -118,11 +127,7 @@ def expect_impacts(
         for side in range(2):
             node = edges[i, side]
             if motions[node].pushed:
-                while (
-                    classes_inout[node] < len(choices) - 1
-                    and choices[classes_inout[node]] * choices[classes_inout[node]] < demand
-                ):
-                    classes_inout[node] += 1
+                classes_inout[node] = class_for(choices, demand, int(classes_inout[node]))
 
 
 class Selection:
@@ -155,26 +160,24 @@ class Selection:
         taken, degrees = self.taken[: len(rows)], self.degrees[: len(rows)]
         color_edges(self.edges, self.count, motions.pushable, taken, degrees, self.colors)
         if substeps:
-            starts, firsts, members, choices = self.starts[: COLORS + 2], None, motions.movers, (substeps,)
+            starts = self.starts[: COLORS + 2]
             order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.ordered)
-        else:
-            starts, firsts, members, choices = self.starts, self.firsts, self.members, AUTO_SUBSTEPS
-            classes, parents = self.classes[: len(rows)], self.parents[: len(rows)]
-            class_motions(rows, degrees, self.choices, classes)
-            rate = demand_rate(state)
-            expect_impacts(
-                manifolds, self.selected, self.edges, self.count, rows, state.dt, rate, self.choices, classes
-            )
-            join_classes(self.edges, self.count, motions.joins, classes, parents)
-            order_edges(self.edges, self.count, self.colors, classes, starts, self.cursors, self.ordered)
-            order_nodes(motions.movers, classes, firsts, self.next, members)
-        groups = []
-        for k, substeps in enumerate(choices):
-            some = members if firsts is None else members[firsts[k] : firsts[k + 1]]
-            if len(some):
-                start, stop = int(starts[k * (COLORS + 1)]), int(starts[(k + 1) * (COLORS + 1)])
-                groups.append(Group(substeps, start, stop, some))
-        return groups or [Group(choices[0], 0, 0, motions.movers)]
+            return [Group(substeps, 0, self.count, motions.movers)]
+        classes, parents = self.classes[: len(rows)], self.parents[: len(rows)]
+        class_motions(rows, degrees, self.choices, classes)
+        rate = demand_rate(state)
+        expect_impacts(manifolds, self.selected, self.edges, self.count, rows, state.dt, rate, self.choices, classes)
+        join_classes(self.edges, self.count, motions.joins, classes, parents)
+        order_edges(self.edges, self.count, self.colors, classes, self.starts, self.cursors, self.ordered)
+        order_nodes(motions.movers, classes, self.firsts, self.next, self.members)
+        starts, firsts = self.starts[:: COLORS + 1].tolist(), self.firsts.tolist()
+        groups = [
+            Group(number, starts[k], starts[k + 1], self.members[firsts[k] : firsts[k + 1]])
+            for k, number in enumerate(AUTO_SUBSTEPS)
+            if firsts[k] < firsts[k + 1]
+        ]
+        # What moves by hand is moved though nobody is pushed.
+        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, motions.movers)]
 
     @property
     def plan(self) -> Plan:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
+from physics.solver.bounce import bounce_once, relative_speed
 from physics.solver.contacts import WARM_START, ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.two_points import solve_two
@@ -225,47 +226,26 @@ def make_push_pass(rotation: bool) -> Callable:
     return push_overlaps
 
 
-def make_stop(rotation: bool) -> Callable:
-    """The pass after the bodies have moved, in a world with this effect."""
-
-    @subkernel
-    def stop_met(constraints_inout, motions_inout):
-        """Take from what has closed its gap in this step the speed that it closed it with: or it would meet again in
-        the next. O(constraints)."""
-        for i in range(len(constraints_inout)):
-            r = constraints_inout[i]
-            if r.rests or r.normal_impulse_1 + r.normal_impulse_2 <= 0.0:
-                continue
-            a = motions_inout[r.motion_a]
-            b = motions_inout[r.motion_b]
-            nx = r.normal_x
-            ny = r.normal_y
-            for k in range(r.count):
-                ax = r.ax_1 if k == 0 else r.ax_2
-                ay = r.ay_1 if k == 0 else r.ay_2
-                bx = r.bx_1 if k == 0 else r.bx_2
-                by = r.by_1 if k == 0 else r.by_2
-                a_arm = ax * ny - ay * nx
-                b_arm = bx * ny - by * nx
-                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-                if rotation:
-                    speed += b.angular_velocity * b_arm - a.angular_velocity * a_arm
-                if speed >= 0.0 or (r.normal_impulse_1 if k == 0 else r.normal_impulse_2) == 0.0:
-                    continue
-                change = -speed * (r.normal_mass_1 if k == 0 else r.normal_mass_2)
-                if k == 0:
-                    r.normal_impulse_1 += change
-                else:
-                    r.normal_impulse_2 += change
-                a.vx -= a.inverse_mass * change * nx
-                a.vy -= a.inverse_mass * change * ny
-                b.vx += b.inverse_mass * change * nx
-                b.vy += b.inverse_mass * change * ny
-                if rotation:
-                    a.angular_velocity -= a.inverse_inertia * change * a_arm
-                    b.angular_velocity += b.inverse_inertia * change * b_arm
-
-    return stop_met
+@subkernel
+def stop_met(constraints_inout, motions_inout):
+    """Take from what has closed its gap in this step the speed that it closed it with: or it would meet again in the
+    next. O(constraints)."""
+    for i in range(len(constraints_inout)):
+        r = constraints_inout[i]
+        if r.rests:
+            continue
+        a = motions_inout[r.motion_a]
+        b = motions_inout[r.motion_b]
+        nx = r.normal_x
+        ny = r.normal_y
+        if r.normal_impulse_1 > 0.0 and relative_speed(a, b, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1) < 0.0:
+            r.normal_impulse_1 += bounce_once(
+                0.0, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
+            )
+        if r.normal_impulse_2 > 0.0 and relative_speed(a, b, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2) < 0.0:
+            r.normal_impulse_2 += bounce_once(
+                0.0, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
+            )
 
 
 @subkernel
@@ -281,14 +261,12 @@ def sum_up(constraints_inout):
 
 SOLVE = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}
 PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
-STOP = {r: make_stop(rotation=r) for r in BOTH}
 
 
 def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
     """All passes of a step in a world with these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_START[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
-    stop_met = STOP[rotation]
 
     @kernel
     def run_passes(

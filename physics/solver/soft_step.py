@@ -47,8 +47,8 @@ class Pace(NamedTuple):
     drag: float  # [1/s]
     push_speed: float  # [px/s]
     push_rate: float  # [1/s] of an overlap that bears nothing
-    deep_rate: float  # [1/s] of one that is deep, beyond …
-    shallow_speed: float  # [px/s] … 0: those too as fast as they can
+    deep_rate: float  # [1/s] of one that is deep, 0: as fast as it can, beyond …
+    shallow_speed: float  # [px/s] … what a shallow one may come out with
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
@@ -320,23 +320,22 @@ def solve(state: StepState, contacts: ContactSet) -> float:
     """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run, h = SUBSTEPS[effects.drag, effects.rotation, effects.friction], dt
+    asked = state.substeps == 0
+    slowest = dt / AUTO_SUBSTEPS[0]
+    deep_rate = softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0
     for group in contacts.choose(state, motions, state.substeps):
         h = dt / group.substeps
         # Where the substeps follow from the loads, springs are as stiff as they allow.
-        hertz = HERTZ_SHARE / h if state.substeps == 0 else min(CONTACT_HERTZ, HERTZ_SHARE / h)
+        hertz = HERTZ_SHARE / h if asked else min(CONTACT_HERTZ, HERTZ_SHARE / h)
         soft = softness(hertz, CONTACT_DAMPING, h)
         soft_still = softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h)
         rows = contacts.prepare(state, motions, group, h)
         # More substeps let nothing out faster.
         push_rate = PUSH_SHARE * min(group.substeps, AUTO_SUBSTEPS[0]) / dt
-        deep_rate = shallow_speed = 0.0
-        if state.substeps == 0:
-            slowest = dt / AUTO_SUBSTEPS[0]
-            deep_rate = softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate
-            shallow_speed = soft.bias_rate * tolerances.speculative
+        shallow_speed = soft.bias_rate * tolerances.speculative
         pace = Pace(group.substeps, h, 1.0 / h, state.drag, tolerances.push_speed, push_rate, deep_rate, shallow_speed)
         run(group.members, motions.driven, pace, soft, soft_still, motions.used, rows)
-        if state.substeps == 0:
+        if asked:
             ask_for_substeps(state, motions, contacts.selection.parents, group, rows)
         contacts.store(state, motions, rows, h)
     return h
