@@ -124,6 +124,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
             r.push_share = CROWD / crowd if crowd > CROWD else 1.0
             r.calm = m.speed_1 <= limits.calm_speed and (m.count == 1 or m.speed_2 <= limits.calm_speed)
             r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
+            r.meets = m.speed_1 > limits.bounce_speed or (m.count == 2 and m.speed_2 > limits.bounce_speed)
             r.rests = touches_slowly(m.separation_1, m.speed_1, limits) or (
                 m.count == 2 and touches_slowly(m.separation_2, m.speed_2, limits)
             )

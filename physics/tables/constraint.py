@@ -49,6 +49,7 @@ CONSTRAINT = np.dtype(
         ("push_share", np.float64),  # of the push-out speed
         ("calm", np.bool_),  # nothing approached before the step
         ("loaded", np.bool_),  # it bore something in the step before
+        ("meets", np.bool_),  # both sides near each other, fast enough to bounce
         ("rests", np.bool_),  # both sides touched before the step, too slow to bounce
         ("alone", np.bool_),  # its faces stick, and nothing but it bears the one side on the other
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
