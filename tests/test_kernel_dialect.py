@@ -37,7 +37,8 @@ LONG = {
 
 def decorated(node):
     return any(
-        (each.id if isinstance(each, ast.Name) else "") in ("kernel", "subkernel") for each in node.decorator_list
+        (each.id if isinstance(each, ast.Name) else "") in ("inlined", "kernel", "subkernel")
+        for each in node.decorator_list
     )
 
 

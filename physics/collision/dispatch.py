@@ -155,6 +155,7 @@ class NarrowPhase:
             ((GRID_ANY,), grids),
             ((CHAIN_ANY,), collide_chain_pairs),
         )
+        self.pass_of = {kind: place for place, (kinds, _) in enumerate(self.passes) for kind in kinds}
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts, self.deep = np.zeros(NOTHING + 1, np.int64), np.zeros(64, bool)
@@ -213,7 +214,10 @@ class NarrowPhase:
                 workspace = self._remember(batch, previous)
         if self.one_way and self.counts[SURFACE_ANY]:
             admit_to_surfaces(batch, workspace is not self.workspace, workspace, self.kinds, self.counts)
-        used = [run for kinds, run in self.passes if any(self.counts[kind] for kind in kinds)]
+        present = {
+            self.pass_of[kind] for kind, some in enumerate(self.counts.tolist()) if some and kind in self.pass_of
+        }
+        used = [self.passes[place][1] for place in sorted(present)]
 
         if len(workspace.left) < count + 1:
             workspace = workspace._replace(left=np.zeros(2 * count + 1, np.int64))

@@ -47,10 +47,13 @@ class Part(Dispatcher):
         return self.py_func(*[view_of(each) for each in arguments])
 
 
-def dispatcher_of(function: Callable, is_part: bool) -> Any:
-    """A dispatcher that compiles the function on first call and keeps the result; is_part: only kernels call it."""
-    pipeline = {"pipeline_class": PartCompiler} if is_part else {}
-    made = numba.njit(function, error_model="numpy", fastmath=False, no_cpython_wrapper=is_part, **LEANER, **pipeline)
+def dispatcher_of(function: Callable, is_part: bool, is_inlined: bool) -> Any:
+    """A dispatcher that compiles the function on first call and keeps the result; is_part: only kernels call it;
+    is_inlined: it is put in wherever it is called."""
+    more = LEANER | ({"pipeline_class": PartCompiler} if is_part else {})
+    made = numba.njit(
+        function, error_model="numpy", fastmath=False, no_cpython_wrapper=is_part, forceinline=is_inlined, **more
+    )
     _take_literals_as_values(made)
     if folder_for(Path(function.__code__.co_filename)):
         made._cache = (PartCache if is_part else KernelCache)(function)

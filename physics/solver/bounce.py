@@ -60,27 +60,19 @@ def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout)
 @subkernel
 def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
     """Bounce two points at once, to part at the wanted speeds [px/s], by the 2 x 2 system.
-    Returns (solved, change of the first, of the second impulse)."""
+    Returns the changes of their impulses."""
     nx = r.normal_x
     ny = r.normal_y
-    a_1 = r.ax_1 * ny - r.ay_1 * nx
-    b_1 = r.bx_1 * ny - r.by_1 * nx
-    a_2 = r.ax_2 * ny - r.ay_2 * nx
-    b_2 = r.bx_2 * ny - r.by_2 * nx
-    masses = a_inout.inverse_mass + b_inout.inverse_mass
-    k_11 = masses + a_inout.inverse_inertia * a_1 * a_1 + b_inout.inverse_inertia * b_1 * b_1
-    k_22 = masses + a_inout.inverse_inertia * a_2 * a_2 + b_inout.inverse_inertia * b_2 * b_2
-    k_12 = masses + a_inout.inverse_inertia * a_1 * a_2 + b_inout.inverse_inertia * b_1 * b_2
     missing_1 = wanted_1 - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
     missing_2 = wanted_2 - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
-    solved, x_1, x_2 = solve_two(k_11, k_12, k_22, missing_1, missing_2, r.normal_impulse_1, r.normal_impulse_2)
-    if not solved:
-        return False, 0.0, 0.0
-    change_1 = x_1 - r.normal_impulse_1
-    change_2 = x_2 - r.normal_impulse_2
-    push_pair(nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, change_1, a_inout, b_inout)
-    push_pair(nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, change_2, a_inout, b_inout)
-    return True, change_1, change_2
+    old_1 = r.normal_impulse_1
+    old_2 = r.normal_impulse_2
+    x_1, x_2 = solve_two(
+        r.normal_mass_1 * missing_1, r.normal_mass_2 * missing_2, r.couple_1, r.couple_2, r.split, old_1, old_2
+    )
+    push_pair(nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, x_1 - old_1, a_inout, b_inout)
+    push_pair(nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, x_2 - old_2, a_inout, b_inout)
+    return x_1 - old_1, x_2 - old_2
 
 
 @kernel
@@ -115,7 +107,6 @@ def restore_bounces(
         if not (first or second):
             continue
         work_inout[RESTITUTION_ROWS] += int(first) + int(second)
-        solved = False
         change_1 = 0.0
         change_2 = 0.0
         wanted_1 = restitution * speed_1
@@ -123,12 +114,12 @@ def restore_bounces(
         nx = r.normal_x
         ny = r.normal_y
         if first and second:
-            solved, change_1, change_2 = bounce_together(wanted_1, wanted_2, r, a, b)
-        if first and not solved:
+            change_1, change_2 = bounce_together(wanted_1, wanted_2, r, a, b)
+        elif first:
             change_1 = bounce_once(
                 wanted_1, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
             )
-        if second and not solved:
+        else:
             change_2 = bounce_once(
                 wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
             )

@@ -16,8 +16,10 @@ from physics.jit import kernel, subkernel
 from physics.math2d import length_of
 from physics.settings import CALM_SHARE, CROWD, STICKING_SHARE, STICKING_TURN
 from physics.solver.bounce import restore_bounces
+from physics.solver.lanes import Blocks, blocks_needed, make_blocks
 from physics.solver.motions import Motions
 from physics.solver.selection import Group, Selection
+from physics.solver.two_points import split_of
 from physics.tables.constraint import CONSTRAINT
 from physics.tables.counters import SOLVER_ROWS, TANGENT_ROWS
 from physics.tables.step_state import StepState
@@ -32,6 +34,24 @@ def effective_mass(a, b, ax, ay, bx, by, x, y):
     b_arm = bx * y - by * x
     k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
     return 1.0 / k if k > 0.0 else 0.0
+
+
+@subkernel
+def couple(a, b, row_out):
+    """Write how the two points of a CONSTRAINT row feel each other; a, b: its MOTION rows."""
+    r = row_out
+    r.couple_1 = 0.0
+    r.couple_2 = 0.0
+    r.split = 0.0
+    if r.count == 2:
+        a_1 = r.ax_1 * r.normal_y - r.ay_1 * r.normal_x
+        b_1 = r.bx_1 * r.normal_y - r.by_1 * r.normal_x
+        a_2 = r.ax_2 * r.normal_y - r.ay_2 * r.normal_x
+        b_2 = r.bx_2 * r.normal_y - r.by_2 * r.normal_x
+        k_12 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
+        r.couple_1 = r.normal_mass_1 * k_12
+        r.couple_2 = r.normal_mass_2 * k_12
+        r.split = split_of(r.couple_1, r.couple_2)
 
 
 @subkernel
@@ -169,6 +189,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
                     r.ax_2, r.ay_2, r.bx_2, r.by_2, r.base_2 = ax, ay, bx, by, base
                     r.normal_mass_2, r.tangent_mass_2 = normal_mass, tangent_mass
                     r.normal_impulse_2, r.tangent_impulse_2 = h * c.normal_force_2, h * c.tangent_force_2
+            couple(a, b, r)
 
     return prepare_constraints
 
@@ -293,6 +314,7 @@ class ContactSet:
     def __init__(self) -> None:
         self.selection = Selection()
         self.constraints = np.zeros(16, CONSTRAINT)
+        self.lanes = make_blocks(0)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Which islands take how many substeps; 0: as many as they ask for."""
@@ -324,6 +346,13 @@ class ContactSet:
             state.work,
         )
         return rows
+
+    def blocks(self, group: Group) -> Blocks:
+        """Arrays for the rows of a group in lanes."""
+        needed = blocks_needed(group.stop - group.start, group.starts)
+        if len(self.lanes.row_of) < needed:
+            self.lanes = make_blocks(2 * needed)
+        return self.lanes
 
     def store(self, state: StepState, motions: Motions, rows: np.ndarray, h: float) -> None:
         """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""

@@ -33,6 +33,7 @@ class Group(NamedTuple):
     start: int  # rows of the constraints, from …
     stop: int  # … to
     members: np.ndarray  # int32 rows of MOTION
+    starts: np.ndarray  # int64 where the rows of each colour begin, the colourless first, and where the last end
 
 
 def demand_rate(state: StepState) -> float:
@@ -162,7 +163,7 @@ class Selection:
         if substeps:
             starts = self.starts[: COLORS + 2]
             order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.ordered)
-            return [Group(substeps, 0, self.count, motions.movers)]
+            return [Group(substeps, 0, self.count, motions.movers, starts)]
         classes, parents = self.classes[: len(rows)], self.parents[: len(rows)]
         class_motions(rows, degrees, self.choices, classes)
         rate = demand_rate(state)
@@ -170,14 +171,21 @@ class Selection:
         join_classes(self.edges, self.count, motions.joins, classes, parents)
         order_edges(self.edges, self.count, self.colors, classes, self.starts, self.cursors, self.ordered)
         order_nodes(motions.movers, classes, self.firsts, self.next, self.members)
-        starts, firsts = self.starts[:: COLORS + 1].tolist(), self.firsts.tolist()
+        colors, firsts = COLORS + 1, self.firsts.tolist()
+        ends = self.starts[::colors].tolist()
         groups = [
-            Group(number, starts[k], starts[k + 1], self.members[firsts[k] : firsts[k + 1]])
+            Group(
+                substeps=number,
+                start=ends[k],
+                stop=ends[k + 1],
+                members=self.members[firsts[k] : firsts[k + 1]],
+                starts=self.starts[k * colors : (k + 1) * colors + 1],
+            )
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]
         ]
         # What moves by hand is moved though nobody is pushed.
-        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, motions.movers)]
+        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, motions.movers, self.starts[: colors + 1])]
 
     @property
     def plan(self) -> Plan:

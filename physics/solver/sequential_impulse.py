@@ -114,27 +114,15 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
             wanted_1 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_1
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
-            impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
-            impulse_2 = old_2
-            if r.count == 2:
+            if r.count == 1:
+                impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
+                impulse_2 = old_2
+            else:
                 gap = core + r.base_2 + (r.bx_2 - r.ax_2) * nx + (r.by_2 - r.ay_2) * ny
                 wanted_2 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_2
-                k_12 = masses
-                if rotation:
-                    k_12 += a.inverse_inertia * (r.ax_1 * ny - r.ay_1 * nx) * (
-                        r.ax_2 * ny - r.ay_2 * nx
-                    ) + b.inverse_inertia * (r.bx_1 * ny - r.by_1 * nx) * (r.bx_2 * ny - r.by_2 * nx)
-                solved = False
-                if r.normal_mass_1 > 0.0 and r.normal_mass_2 > 0.0:
-                    solved, both_1, both_2 = solve_two(
-                        1.0 / r.normal_mass_1, k_12, 1.0 / r.normal_mass_2, wanted_1, wanted_2, old_1, old_2
-                    )
-                if solved:
-                    impulse_1 = both_1
-                    impulse_2 = both_2
-                else:
-                    wanted_2 -= k_12 * (impulse_1 - old_1)
-                    impulse_2 = max(old_2 + r.normal_mass_2 * wanted_2, 0.0)
+                change_1 = r.normal_mass_1 * wanted_1
+                change_2 = r.normal_mass_2 * wanted_2
+                impulse_1, impulse_2 = solve_two(change_1, change_2, r.couple_1, r.couple_2, r.split, old_1, old_2)
             r.normal_impulse_1 = impulse_1
             r.normal_impulse_2 = impulse_2
             if r.rests or impulse_1 + impulse_2 > 0.0:

@@ -53,6 +53,9 @@ CONSTRAINT = np.dtype(
         ("rests", np.bool_),  # both sides touched before the step, too slow to bounce
         ("alone", np.bool_),  # its faces stick, and nothing but it bears the one side on the other
         ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
+        ("couple_1", np.float64),  # change of the first impulse per second, and …
+        ("couple_2", np.float64),  # … of the second per first, for the same speeds; 0 where there is but one
+        ("split", np.float64),  # see two_points
         ("ax_1", np.float64),
         ("ay_1", np.float64),
         ("bx_1", np.float64),

@@ -80,9 +80,13 @@ def find_kernel(folder, name):
 
 
 def is_kernel(node, name):
-    """True for the definition of a kernel or subkernel of that name."""
+    """True for the definition of a kernel of any kind of that name."""
     marks = [each.id for each in getattr(node, "decorator_list", ()) if isinstance(each, ast.Name)]
-    return isinstance(node, ast.FunctionDef) and node.name == name and bool({"kernel", "subkernel"} & set(marks))
+    return (
+        isinstance(node, ast.FunctionDef)
+        and node.name == name
+        and bool({"inlined", "kernel", "subkernel"} & set(marks))
+    )
 
 
 def places(function, kind):
