@@ -2,7 +2,8 @@
 
 A contact is a spring whose frequency is a share of the substeps per second: under a force F it sinks by F / (m ω²), a
 quarter of that with twice the substeps. What the last step bore tells what the next one needs. Up at once; down, by
-half, where the contacts would still sink by no more than half of the accuracy, or islands would go up and down.
+half, when that has been enough for all of an island for a while: its contacts would still sink by no more than half of
+the accuracy, or islands would go up and down.
 Source of the spring: Catto, Soft Constraints, GDC 2011.
 """
 
@@ -31,8 +32,8 @@ def add_demands(
     """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
 
     rate, rate_still: that square per speed that the impulses of the step give [s/px], between bodies and with what
-    cannot be pushed; most: the square of the most substeps, than which nobody asks for more because it leans.
-    O(constraints).
+    cannot be pushed; most: the square of the most substeps, than which nobody
+    asks for more because it leans. O(constraints).
     """
     for i in range(len(constraints)):
         r = constraints[i]
@@ -64,33 +65,40 @@ def choose_substeps(
     # write
     motions_inout,
 ):
-    """Write the substeps that the members ask for after a step of so many. Returns how many of their islands have asked
-    for more than the most for as long as `patience` [s], which is none of an impact. O(members).
+    """Write the substeps that the islands of the members are to take after a step of so many. Returns how many islands
+    have asked for more than the most for as long as `patience` [s], which is none of an impact. O(members).
 
-    members: rows of MOTION; parents (motions) int32: the root of each one's island.
+    members: rows of MOTION, ascending; parents (motions) int32: the root of each one's island, its lowest row.
     """
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
-        m.substeps = substeps
+        wanted = substeps
         eased = 0.0
         if m.demand > most * most and substeps == most:
             eased = min(m.eased, 0.0) - dt
             if eased <= -patience:
                 motions_inout[parents[i]].demand = math.inf
         elif m.demand > substeps * substeps:
-            while m.substeps < most and m.substeps * m.substeps < m.demand:
-                m.substeps *= 2
+            while wanted < most and wanted * wanted < m.demand:
+                wanted *= 2
         elif substeps > least and 8.0 * m.demand <= substeps * substeps:
-            eased = m.eased + dt
+            eased = min(m.eased + dt, patience)
             if eased >= patience:
-                m.substeps = substeps // 2
-                eased = 0.0
+                wanted = substeps // 2
         m.eased = eased
+        m.substeps = wanted
+        root = motions_inout[parents[i]]
+        root.substeps = max(root.substeps, wanted)
     capped = 0
     for k in range(len(members)):
         i = members[k]
-        capped += int(parents[i] == i and motions_inout[i].demand == math.inf)
+        m = motions_inout[i]
+        root = motions_inout[parents[i]]
+        m.substeps = root.substeps
+        if m.substeps != substeps:
+            m.eased = 0.0
+        capped += int(parents[i] == i and root.demand == math.inf)
     return capped
 
 
