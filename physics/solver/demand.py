@@ -14,6 +14,7 @@ import numpy as np
 from physics.jit import kernel
 from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, STILL_STIFFNESS
 from physics.solver.motions import Motions
+from physics.solver.pace import Pace, firmness_of
 from physics.solver.selection import Group, demand_rate
 from physics.tables.counters import CAP_HITS
 from physics.tables.step_state import StepState
@@ -26,18 +27,19 @@ def add_demands(
     rate,
     rate_still,
     most,
+    pace,
     # write
     motions_inout,
 ):
     """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
 
     rate, rate_still: that square per speed that the impulses of the step give [s/px], between bodies and with what
-    cannot be pushed; most: the square of the most substeps, than which nobody
+    cannot be pushed, where nothing grips firmer (see Pace); most: the square of the most substeps, than which nobody
     asks for more because it leans. O(constraints).
     """
     for i in range(len(constraints)):
         r = constraints[i]
-        per_speed = rate_still if r.still else rate
+        per_speed = (rate_still if r.still else rate) / firmness_of(r, pace)
         demand = per_speed * r.normal_total_1 / r.normal_mass_1
         if r.count == 2:
             other = per_speed * r.normal_total_2 / r.normal_mass_2
@@ -102,11 +104,13 @@ def choose_substeps(
     return capped
 
 
-def ask_for_substeps(state: StepState, motions: Motions, parents: np.ndarray, group: Group, rows: np.ndarray) -> None:
+def ask_for_substeps(
+    state: StepState, motions: Motions, parents: np.ndarray, group: Group, pace: Pace, rows: np.ndarray
+) -> None:
     """Have the bodies of a group ask for what their contacts, CONSTRAINT rows, need in the next step."""
     rate = demand_rate(state)
     least, most = AUTO_SUBSTEPS[0], AUTO_SUBSTEPS[-1]
-    add_demands(rows, rate, rate / STILL_STIFFNESS**2, float(most * most), motions.used)
+    add_demands(rows, rate, rate / STILL_STIFFNESS**2, float(most * most), pace, motions.used)
     state.work[CAP_HITS] += choose_substeps(
         group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used
     )

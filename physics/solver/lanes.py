@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import JIT, subkernel
+from physics.solver.pace import firmness_of
 
 LANES = (
     8 if JIT else 1
@@ -30,7 +31,8 @@ LANES = (
     SHARE,
     CALM,
     RESTS,
-    STILL,
+    BIAS_RATE,
+    GIVE,
     COUPLE_1,
     COUPLE_2,
     SPLIT,
@@ -78,7 +80,7 @@ LANES = (
     GAP_2,
     OUTCOME,
     SIZE,
-) = (line * LANES for line in range(60))
+) = (line * LANES for line in range(61))
 PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears nothing, and is let out of its overlap
 
 
@@ -90,10 +92,11 @@ def pack_nothing(lane, c_out):
 
 
 @subkernel
-def pack_row(r, a, b, lane, c_out):
+def pack_row(r, a, b, pace, lane, c_out):
     """Write a CONSTRAINT row and the masses of its MOTION rows a, b into a lane; of one point the second is a
     copy that nothing can push."""
     two = r.count == 2
+    spring = pace.still_spring if r.still else pace.spring
     c_out[NX + lane] = r.normal_x
     c_out[NY + lane] = r.normal_y
     c_out[FRICTION + lane] = r.friction
@@ -106,7 +109,8 @@ def pack_row(r, a, b, lane, c_out):
     c_out[SHARE + lane] = r.push_share
     c_out[CALM + lane] = 1.0 if r.calm else 0.0
     c_out[RESTS + lane] = 1.0 if r.rests else 0.0
-    c_out[STILL + lane] = 1.0 if r.still else 0.0
+    c_out[BIAS_RATE + lane] = spring.bias_rate
+    c_out[GIVE + lane] = 1.0 / (1.0 + firmness_of(r, pace) * spring.grip)
     c_out[COUPLE_1 + lane] = r.couple_1
     c_out[COUPLE_2 + lane] = r.couple_2
     c_out[SPLIT + lane] = r.split
@@ -169,6 +173,7 @@ def pack_rows(
     constraints,
     starts,
     motions,
+    pace,
     # write
     blocks_out,
 ):
@@ -195,7 +200,7 @@ def pack_rows(
                     r = constraints[i]
                     blocks_out.motion_a[found, lane] = r.motion_a
                     blocks_out.motion_b[found, lane] = r.motion_b
-                    pack_row(r, motions[r.motion_a], motions[r.motion_b], lane, c)
+                    pack_row(r, motions[r.motion_a], motions[r.motion_b], pace, lane, c)
             at += count
             found += 1
     return found

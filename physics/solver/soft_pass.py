@@ -70,12 +70,13 @@ def stopping(speed, gap, mass, inverse_h):
 
 
 @inlined
-def springing(speed, gap, mass, old, spring, most):
-    """The change of an impulse that a Softness gives an overlap, pushing out at no more than `most` [px/s], without a
-    dead zone."""
-    bias = spring.mass_scale * spring.bias_rate * gap
+def springing(speed, gap, mass, old, bias_rate, give, most):
+    """The change of an impulse that a spring gives an overlap, pushing out at `most` [px/s] at most, without a dead
+    zone; bias_rate, give: see Softness."""
+    grip = 1.0 - give
+    bias = grip * bias_rate * gap
     bias = -most if bias < -most else bias
-    return -mass * (spring.mass_scale * speed + bias) - spring.impulse_scale * old
+    return -mass * (grip * speed + bias) - give * old
 
 
 @inlined
@@ -237,10 +238,11 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                     # A spring would let a fast impact through: what has just met is stopped hard, then pushed out.
                     bears = (old_1 > calm_speed * mass_1) | (old_2 > calm_speed * mass_2)
                     calm = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
-                    spring = pace.still_spring if c[at.STILL + lane] > 0.0 else pace.spring
+                    rate = c[at.BIAS_RATE + lane]
+                    give = c[at.GIVE + lane]
                     most = most_of(c, lane, gap_1, gap_2, pace)
-                    soft_1 = springing(speed_1, gap_1, mass_1, old_1, spring, most)
-                    soft_2 = springing(speed_2, gap_2, mass_2, old_2, spring, most)
+                    soft_1 = springing(speed_1, gap_1, mass_1, old_1, rate, give, most)
+                    soft_2 = springing(speed_2, gap_2, mass_2, old_2, rate, give, most)
                     change_1 = soft_1 if (calm | bears) & (gap_1 <= 0.0) else change_1
                     change_2 = soft_2 if (calm | bears) & (gap_2 <= 0.0) else change_2
                     # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.

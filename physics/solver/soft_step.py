@@ -7,54 +7,19 @@ in Physics Simulation, SCA 2019; Catto, Soft Constraints, GDC 2011, and Solver2D
 friction in the relaxing pass alone.
 """
 
-import math
 from collections.abc import Callable
-from functools import lru_cache
-from typing import NamedTuple
 
 from physics.jit import kernel
-from physics.settings import AUTO_SUBSTEPS, CONTACT_DAMPING, CONTACT_HERTZ, HERTZ_SHARE, PUSH_SHARE, STILL_STIFFNESS
 from physics.solver.contacts import ContactSet
 from physics.solver.demand import ask_for_substeps
 from physics.solver.lane_motions import measure
 from physics.solver.lanes import pack_rows, unpack_rows
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
+from physics.solver.pace import pace_of
 from physics.solver.soft_pass import PUSH_OUT, RELAX, WARM_LANES
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-
-
-class Softness(NamedTuple):
-    """A damped spring as a constraint over a substep: speed per px of overlap, shares of mass and impulse."""
-
-    bias_rate: float
-    mass_scale: float
-    impulse_scale: float
-
-
-class Pace(NamedTuple):
-    """What all substeps of a group of islands have in common."""
-
-    substeps: int
-    h: float  # [s]
-    inverse_h: float
-    drag: float  # [1/s]
-    push_speed: float  # [px/s]
-    push_rate: float  # [1/s] of an overlap that bears nothing
-    deep_rate: float  # [1/s] of one that is deep, 0: as fast as it can, beyond …
-    shallow_speed: float  # [px/s] … what a shallow one may come out with
-    spring: Softness  # of a contact between bodies …
-    still_spring: Softness  # … and of one with what cannot be pushed
-
-
-def softness(hertz: float, damping: float, h: float) -> Softness:
-    """The implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
-    omega = math.tau * hertz
-    a1 = 2.0 * damping + h * omega
-    a2 = h * omega * a1
-    a3 = 1.0 / (1.0 + a2)
-    return Softness(omega / a1, a2 * a3, a3)
 
 
 def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
@@ -80,7 +45,7 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
         pace: see Pace. One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
         """
         h = pace.h
-        count = pack_rows(constraints_inout, starts, motions_inout, blocks_out)
+        count = pack_rows(constraints_inout, starts, motions_inout, pace, blocks_out)
         move_driven(driven, 0.0, motions_inout)
         measure(count, motions_inout, blocks_out)
         for n in range(pace.substeps):
@@ -98,29 +63,6 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
 SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
 
 
-@lru_cache(maxsize=64)
-def pace_of(substeps: int, asked: bool, dt: float, drag: float, push_speed: float, speculative: float) -> Pace:
-    """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads."""
-    h = dt / substeps
-    # Where the substeps follow from the loads, springs are as stiff as they allow.
-    hertz = HERTZ_SHARE / h if asked else min(CONTACT_HERTZ, HERTZ_SHARE / h)
-    spring = softness(hertz, CONTACT_DAMPING, h)
-    slowest = dt / AUTO_SUBSTEPS[0]
-    return Pace(
-        substeps=substeps,
-        h=h,
-        inverse_h=1.0 / h,
-        drag=drag,
-        push_speed=push_speed,
-        # More substeps let nothing out faster.
-        push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / dt,
-        deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
-        shallow_speed=spring.bias_rate * speculative,
-        spring=spring,
-        still_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
-    )
-
-
 def solve(state: StepState, contacts: ContactSet) -> float:
     """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
@@ -132,7 +74,7 @@ def solve(state: StepState, contacts: ContactSet) -> float:
         rows = contacts.prepare(state, motions, group, h)
         run(group.members, motions.driven, group.starts, pace, motions.used, rows, contacts.blocks(group))
         if asked:
-            ask_for_substeps(state, motions, contacts.selection.parents, group, rows)
+            ask_for_substeps(state, motions, contacts.selection.parents, group, pace, rows)
         contacts.store(state, motions, rows, h)
     return h
 

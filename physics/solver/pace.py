@@ -1,0 +1,90 @@
+"""What the substeps of a group of islands have in common: how long they are, how stiff contacts, how fast overlaps go.
+
+Source of the springs: Catto, Soft Constraints, GDC 2011.
+"""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+from physics.jit import subkernel
+from physics.settings import (
+    AUTO_SUBSTEPS,
+    CONTACT_DAMPING,
+    CONTACT_HERTZ,
+    FIRM,
+    FIRM_ALONE,
+    HERTZ_SHARE,
+    PUSH_SHARE,
+    STILL_STIFFNESS,
+)
+
+
+class Softness(NamedTuple):
+    """A damped spring as a constraint over a substep."""
+
+    bias_rate: float  # [1/s] speed that it pushes out with, of the overlap
+    grip: (
+        float  # how many times its own speed counts more than the impulse it has given: it gives way by 1 / (1 + grip)
+    )
+
+
+class Pace(NamedTuple):
+    """What all substeps of a group of islands have in common."""
+
+    substeps: int
+    h: float  # [s]
+    inverse_h: float
+    drag: float  # [1/s]
+    push_speed: float  # [px/s]
+    push_rate: float  # [1/s] of an overlap that bears nothing
+    deep_rate: float  # [1/s] of one that is deep, 0: as fast as it can, beyond …
+    shallow_speed: float  # [px/s] … what a shallow one may come out with
+    spring: Softness  # of a contact between bodies …
+    still_spring: Softness  # … and of one with what cannot be pushed
+    firm: float  # how many times the grip of what bears a load is greater …
+    firm_alone: float  # … and of what alone bears the one side on the other
+
+
+def softness(hertz: float, damping: float, h: float) -> Softness:
+    """The implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
+    omega = math.tau * hertz
+    rate = 2.0 * damping + h * omega
+    return Softness(omega / rate, h * omega * rate)
+
+
+@subkernel
+def firmness_of(r, pace):
+    """How many times a CONSTRAINT row grips firmer, and gives way less, than a spring of its own.
+
+    What bears a load swings as slowly as the load is heavy, so its springs may be stiffer for as much damping; what has
+    just met is none of that.
+    """
+    if not r.loaded or r.meets:
+        return 1.0
+    return pace.firm_alone if r.alone else pace.firm
+
+
+@lru_cache(maxsize=64)
+def pace_of(substeps: int, asked: bool, dt: float, drag: float, push_speed: float, speculative: float) -> Pace:
+    """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads."""
+    h = dt / substeps
+    # Where the substeps follow from the loads, springs are as stiff as they allow.
+    hertz = HERTZ_SHARE / h if asked else min(CONTACT_HERTZ, HERTZ_SHARE / h)
+    spring = softness(hertz, CONTACT_DAMPING, h)
+    slowest = dt / AUTO_SUBSTEPS[0]
+    return Pace(
+        substeps=substeps,
+        h=h,
+        inverse_h=1.0 / h,
+        drag=drag,
+        push_speed=push_speed,
+        # More substeps let nothing out faster.
+        push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / dt,
+        deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
+        shallow_speed=spring.bias_rate * speculative,
+        spring=spring,
+        still_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
+        firm=FIRM if asked else 1.0,
+        firm_alone=FIRM_ALONE if asked else 1.0,
+    )
