@@ -13,19 +13,8 @@ import numpy as np
 
 from physics.fitting.contour import contours
 from physics.fitting.hausdorff import hausdorff
+from physics.fitting.moments import WEIGHTS, Moments, moments, nodes
 from physics.fitting.union import Hull, Stretch, boundary, line
-
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; of a quarter turn the error is far below rounding
-
-
-class Moments(NamedTuple):
-    """Of a figure of density 1."""
-
-    area: float  # [px2]
-    x: float  # centre of area [px]; nan of no area
-    y: float
-    inertia: float  # about that [px4]
 
 
 class Measured(NamedTuple):
@@ -53,22 +42,6 @@ def edges(solid: np.ndarray) -> list[Stretch]:
     return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
 
 
-def moments(around: Sequence[Stretch]) -> Moments:
-    """Of the figure inside a boundary."""
-    if not around:
-        return Moments(0.0, math.nan, math.nan, 0.0)
-    base = around[0].start  # integrals about a point nearby: no digits are lost far from the raster's corner
-    place, step = _nodes(around)
-    x, y, dx, dy = *(place - base).transpose(2, 0, 1), *step.transpose(2, 0, 1)
-    area = float((((x * dy - y * dx) / 2.0) @ WEIGHTS).sum())
-    if area <= 0.0:
-        return Moments(0.0, math.nan, math.nan, 0.0)
-    center_x, center_y = (float((each @ WEIGHTS).sum()) / area for each in (x * x * dy / 2.0, -y * y * dx / 2.0))
-    x, y = x - center_x, y - center_y
-    inertia = float(((x * x * x * dy - y * y * y * dx) @ WEIGHTS).sum()) / 3.0
-    return Moments(area, float(base[0]) + center_x, float(base[1]) + center_y, inertia)
-
-
 def _of_pixels(solid):
     rows, columns = np.nonzero(solid)
     if not len(rows):
@@ -76,19 +49,6 @@ def _of_pixels(solid):
     x, y = columns + 0.5, rows + 0.5
     second = ((x - x.mean()) ** 2 + (y - y.mean()) ** 2).sum() + len(rows) / 6.0
     return Moments(float(len(rows)), float(x.mean()), float(y.mean()), float(second))
-
-
-def _nodes(around):
-    """Places (n, 16, 2) on each stretch where Gauss's rule looks, and how fast they move with the share of the way."""
-    place = np.array([each.at(NODES) for each in around])
-    step = np.empty_like(place)
-    for k, each in enumerate(around):
-        if each.radius == 0.0:
-            step[k] = each.end - each.start
-        else:
-            out = place[k] - each.center
-            step[k] = each.turn * np.stack([-out[:, 1], out[:, 0]], axis=1)
-    return place, step
 
 
 def _shared(around, solid):
@@ -108,7 +68,7 @@ def _shared(around, solid):
     if not cells:
         return 0.0
     row, column = row[within], column[within]
-    place, step = _nodes(cells)
+    place, step = nodes(cells)
     so_far = left[row, column][:, None] + filled[row, column][:, None] * (place[:, :, 0] - column[:, None])
     return float(((so_far * step[:, :, 1]) @ WEIGHTS).sum())
 

@@ -9,7 +9,8 @@ from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.lines import Chain, Segment
 from physics.shapes.mask import PixelMask
-from physics.shapes.mass import Mass, together
+from physics.shapes.mass import Mass
+from physics.shapes.overlapping import weighed_once
 from physics.shapes.tiles import TileGrid
 
 Shape = Circle | Capsule | Polygon | Segment | Chain | TileGrid | PixelMask | Bounds
@@ -17,7 +18,8 @@ SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
-    """Mass of one shape or several together: inertia about the common centre of mass.
+    """Mass of one shape or several together: inertia about the common centre of mass. Where convex ones overlap they
+    are weighed once, as the densest.
 
     density [mass per px2] is that of shapes without a material of their own.
     Raises TypeError for what is no shape, ValueError for a density that is not > 0.
@@ -27,4 +29,4 @@ def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> 
     for shape in parts:
         if not isinstance(shape, SHAPES):
             raise TypeError(f"shapes must be shapes (got {checks.shown(shape)})")
-    return together([shape.mass_of(density if shape.material is None else shape.material.density) for shape in parts])
+    return weighed_once([(shape, density if shape.material is None else shape.material.density) for shape in parts])
