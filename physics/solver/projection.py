@@ -29,6 +29,21 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
         body_inout.angular_velocity += body_inout.inverse_inertia * (anchor_x * y - anchor_y * x)
 
 
+@subkernel
+def resist_rolling(push_inout, a_inout, b_inout):
+    """Slow down how two bodies turn against each other, by no more torque than a PUSH row's normal impulse allows."""
+    turning = a_inout.inverse_inertia + b_inout.inverse_inertia
+    if turning <= 0.0:
+        return
+    limit = push_inout.rolling_limit * push_inout.normal_impulse
+    old = push_inout.rolling_impulse
+    turns = b_inout.angular_velocity - a_inout.angular_velocity
+    impulse = max(-limit, min(limit, old - turns / turning))
+    push_inout.rolling_impulse = impulse
+    a_inout.angular_velocity -= a_inout.inverse_inertia * (impulse - old)
+    b_inout.angular_velocity += b_inout.inverse_inertia * (impulse - old)
+
+
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
     """One pass over the contacts of a world with these effects."""
 
@@ -83,6 +98,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
             c.normal_impulse = impulse
             push(-change * nx, -change * ny, ax, ay, rotation, a)
             push(change * nx, change * ny, bx, by, rotation, b)
+            if friction and rotation and c.rolling_limit > 0.0:
+                resist_rolling(c, a, b)
             if friction and c.friction > 0.0:
                 work_inout[TANGENT_ROWS] += 1
                 tx = -ny

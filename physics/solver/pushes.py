@@ -54,8 +54,10 @@ def prepare_pushes(
             r.friction = friction
             r.restitution = restitution
             r.surface_speed = surface_speed if conveyor == 1 else 0.0
+            r.rolling_limit = rolling
             r.normal_impulse = 0.0
             r.tangent_impulse = 0.0
+            r.rolling_impulse = 0.0
             found += 1
     return found
 

@@ -102,8 +102,10 @@ PUSH = np.dtype(
         ("friction", np.float64),  # mixed
         ("restitution", np.float64),
         ("surface_speed", np.float64),
+        ("rolling_limit", np.float64),  # [px] torque per normal impulse
         ("normal_impulse", np.float64),
         ("tangent_impulse", np.float64),
+        ("rolling_impulse", np.float64),
     ],
     align=True,
 )

@@ -84,10 +84,10 @@ def test_belt_links_have_their_own_speed():
     assert left == pytest.approx(-right, abs=1e-3) and abs(left) == pytest.approx(3.0, rel=0.01)
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("solver", [*SOLVERS, "projection"])
 def test_rolling_ball_goes_on_for_ever_and_stops_with_resistance(solver):
     for resistance in (0.0, 0.02):
-        world = metres(solver)
+        world = metres(solver, effects=pile_effects(stacking=solver != "projection"))
         floor(world, friction=0.8)
         ball = world.add_body(
             Circle(0.5),
@@ -101,7 +101,8 @@ def test_rolling_ball_goes_on_for_ever_and_stops_with_resistance(solver):
             # The torque c r N works against (m r2 / 2) + m r2 about the point of contact: a = c g 2 / 3.
             assert ball.velocity[0] == pytest.approx(2.0 - 5.0 * resistance * G * 2 / 3, rel=0.02)
         else:
-            assert ball.velocity[0] == pytest.approx(2.0, rel=1e-4)
+            # What remembers nothing rubs a little where it sinks in, in every step.
+            assert ball.velocity[0] == pytest.approx(2.0, rel=2e-3 if solver == "projection" else 1e-4)
 
 
 def test_ball_with_resistance_holds_on_a_gentle_slope():
