@@ -3,7 +3,9 @@
 Differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: piles are
 livelier and sink by the slop. What bears nothing is let out of an overlap by speeds of its own, which are none of its
 velocity (split impulses). Cost: ITERATIONS_PER_SUBSTEP passes over the constraints for each substep that soft_step
-would take. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
+would take. Each carries loads on by a row or two: a pyramid of 45 rows, 1,035 boxes, does not come to rest with the ten
+passes of four substeps (measured: it breathes at 8 to 22 px/s for a minute and more); with the forty of sixteen it
+does. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
 import math
