@@ -154,6 +154,12 @@ def recycle_manifolds(
     candidates = batch.candidates
     found = 0
     j = 0
+    row_a = -1
+    row_b = -1
+    p_cosine = 1.0
+    p_sine = 0.0
+    q_cosine = 1.0
+    q_sine = 0.0
     for i in range(batch.count):
         if kinds_inout[i] == NOTHING:
             continue
@@ -169,10 +175,15 @@ def recycle_manifolds(
         q = bodies[b.body_row]
         # The manifold lies within both: what a turn moves is no further out than the smaller side.
         reach = min(p.extent, q.extent) if min(p.extent, q.extent) > 0.0 else max(p.extent, q.extent)
-        p_cosine = math.cos(p.angle)
-        p_sine = math.sin(p.angle)
-        q_cosine = math.cos(q.angle)
-        q_sine = math.sin(q.angle)
+        # The pairs of a body stand together.
+        if a.body_row != row_a:
+            row_a = a.body_row
+            p_cosine = math.cos(p.angle)
+            p_sine = math.sin(p.angle)
+        if b.body_row != row_b:
+            row_b = b.body_row
+            q_cosine = math.cos(q.angle)
+            q_sine = math.sin(q.angle)
         start = found
         fits = True
         last = j
