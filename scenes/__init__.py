@@ -8,6 +8,8 @@ SCENES = {
     "shooter": "scenes.shooter.scene:Shooter",
     "platformer": "scenes.platformer.scene:Platformer",
     "lander": "scenes.lander.scene:Lander",
+    # hard cases of all kinds
+    "lab/gallery": "scenes.lab.gallery.scene:Gallery",
     # finding what touches
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",

@@ -1,0 +1,189 @@
+"""Pages of what is too much: all at one point, too many for their room, far away, told a wrong scale; and of sleep."""
+
+import numpy as np
+
+from physics import Circle, Effects, Material, Polygon
+from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, Page, Way, auto, dynamic, floor
+from scenes.lab.gallery.piles import CRATE, PILE
+
+THOUSAND = 1000
+FAR = 1e7  # [px]
+ROWS = 8
+CROWD, ROOM = 25, 0.79  # a side of the crowd; the share of it that their room has
+WALL = 2.0 * METER
+PILES, HIGH = 12, 10
+APEX = 0.8**2 * 2.0  # [m] a ball that falls two metres comes back to
+
+
+def build_point(side):
+    """A thousand boxes, all at (0, 0)."""
+    side.world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((THOUSAND, 2)))
+
+
+def fastest_move(side):
+    """The farthest that a body came in the step, as a speed [m/s]."""
+    b = dynamic(side.world)
+    way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
+    return float(way.max()) / side.world.dt / METER
+
+
+def build_crowd(side):
+    """625 discs of a metre in a room with place for 496 if they were water."""
+    wide = CROWD * ROOM * METER
+    for x, y, width, height in (
+        (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
+        (0.0, -0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
+        (-0.5 * (wide + WALL), 0.0, WALL, wide),
+        (0.5 * (wide + WALL), 0.0, WALL, wide),
+    ):
+        side.world.add_body(Polygon.box(width, height), position=(x, y), kind="static")
+    apart = wide / (CROWD + 0.3)
+    middle = (CROWD - 1) / 2
+    places = [((i - middle) * apart, (j - middle) * apart) for j in range(CROWD) for i in range(CROWD)]
+    side.world.add_bodies(Circle(0.5 * METER), places)
+
+
+def unrest(side):
+    """Root mean square of all speeds [m/s]."""
+    b = dynamic(side.world)
+    return float(np.sqrt((b["vx"] ** 2 + b["vy"] ** 2).mean())) / METER
+
+
+def build_pyramid(side, origin):
+    """Eight rows of crates about a point this far right and down."""
+    floor_at = (origin, origin + 2.0 * METER)
+    side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
+    places = [
+        (origin + (column - (ROWS - row - 1) / 2) * 1.02 * METER, origin - (row + 0.5) * METER)
+        for row in range(ROWS)
+        for column in range(ROWS - row)
+    ]
+    side.world.add_bodies(CRATE, places)
+    side.kept["origin"] = origin
+
+
+def apart(side):
+    """The greatest difference of a body's place to that of the same body on the other side [mm]."""
+    b, other = dynamic(side.world), dynamic(side.other.world)
+    shift = side.kept["origin"] - side.other.kept["origin"]
+    return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))
+
+
+def build_metres(side):
+    """A world in metres: a ball of half a metre two metres above the floor."""
+    material = Material(restitution=0.8)
+    shape = Polygon.box(40.0, 4.0)
+    side.world.add_body(shape, position=(0.0, 2.0), kind="static", material=material)
+    side.kept["ball"] = side.world.add_body(Circle(0.25), position=(0.0, -2.25), material=material)
+    side.kept["top"], side.kept["fell"] = 0.0, False
+
+
+def low(side):
+    """How much of its first apex a ball that has bounced lacks [%]."""
+    ball, kept = side.kept["ball"], side.kept
+    kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
+    if not kept["fell"]:
+        return 0.0
+    kept["top"] = max(kept["top"], -0.25 - ball.position[1])
+    rising = ball.velocity[1] < -0.2
+    return 0.0 if rising else 100.0 * abs(1.0 - kept["top"] / APEX)
+
+
+def build_piles(side):
+    """Twelve columns of ten crates, built as they stand."""
+    floor(side.world)
+    places = [
+        ((column - (PILES - 1) / 2) * 2.0 * METER, -(row + 0.5) * METER)
+        for column in range(PILES)
+        for row in range(HIGH)
+    ]
+    side.world.add_bodies(CRATE, places)
+
+
+def moved(side):
+    """Bodies that the step had to move."""
+    return float(side.world.profile.counters["bodies_integrated"])
+
+
+PAGES = (
+    Page(
+        "point",
+        "A thousand bodies at one point",
+        "A thousand boxes start inside each other: on neither side one is shot out.",
+        "499,500 pairs, none with a direction: each gets one, and no push-out is faster than 3 m/s.",
+        PUSHED,
+        Way("soft step, four substeps", {"substeps": 4}),
+        Effects(response=True, rotation=True, stacking=True),
+        build_point,
+        fastest_move,
+        "m/s at most",
+        3.01,
+        40,
+        (0.0, 0.0, 200.0),
+        alike=True,
+        glance=2,
+    ),
+    Page(
+        "crowd",
+        "625 discs in room for 496",
+        "They cannot fit. Left they boil and some get out; right they lie still.",
+        "Pushed out of one they are in the next, for ever; springs find where all neighbours balance.",
+        PUSHED,
+        auto(50),
+        PILE,
+        build_crowd,
+        unrest,
+        "m/s on average",
+        1.0,
+        240,
+        (0.0, 0.0, 37.0 * METER),
+        judged=LAST,
+    ),
+    Page(
+        "far",
+        "10^7 px from the origin",
+        "The same pyramid at the origin and far away: they stand alike.",
+        "float64 keeps 2e-9 px out there, and contacts are worked out between bodies, not from the origin.",
+        Way("at the origin", bodies={"origin": 0.0}),
+        Way("10^7 px away", bodies={"origin": FAR}),
+        PILE,
+        lambda side: build_pyramid(side, **side.way.bodies),
+        apart,
+        "mm apart",
+        1.0,
+        300,
+        (0.0, -3.5 * METER, 14.0 * METER),
+        alike=True,
+    ),
+    Page(
+        "scale",
+        "Metres taken for pixels",
+        "A ball of e = 0.8 falls two metres: left it does not bounce, right it does.",
+        "Tolerances are in metres: told 32 px to the metre, an impact of 6 m/s counts as 0.2, too slow to bounce.",
+        Way("pixels_per_meter=32, as it is", {"gravity": (0.0, 9.8)}),
+        Way("pixels_per_meter=1", {"gravity": (0.0, 9.8), "pixels_per_meter": 1.0}),
+        Effects(response=True, gravity=True, restitution=True, stacking=True),
+        build_metres,
+        low,
+        "% too low",
+        2.0,
+        90,
+        (0.0, -1.2, 5.0),
+    ),
+    Page(
+        "asleep",
+        "Sleep",
+        "120 crates stand still: right they sleep, and a step costs next to nothing.",
+        "An island at rest is put aside with its contacts and forces until something touches it.",
+        Way("always awake", without=("sleeping",)),
+        Way("sleeping"),
+        PILE.with_(sleeping=True),
+        build_piles,
+        moved,
+        "bodies a step",
+        0.5,
+        150,
+        (0.0, -4.6 * METER, 27.0 * METER),
+        judged=LAST,
+    ),
+)

@@ -1,0 +1,176 @@
+"""How a page's bodies look: pieces in the game's style where they are large enough, plain shapes where they are tiny.
+
+Pieces are drawn on the canvas; what would be smaller than a few canvas pixels there, and pixels of masks, are drawn at
+window resolution.
+"""
+
+from functools import lru_cache
+from math import cos, sin
+
+import numpy as np
+import pygame
+
+from game.drawing.colors import GREEN, INK, PAPER, RED, SKY, faded
+from physics import Capsule, Chain, Circle, PixelMask, Polygon
+from scenes.lab.gallery.page import MARKED
+from scenes.lab.pieces import RAMPS, hull, turning
+
+LEAST, MOST = 8.0, 120.0  # [canvas px] outside of which a shape is drawn plain
+ORDER = ("wood", "gold", "teal", "coral", "violet")
+ASLEEP = "steel"
+STREAK = 12.0  # [canvas px] further than this in a step, and the way is drawn
+GROUND, RIM = (66, 60, 92), (150, 146, 182)
+NEAR = 100  # [canvas px] around the view
+
+
+class Looks:
+    """The bodies of one world, seen through one camera."""
+
+    def __init__(self, world, camera):
+        self.world, self.camera = world, camera
+        self.known = {}  # body id -> (shapes, ramp or None of what stands still, whether it is a sensor)
+
+    def _of(self, identity):
+        if identity not in self.known:
+            body = self.world.body(identity)
+            still = body.kind == "static"
+            ramp = None if still or body.sensor else "steel" if body.material.density > 1.0 else ORDER[identity % 2]
+            if any(isinstance(shape, Circle) for shape in body.shapes) and ramp not in (None, "steel"):
+                ramp = ORDER[2 + identity % 3]
+            self.known[identity] = (body.shapes, ramp, body.sensor)
+        return self.known[identity]
+
+    def draw(self, canvas, alpha):
+        """Grounds and pieces, between the last two steps, clipped to the view."""
+        bodies, zoom = self.world.bodies, self.camera.zoom
+        x, y, angle = (
+            bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
+            for name in ("x", "y", "angle")
+        )
+        x, y = self.camera.to_canvas(x, y, alpha)
+        view = self.camera.viewport
+        canvas.surface.set_clip(view)
+        near = view.inflate(NEAR, NEAR)
+        columns = (each.tolist() for each in (bodies["id"], bodies["awake"], x, y, angle))
+        for identity, awake, px, py, turn in zip(*columns, strict=True):
+            shapes, ramp, sensor = self._of(identity)
+            for shape in shapes:
+                if ramp is None:
+                    draw_ground(canvas.surface, shape, zoom, (px, py, turn), sensor)
+                elif is_piece(shape, zoom) and near.collidepoint(px, py):
+                    turning(scaled(shape, zoom), ramp if awake else ASLEEP).draw(canvas.surface, px, py, turn)
+        canvas.surface.set_clip(None)
+
+    def draw_on_frame(self, frame, marks, steps):
+        """What is tiny, and pixels, at the poses of the last step; ways of what is fast; marks, see Side."""
+        bodies, lens = self.world.bodies, frame.lens(self.camera)
+        surface = frame.surface
+        surface.set_clip(lens.clip)
+        for px, py, good, step in marks:
+            color = faded(GREEN if good else RED, 0.5 * (steps - step) / MARKED)
+            pygame.draw.circle(surface, color, lens.points(px, py), 1.5 * frame.scale)
+        self._draw_ways(surface, lens, bodies)
+        x, y = lens.points(bodies["x"], bodies["y"])
+        for identity, px, py, turn in zip(
+            bodies["id"].tolist(), x.tolist(), y.tolist(), bodies["angle"].tolist(), strict=True
+        ):
+            shapes, ramp, _ = self._of(identity)
+            for shape in shapes:
+                if isinstance(shape, PixelMask):
+                    draw_mask(surface, shape, lens.scale, (px, py), ramp)
+                elif ramp is not None and not is_piece(shape, self.camera.zoom):
+                    draw_plain(surface, shape, lens.scale, (px, py, turn), RAMPS[ramp])
+        surface.set_clip(None)
+
+    def _draw_ways(self, surface, lens, bodies):
+        far = np.hypot(bodies["x"] - bodies["previous_x"], bodies["y"] - bodies["previous_y"]) * self.camera.zoom
+        for row in np.flatnonzero(far > STREAK).tolist():
+            b = bodies[row]
+            _, ramp, _ = self._of(int(b["id"]))
+            if ramp is not None:
+                ends = (lens.points(float(b[x]), float(b[y])) for x, y in (("previous_x", "previous_y"), ("x", "y")))
+                pygame.draw.line(surface, RAMPS[ramp][1], *ends)
+
+
+@lru_cache(maxsize=256)
+def is_piece(shape, zoom):
+    """Whether a shape is large enough, and not too large, for a picture of its own."""
+    if isinstance(shape, (PixelMask, Chain)):
+        return False
+    points, radius = hull(shape)
+    sizes = (np.ptp(points, axis=0) + 2.0 * radius) * zoom
+    return bool(sizes.min() >= LEAST and sizes.max() <= MOST)
+
+
+@lru_cache(maxsize=256)
+def scaled(shape, zoom):
+    """A convex shape so many times as large."""
+    if isinstance(shape, Circle):
+        return Circle(shape.radius * zoom, (shape.center[0] * zoom, shape.center[1] * zoom))
+    if isinstance(shape, Capsule):
+        a, b = ((x * zoom, y * zoom) for x, y in (shape.a, shape.b))
+        return Capsule(a, b, shape.radius * zoom)
+    return Polygon([(x * zoom, y * zoom) for x, y in shape.points], shape.radius * zoom)
+
+
+def placed(shape, zoom, pose):
+    """The corners of a convex shape, or of a chain, at a pose of the surface."""
+    points = np.array(shape.points) if isinstance(shape, Chain) else hull(shape)[0]
+    x, y, angle = pose
+    c, s = cos(angle) * zoom, sin(angle) * zoom
+    return np.column_stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]])
+
+
+def draw_ground(surface, shape, zoom, pose, sensor):
+    """What stands still, on the canvas; a sensor is a bare colour."""
+    if isinstance(shape, PixelMask):
+        return
+    points = placed(shape, zoom, pose).tolist()
+    if isinstance(shape, Circle):
+        pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
+    elif isinstance(shape, Chain):
+        pygame.draw.lines(surface, INK, False, [(x, y + 2) for x, y in points], 3)
+        pygame.draw.lines(surface, RIM, False, points, 2)
+        for x, y in points:
+            surface.set_at((round(x), round(y)), PAPER)
+    else:
+        pygame.draw.polygon(surface, faded(SKY, 0.3) if sensor else GROUND, points)
+        pygame.draw.polygon(surface, SKY if sensor else RIM, points, 1)
+
+
+def draw_plain(surface, shape, zoom, pose, ramp):
+    """A tiny, or a huge, convex shape in two colours."""
+    rim, inside, *_ = ramp
+    points = placed(shape, zoom, pose).tolist()
+    if isinstance(shape, Circle):
+        pygame.draw.circle(surface, inside, points[0], max(1.5, shape.radius * zoom))
+        pygame.draw.circle(surface, rim, points[0], max(1.5, shape.radius * zoom), 1)
+    elif isinstance(shape, Capsule):
+        radius = max(1.0, shape.radius * zoom)
+        pygame.draw.line(surface, inside, points[0], points[1], round(2.0 * radius))
+        for end in points:
+            pygame.draw.circle(surface, inside, end, radius)
+    else:
+        pygame.draw.polygon(surface, inside, points)
+        pygame.draw.polygon(surface, rim, points, 1)
+
+
+def draw_mask(surface, mask, zoom, place, ramp):
+    """The pixels of a mask that does not turn; what stands still is darker."""
+    picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
+    width, height = picture.get_size()
+    size = (max(1, round(width * zoom)), max(1, round(height * zoom)))
+    left, top = (at - origin * zoom for at, origin in zip(place, mask.origin, strict=True))
+    surface.blit(pygame.transform.scale(picture, size), (round(left), round(top)))
+
+
+@lru_cache(maxsize=32)
+def mask_picture(mask, color):
+    """The solid pixels in one colour, see-through so that an overlap shows."""
+    solid = mask.solid
+    picture = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA, 32)
+    picture.fill((*color, 0))
+    alpha = pygame.surfarray.pixels_alpha(picture)
+    alpha[:] = np.where(solid.T, 190, 0)
+    del alpha  # unlocks the surface
+    return picture

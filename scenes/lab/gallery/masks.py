@@ -1,0 +1,115 @@
+"""Pages of pixels: a ball in a ring's hole, squares that share less than a pixel."""
+
+from math import cos, hypot, sin
+
+import numpy as np
+
+from physics import Effects, PixelMask, fit
+from scenes.lab.gallery.page import LAST, Page, Way
+
+OUTER, INNER, BALL = 20.0, 16.0, 10.0  # [px] radii
+CLEAR = 1.5  # [px] touches this close are counted for neither side: pixels are not circles
+RINGS = tuple((-84.0 + 56.0 * column, -30.0 + 60.0 * row) for row in range(2) for column in range(4))
+SIZE = 32
+SQUARES = tuple((-150.0 + 100.0 * column, -100.0 + 100.0 * row) for row in range(3) for column in range(4))
+SEEN = Effects()
+
+
+def disc(radius, hole=0.0):
+    """The pixels of a disc, or a ring, whose origin is its middle."""
+    side = int(2 * radius)
+    y, x = np.mgrid[0:side, 0:side] + 0.5 - radius
+    far = np.hypot(x, y)
+    return PixelMask.from_array((far < radius) & (far >= hole))
+
+
+def build_rings(side, tier):
+    """Rings, and a ball for each."""
+    ring, ball = (disc(OUTER, INNER), disc(BALL))
+    if tier != "mask":
+        (ring,), (ball,) = fit(ring, tier), fit(ball, tier)
+    side.kept.update(judged=0, wrong=0, balls=[])
+    for place in RINGS:
+        static = side.world.add_body(ring, position=place, kind="static")
+        side.kept["balls"].append((static, side.world.add_body(ball, position=place, kind="kinematic")))
+
+
+def swing(side):
+    """Each ball through its ring's hole, over its rim and back."""
+    for number, ((x, y), (_, ball)) in enumerate(zip(RINGS, side.kept["balls"], strict=True)):
+        at = 0.031 * side.steps + 0.7 * number
+        far = 17.0 + 17.0 * sin(1.7 * at)
+        ball.move_to((x + far * cos(at), y + far * sin(at)), 0.0)
+
+
+def wrong(side):
+    """Verdicts that geometry refutes, of all that are clear so far [%]: they touch from 6 to 30 px between middles."""
+    met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
+    for ring, ball in side.kept["balls"]:
+        far = hypot(ball.position[0] - ring.position[0], ball.position[1] - ring.position[1])
+        gap = max(INNER - BALL - far, far - OUTER - BALL)
+        if abs(gap) > CLEAR:
+            side.kept["judged"] += 1
+            side.kept["wrong"] += (gap < 0.0) != (frozenset((ring.id, ball.id)) in met)
+    return 100.0 * side.kept["wrong"] / max(1, side.kept["judged"])
+
+
+def build_squares(side, snap):
+    """Pairs of full squares of 32 px."""
+    square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
+    side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
+    for place in SQUARES:
+        one = side.world.add_body(square, position=place, kind="static")
+        side.kept["pairs"].append((one, side.world.add_body(square, position=place, kind="kinematic")))
+
+
+def scatter(side):
+    """Each second square anywhere where it overlaps the first, between pixels too."""
+    offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
+    for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
+        other.move_to((x + dx, y + dy), 0.0)
+
+
+def missed(side):
+    """Overlaps that were not told, of all so far [%]."""
+    side.kept["judged"] += len(SQUARES)
+    side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
+    return 100.0 * side.kept["missed"] / side.kept["judged"]
+
+
+PAGES = (
+    Page(
+        "ring",
+        "A ball in a ring",
+        "Balls swing through the holes of rings: left they touch where nothing does.",
+        "A hull has no hole. Pixels are compared by bitwise AND, 64 in a word, and cost hardly more.",
+        Way("hulls", bodies={"tier": "hull"}),
+        Way("every pixel", bodies={"tier": "mask"}),
+        SEEN,
+        lambda side: build_rings(side, **side.way.bodies),
+        wrong,
+        "% wrong verdicts",
+        0.5,
+        400,
+        (0.0, 0.0, 234.0),
+        act=swing,
+        judged=LAST,
+    ),
+    Page(
+        "squares",
+        "Less than a pixel",
+        "Squares of 32 px overlap by any amount: left 3 % of the overlaps are missed.",
+        "On whole pixels 1 - (63/64)^2 = 3.1 % round to no overlap at all; exact squares stand where they are.",
+        Way("snap=True: as drawn", bodies={"snap": True}),
+        Way("snap=False: exact", bodies={"snap": False}),
+        SEEN,
+        lambda side: build_squares(side, **side.way.bodies),
+        missed,
+        "% missed",
+        0.2,
+        400,
+        (0.0, 0.0, 468.0),
+        act=scatter,
+        judged=LAST,
+    ),
+)

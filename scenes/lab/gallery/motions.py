@@ -1,0 +1,185 @@
+"""Pages of motions whose end is known: bounces, glancing blows, a slope, seams."""
+
+from math import cos, hypot, radians, sin, sqrt, tan
+
+import numpy as np
+
+from physics import Capsule, Chain, Circle, Effects, Filter, Material, Polygon
+from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, SOFT, Page, Way, floor
+
+BALL, DROP, BOUNCES = 0.25 * METER, 0.5 * METER, 17
+GRAVITY = 9.8 * METER
+DISC = 0.5 * METER
+SPEEDS = (2.5 * METER, 5.0 * METER, 20.0 * METER)
+SLOPE = radians(30.0)
+TILE, TILES = 0.5 * METER, 28
+SLIDERS = ((Circle(7.0), 7.0), (Capsule((-7.0, 0.0), (7.0, 0.0), 5.0), 5.0))  # shape, height of the middle
+SLIDING = 5.5 * METER  # [px/s]
+SETTLED = 60  # steps after which a box has found its hold
+
+
+def build_ball(side):
+    """A ball over a floor, neither of which takes any of its speed."""
+    elastic = Material(restitution=1.0)
+    floor(side.world, material=elastic)
+    side.kept["ball"] = side.world.add_body(Circle(BALL), position=(0.0, -BALL - DROP), material=elastic)
+    side.kept["heights"], side.kept["bounces"] = [DROP], 0
+
+
+def apex(side):
+    """The worst of the first seventeen apexes against the height it fell from [%]: of the parabola through three steps.
+
+    Where the bounces end early, all that is missing.
+    """
+    kept, found = side.kept, 0.0
+    kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
+    if len(kept["heights"]) == 3 and kept["bounces"] < BOUNCES:
+        before, top, after = kept["heights"]
+        if top > before and top >= after:
+            kept["bounces"] += 1
+            height = top - (after - before) ** 2 / (8.0 * (before - 2.0 * top + after))
+            found = 100.0 * abs(height / DROP - 1.0)
+    due = int(side.steps / 60 / (2.0 * sqrt(2.0 * DROP / GRAVITY)) - 0.75)
+    return 100.0 if min(due, BOUNCES) > kept["bounces"] + 1 else found
+
+
+def blows():
+    """(offset in diameters, speed [px/s], how far further away [px]) of 24 glancing blows."""
+    chance = np.random.default_rng(5)
+    return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]
+
+
+def build_discs(side):
+    """Each disc flies past the middle of another that rests, without friction."""
+    side.kept["pairs"] = []
+    for number, (offset, speed, further) in enumerate(blows()):
+        x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
+        alone = {"material": Material(friction=0.0, restitution=1.0), "filter": Filter(1 << number, 1 << number)}
+        place = (x - 1.5 * METER - further, y)
+        one = side.world.add_body(Circle(DISC), position=place, velocity=(speed, 0.0), **alone)
+        side.world.add_body(Circle(DISC), position=(x, y + offset * 2.0 * DISC), **alone)
+        side.kept["pairs"].append((one, offset, speed))
+
+
+def glance(side):
+    """The worst difference of a disc's velocity after the blow to what the line of centres says, in its speed [%]."""
+    worst = 0.0
+    for disc, offset, speed in side.kept["pairs"]:
+        nx, ny = sqrt(1.0 - offset * offset), offset
+        vx, vy = disc.velocity
+        if (vx, vy) != (speed, 0.0):
+            worst = max(worst, 100.0 * hypot(vx - speed * (1.0 - nx * nx), vy + speed * nx * ny) / speed)
+    return worst
+
+
+def build_slope(side, share):
+    """A box on a slope of 30 degrees whose friction is this share of what holds it."""
+    material = Material(friction=share * tan(SLOPE))
+    c, s = cos(SLOPE), sin(SLOPE)
+    plank = Polygon.box(40.0 * METER, 2.0 * METER)
+    side.world.add_body(plank, position=(-s * METER, c * METER), angle=SLOPE, kind="static", material=material)
+    place = (0.5 * METER * s, -0.5 * METER * c)
+    side.kept["box"] = side.world.add_body(Polygon.box(METER, METER), position=place, angle=SLOPE, material=material)
+    side.kept["at"] = None
+
+
+def creep(side):
+    """How far the box comes down the slope after the first second [mm]."""
+    x, y = side.kept["box"].position
+    if side.steps == SETTLED:
+        side.kept["at"] = x, y
+    if side.kept["at"] is None:
+        return 0.0
+    return MM * hypot(x - side.kept["at"][0], y - side.kept["at"][1])
+
+
+def build_seams(side, ground):
+    """A disc and a capsule on a long floor: of single boxes, or one chain."""
+    below = Filter(1)
+    smooth = Material(friction=0.0)
+    if ground == "boxes":
+        places = [((k + 0.5) * TILE, TILE / 2) for k in range(TILES)]
+        side.world.add_bodies(Polygon.box(TILE, TILE), places, kind="static", filter=below, material=smooth)
+    else:
+        points = [(k * TILE, 0.0) for k in range(TILES + 1)]
+        side.world.add_body(Chain(points), kind="static", filter=below, material=smooth)
+    side.kept["sliders"] = [
+        side.world.add_body(
+            shape,
+            position=(0.5 * METER + METER * number, -high),
+            velocity=(SLIDING, 0.0),
+            material=smooth,
+            filter=Filter(2 << number, 1),
+        )
+        for number, (shape, high) in enumerate(SLIDERS)
+    ]
+
+
+def slowed(side):
+    """The most that a slider's speed differs from what it set out with [%]."""
+    return max(100.0 * abs(each.velocity[0] - SLIDING) / SLIDING for each in side.kept["sliders"])
+
+
+PAGES = (
+    Page(
+        "bounce",
+        "Seventeen bounces of e = 1",
+        "Left each bounce is lower; right the ball comes back to where it fell from.",
+        "Left is reflected where the step ends, pushed out of the floor; right meets the floor within the step.",
+        PUSHED,
+        SOFT,
+        Effects(response=True, gravity=True, restitution=True, stacking=True),
+        build_ball,
+        apex,
+        "% of the height",
+        1.0,
+        690,
+        (0.0, -0.35 * METER, 3.0 * METER),
+    ),
+    Page(
+        "discs",
+        "Glancing blows",
+        "Discs strike others off their middle: left some leave by a wrong angle.",
+        "The normal is that of the moment when they touch, within the step, not of the overlap at its end.",
+        PUSHED,
+        SOFT,
+        Effects(response=True, restitution=True, stacking=True),
+        build_discs,
+        glance,
+        "% of the speed",
+        3.0,
+        90,
+        (17.5 * METER, 3.0 * METER, 44.0 * METER),
+        judged=LAST,
+    ),
+    Page(
+        "slope",
+        "A box just below its friction angle",
+        "Friction is 1 % more than holds the box: left it creeps, right it stays.",
+        "Each step lets the box fall a little before friction answers; kept forces answer before it has moved.",
+        PUSHED,
+        SOFT,
+        Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True),
+        lambda side: build_slope(side, 1.01),
+        creep,
+        "mm down the slope",
+        0.05,
+        300,
+        (0.0, 0.0, 8.0 * METER),
+    ),
+    Page(
+        "seams",
+        "The seams of a floor",
+        "Both floors are flat: boxes slow what slides, a chain does not.",
+        "A box knows no neighbour: what is round and sunk in by a hair meets its corner from the side.",
+        Way("28 single boxes", bodies={"ground": "boxes"}),
+        Way("one chain", bodies={"ground": "chain"}),
+        Effects(response=True, gravity=True, rotation=True, stacking=True),
+        lambda side: build_seams(side, **side.way.bodies),
+        slowed,
+        "% of the speed",
+        0.001,
+        130,
+        (7.0 * METER, -1.0 * METER, 14.4 * METER),
+    ),
+)

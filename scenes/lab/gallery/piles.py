@@ -1,0 +1,234 @@
+"""Pages of what bears: columns askew, mass ratios, cards, a load that is taken away."""
+
+from math import cos, radians, sin
+
+import numpy as np
+
+from physics import Effects, Material, Polygon
+from scenes.lab.gallery.page import KEPT, LAST, METER, MM, SOFT, Page, Way, auto, dynamic, floor
+from scenes.lab.piles import deepest
+
+PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+FOUR = Way("four substeps", {"substeps": 4})
+AUTO = Way('substeps="auto"', {"substeps": "auto"})
+CRATE = Polygon.box(METER, METER)
+CRATES, ASKEW = 80, 0.02 * METER
+HUGE = 16.0 * METER
+TINY = 0.5 * METER
+GONE = 180  # the step before which the load is taken away
+LEAN = radians(25.0)
+CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
+
+
+def build_column(side):
+    """Crates on top of each other, each off by up to 2 cm."""
+    floor(side.world)
+    aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
+    side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
+    side.kept["x"] = dynamic(side.world)["x"].copy()
+
+
+def sway(side):
+    """The farthest that a body is sideways of its start [mm]."""
+    return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
+
+
+def build_heavy(side):
+    """A thousand times its mass on one crate."""
+    floor(side.world)
+    side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
+    side.world.add_body(CRATE, position=(0.0, -1.5 * METER), material=Material(density=1000.0))
+
+
+def build_huge(side):
+    """A crate of 16 m on two of half a metre, and one of those on top."""
+    floor(side.world)
+    tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
+    for x in (-0.4 * HUGE, 0.4 * HUGE):
+        side.world.add_body(tiny, position=(x, -0.5 * TINY))
+    side.kept["load"] = side.world.add_body(Polygon.box(HUGE, HUGE), position=(0.0, -TINY - HUGE / 2))
+    side.kept["y"] = -TINY - HUGE / 2
+    side.world.add_body(tiny, position=(0.0, top - 0.5 * TINY))
+
+
+def sunk(side):
+    """How far the load stands from where it would on crates that do not give [mm]."""
+    return MM * abs(side.kept["load"].position[1] - side.kept["y"])
+
+
+def overlap(side):
+    """The deepest overlap of two that touch [mm]."""
+    return MM * deepest(side.world)
+
+
+def build_leaning(side):
+    """Ten crates, each 8 cm further to the right than the one below: at 10 cm such a tower falls."""
+    floor(side.world)
+    rows = np.arange(10)
+    side.world.add_bodies(CRATE, np.column_stack([0.08 * METER * rows, -(rows + 0.5) * METER]))
+    side.kept["x"] = dynamic(side.world)["x"].copy()
+
+
+def build_struck(side):
+    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls on it from two metres."""
+    floor(side.world)
+    places = [
+        ((column - (9 - row) / 2) * 1.01 * METER, -(row + 0.5) * METER)
+        for row in range(9)
+        for column in range(10 - row)
+    ]
+    side.world.add_bodies(CRATE, places)
+    side.world.add_body(CRATE, position=(0.0, -11.5 * METER), material=Material(density=300.0))
+
+
+def build_load(side):
+    """Two crates, and one of two hundred times their mass on them."""
+    floor(side.world)
+    side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
+    side.kept["top"] = side.world.add_body(CRATE, position=(0.0, -1.5 * METER))
+    side.kept["load"] = side.world.add_body(CRATE, position=(0.0, -2.5 * METER), material=Material(density=200.0))
+
+
+def take_away(side):
+    """The load is gone after three seconds."""
+    if side.steps == GONE:
+        side.world.remove_body(side.kept["load"])
+
+
+def rise(side):
+    """How far the upper crate comes above its place once the load is gone [mm]."""
+    return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
+
+
+def build_cards(side):
+    """Four storeys of cards of 4 cm x 2 m that lean on each other at 25 degrees, one lying on each two pairs."""
+    floor(side.world, material=Material(friction=0.7))
+    thick, high = CARD
+    reach, up = thick * cos(LEAN) + high * sin(LEAN), high * cos(LEAN) + thick * sin(LEAN)
+    card, lying = Polygon.box(2 * thick, 2 * high), Polygon.box(1.78 * METER, 2 * thick)
+    apart, left, foot = 1.8 * METER, -2.7 * METER, 0.0
+    options = {"material": Material(friction=0.7)}
+    for pairs in range(4, 0, -1):
+        for k in range(pairs):
+            x = left + apart * k
+            side.world.add_body(card, position=(x - reach, -foot - up), angle=LEAN, **options)
+            side.world.add_body(card, position=(x + reach, -foot - up), angle=-LEAN, **options)
+        top = foot + 2 * up
+        for k in range(pairs - 1):
+            side.world.add_body(lying, position=(left + apart * (k + 0.5), -top - thick), **options)
+        foot, left = top + 2 * thick, left + apart / 2
+    side.kept["x"] = dynamic(side.world)["x"].copy()
+
+
+PAGES = (
+    Page(
+        "column",
+        "80 crates, 2 cm askew",
+        "Left the column buckles and falls; right it stands as it was set up.",
+        "A contact is a spring; eighty in a row buckle unless substeps make them stiff enough for their load.",
+        FOUR,
+        AUTO,
+        PILE,
+        build_column,
+        sway,
+        "mm sideways",
+        30.0,
+        600,
+        (0.0, -41.0 * METER, 118.0 * METER),
+    ),
+    Page(
+        "heavy",
+        "1000 : 1 on one crate",
+        "Left the crate below is squashed; right it bears a thousand of its kind.",
+        "A contact sags by F / (m w^2), and m is the lower crate's: a higher w, more substeps, is what helps.",
+        FOUR,
+        auto(6),
+        PILE,
+        build_heavy,
+        overlap,
+        "mm overlap",
+        6.0,
+        300,
+        (0.0, -1.0 * METER, 7.0 * METER),
+        judged=LAST,
+    ),
+    Page(
+        "huge",
+        "Tiny under huge, tiny on huge",
+        "A crate of 16 m stands on two of half a metre: left it crushes them.",
+        "512 : 1 on each. What the last step bore says how many substeps this island takes, and no other.",
+        FOUR,
+        auto(6),
+        PILE,
+        build_huge,
+        sunk,
+        "mm sunk",
+        6.0,
+        300,
+        (0.0, -8.0 * METER, 27.0 * METER),
+        judged=LAST,
+    ),
+    Page(
+        "unloaded",
+        "A load is taken away",
+        "When the heavy crate is gone, what it pressed flat springs up: left it jumps.",
+        "What sank under the load comes out when it goes; what never sank has nowhere to come from.",
+        FOUR,
+        auto(5),
+        PILE,
+        build_load,
+        rise,
+        "mm up",
+        5.0,
+        300,
+        (0.0, -1.5 * METER, 8.0 * METER),
+        act=take_away,
+    ),
+    Page(
+        "cards",
+        "A house of cards",
+        "Left the house slumps to the side; right it stands nearly as it was built.",
+        "26 cards of 4 cm bear each other by friction alone; a contact that gives lets each of them lean.",
+        FOUR,
+        AUTO,
+        PILE,
+        build_cards,
+        sway,
+        "mm sideways",
+        20.0,
+        600,
+        (0.0, -4.0 * METER, 14.0 * METER),
+        judged=LAST,
+    ),
+    Page(
+        "leaning",
+        "A leaning tower",
+        "Each crate is 8 cm further out; 10 cm is the limit. Left the tower falls.",
+        "One edge of each crate bears nearly all: where that gives, the tower leans further, and it gives the more.",
+        KEPT,
+        SOFT,
+        PILE,
+        build_leaning,
+        sway,
+        "mm sideways",
+        10.0,
+        240,
+        (0.5 * METER, -5.0 * METER, 17.0 * METER),
+    ),
+    Page(
+        "struck",
+        "300 : 1 falls on a pyramid",
+        "A crate of 300 times the mass falls two metres: left it ploughs the pyramid.",
+        "The blow passes through nine rows within a step or two; the island takes 32 substeps until it is quiet.",
+        KEPT,
+        auto(5),
+        PILE,
+        build_struck,
+        overlap,
+        "mm overlap",
+        5.0,
+        240,
+        (0.0, -5.5 * METER, 17.0 * METER),
+        judged=LAST,
+    ),
+)

@@ -1,0 +1,248 @@
+"""Hard cases, a page each: the naive way and ours side by side, with the error and the time of both.
+
+What to see: two worlds with the same bodies. Left they are stepped as one would at first: tested where they stand,
+solved with a given number of substeps, without sleep, as hulls. Right they are stepped as they should be. Under each
+its error now, against the limit that the page is judged by, and what a step takes. Some pages ask whether both sides
+are alike: a thousand bodies at one point, ten million pixels from the origin.
+"""
+
+from collections import deque
+from math import log10
+
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SLATE
+from game.drawing.sprites import load_backdrop
+from game.drawing.typical import Typical
+from game.input.inputs import InputFrame
+from game.scene import Goal, Scene, Slider
+from physics import Effects
+from scenes.lab.gallery.looks import Looks
+from scenes.lab.gallery.page import Side
+from scenes.lab.gallery.pages import PAGES
+from scenes.lab.piles import SOLVERS, step_seconds
+from scenes.lab.yard import HEAD, draw_head
+
+NAMES = tuple(page.name for page in PAGES)
+VIEWS = ((4, 18, 234, 160), (242, 18, 234, 160))
+COLORS = (ORANGE, GREEN)
+PLOT = (116, 192, 118, 40)  # of the left side; the other's is as far to the right as its view
+HISTORY = 240  # steps in a plot
+BELOW, ABOVE = 2.0, 3.0  # decades of a plot under the limit and over it
+GLANCES = {sum(page.glance for page in PAGES[:number]): number for number in range(len(PAGES))}  # frame -> page
+TOURED = sum(page.glance for page in PAGES)  # frames after which the bot has looked into each
+CONTACTS_A_FRAME = 20000  # more of them, and a step is shown for several frames
+DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames by which the bot has judged all
+
+
+class Gallery(Scene):
+    """The page that is open: two sides, stepped in the same frame."""
+
+    name = "lab/gallery"
+    title = "Gallery"
+    about = (
+        "Twenty-two hard cases, the naive way and ours side by side: what goes wrong, by how much, and what it costs."
+    )
+    effects = Effects(
+        response=True,
+        gravity=True,
+        rotation=True,
+        friction=True,
+        restitution=True,
+        stacking=True,
+        continuous=True,
+        sleeping=True,
+        sensors=True,
+    )
+    features = (
+        "tunnelling, columns, mass ratios, bounces, seams, pixels",
+        "error against a limit, and microseconds, of both ways",
+        "a thousand bodies at one point, 10^7 px from the origin",
+    )
+    solvers = SOLVERS
+    sliders = (Slider("page", 0, len(PAGES) - 1, 0, choices=NAMES),)
+    actions = (("left right", "page"), ("Space", "again"))
+    head = HEAD
+    legend_at = (6, 20)
+
+    def build(self):
+        """The sky; then the page."""
+        self.sky = load_backdrop("sky_dusk")
+        self.verdicts = {}  # page name -> (error of the naive way, of ours), when it was judged
+        self.open()
+
+    def open(self):
+        """The page from its start."""
+        page = self.page
+        self.worlds, self.sides = [], []
+        for way in (page.naive, page.ours):
+            wanted = {
+                name: getattr(page.effects, name) and getattr(self.effects, name) for name in self.effects.names()
+            }
+            wanted.update(dict.fromkeys(way.without, False))
+            settings = dict(way.world)
+            solver = settings.pop("solver", "soft_step" if page.effects.stacking else "projection")
+            world = self.add_world(Effects(**wanted), solver=solver, seed=self.seed, **settings)
+            self.sides.append(Side(page, way, world))
+        self.wait = self.pace = 0  # frames until the next step; between the last two
+        self.stepped = False
+        for side, other in zip(self.sides, reversed(self.sides), strict=True):
+            side.begin(other)
+        x, y, width = page.frame
+        zoom = VIEWS[0][2] / width
+        self.cameras = []
+        for view, side in zip(VIEWS, self.sides, strict=True):
+            origin = side.kept.get("origin", 0.0)
+            self.cameras.append(Camera(view, zoom, x + origin - view[2] / zoom / 2, y + origin - view[3] / zoom / 2))
+        self.looks = [Looks(side.world, camera) for side, camera in zip(self.sides, self.cameras, strict=True)]
+        self.errors = [deque(maxlen=HISTORY) for _ in self.sides]
+        self.costs = [Typical() for _ in self.sides]
+
+    @property
+    def page(self):
+        """The page that is open."""
+        return PAGES[int(self.values["page"])]
+
+    def change_slider(self, name, value):
+        """Another page, from its start."""
+        super().change_slider(name, value)
+        self.open()
+
+    def update(self, inputs):
+        """Keys; both worlds a step, or one frame less to wait."""
+        turn = inputs.pressed("right") - inputs.pressed("left")
+        if turn:
+            self.change_slider("page", (self.values["page"] + turn) % len(PAGES))
+        if inputs.pressed("fire"):
+            self.open()
+        self.stepped = self.wait == 0
+        if not self.stepped:
+            self.wait -= 1
+            return
+        for side in self.sides:
+            side.step()
+        for side, errors in zip(self.sides, self.errors, strict=True):
+            side.measure()
+            errors.append(side.now)
+        self.wait = self.pace = max(side.world.profile.counters["contacts"] for side in self.sides) // CONTACTS_A_FRAME
+        if self.sides[0].steps == self.page.steps:
+            self.verdicts[self.page.name] = tuple(side.error for side in self.sides)
+
+    def observe(self):
+        """Note what the steps took; a frame without one says nothing."""
+        if self.stepped:
+            for cost, side in zip(self.costs, self.sides, strict=True):
+                cost.note(step_seconds(side.world) * 1e6)
+
+    def views(self):
+        """One picture per side."""
+        return list(zip(self.worlds, self.cameras, strict=True))
+
+    def draw(self, canvas, alpha):
+        """Both worlds, a plate under each, and what is to be seen."""
+        canvas.surface.fill(NIGHT)
+        number = int(self.values["page"]) + 1
+        draw_head(canvas, "GALLERY", f"{number} of {len(PAGES)}")
+        canvas.text(self.page.title, 60, 4, PAPER)
+        if self.wait:
+            alpha = 1.0
+        for index, camera in enumerate(self.cameras):
+            view = camera.viewport
+            canvas.surface.blit(self.sky, view, (60 * index, 60, *view.size))
+            self.looks[index].draw(canvas, alpha)
+            pygame.draw.rect(canvas.surface, COLORS[index], view.inflate(2, 2), 1)
+            self._draw_figures(canvas, index)
+        canvas.text(self.page.seen, 6, 240, PAPER)
+        canvas.text(self.page.why, 6, 254, FOG, SMALL)
+
+    def _draw_figures(self, canvas, index):
+        side, x = self.sides[index], VIEWS[index][0]
+        page, held = side.page, side.holds
+        canvas.text(side.way.name, x + 2, 182, COLORS[index])
+        canvas.text(amount(side.error), x + 2, 194, GREEN if held else RED)
+        canvas.text(page.unit, x + 2, 204, FOG, SMALL)
+        canvas.text(f"limit {amount(page.limit)}", x + 2, 212, FOG, SMALL)
+        spent = self.costs[index].value
+        canvas.text(f"{spent:,.0f} us a step", x + 2, 221, GOLD, SMALL)
+        if self.wait:
+            canvas.text(f"slower: {self.pace} frames a step", x + 2, 229, ORANGE, SMALL)
+
+    def draw_on_frame(self, frame):
+        """What is tiny, and the errors against their limit."""
+        for index, look in enumerate(self.looks):
+            look.draw_on_frame(frame, self.sides[index].marks, self.sides[index].steps)
+            self._draw_errors(frame, index)
+
+    def _draw_errors(self, frame, index):
+        """A curve on a logarithmic scale, the limit across it."""
+        left, top, width, height = PLOT
+        rect = frame.from_canvas((left + VIEWS[index][0], top, width, height))
+        surface, scale, limit = frame.surface, frame.scale, self.page.limit
+        surface.fill(INK, rect)
+        pygame.draw.rect(surface, SLATE, rect, 1)
+
+        def height_of(error):
+            share = (log10(max(error, limit * 10**-BELOW) / limit) + BELOW) / (BELOW + ABOVE)
+            return rect.bottom - 2 - (rect.height - 4) * min(share, 1.0)
+
+        y = height_of(limit)
+        for x in range(rect.left + 2, rect.right - 2, 6 * scale):
+            pygame.draw.line(surface, GOLD, (x, y), (min(x + 3 * scale, rect.right - 2), y))
+        errors = self.errors[index]
+        if len(errors) > 1:
+            notch = (rect.width - 4) / (HISTORY - 1)
+            points = [(rect.left + 2 + notch * k, height_of(error)) for k, error in enumerate(errors)]
+            pygame.draw.lines(surface, COLORS[index], False, points, max(1, scale - 1))
+        plot_scale = frame.plot_scale
+        frame.text_if_free("limit", rect.right - 3 * plot_scale, y - 7 * plot_scale, GOLD, SMALL, plot_scale, "right")
+        frame.fix(rect)
+
+    def check(self):
+        """On each page that was judged the naive way leaves the limit and ours keeps it; or both are alike."""
+        return [
+            Goal(
+                page.title,
+                DUE,
+                page.name in self.verdicts and is_met(page, *self.verdicts[page.name]),
+                self._told(page),
+            )
+            for page in PAGES
+        ]
+
+    def _told(self, page):
+        if page.name not in self.verdicts:
+            return "not judged yet"
+        naive, ours = self.verdicts[page.name]
+        return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
+
+    def bot(self):
+        """A glance into each page; then each until it is judged."""
+        if self.frame < TOURED:
+            number = GLANCES.get(self.frame)
+            return InputFrame(changes=() if number is None else (("slider:page", number),))
+        following = min(len(self.verdicts), len(PAGES) - 1)
+        if self.page is not PAGES[following] or self.frame == TOURED:
+            return InputFrame(changes=(("slider:page", following),))
+        return InputFrame()
+
+    def state(self):
+        """The page, its errors, and all verdicts; the worlds hold the rest."""
+        sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
+        verdicts = (value for pair in self.verdicts.values() for value in pair)
+        return (self.frame, self.values["page"], self.wait, *sides, *self.verdicts, *verdicts)
+
+
+def is_met(page, naive, ours):
+    """Whether a page shows what it is there for."""
+    return ours <= page.limit and (naive <= page.limit) == page.alike
+
+
+def amount(value):
+    """An error as short text: 0, 0.002, 18.2, 50,314."""
+    if value == 0.0:
+        return "0"
+    if abs(value) < 0.001:
+        return f"{value:.0e}".replace("e-0", "e-")
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"

@@ -1,0 +1,154 @@
+"""lab/gallery: the naive way leaves each page's limit and ours keeps it, or both are alike."""
+
+import numpy as np
+import pytest
+
+import physics
+from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT
+from game.drawing.font import load_font
+from game.input.inputs import InputFrame, InputState
+from game.run.session import Session
+from game.run.sources import BotSource
+from physics import World
+from scenes.lab.gallery.page import Side
+from scenes.lab.gallery.pages import PAGES
+from scenes.lab.gallery.scene import NAMES, TOURED, Gallery, amount, is_met
+
+HEAVY = {"column", "struck", "point", "crowd", "far", "asleep", "cards", "squares", "wall", "rods", "bullets", "beam"}
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of many bodies")
+BY_WEIGHT = [pytest.param(page, id=page.name, marks=needs_speed if page.name in HEAVY else ()) for page in PAGES]
+
+
+def opened(name, seed=0):
+    scene = Gallery(seed)
+    scene.change("slider:page", NAMES.index(name))
+    return scene
+
+
+def step(scene, *actions):
+    inputs = InputState()
+    inputs.set(InputFrame(frozenset(actions)))
+    scene.step(inputs)
+    scene.observe()
+
+
+@pytest.mark.parametrize("page", BY_WEIGHT)
+def test_the_naive_way_leaves_the_limit_and_ours_keeps_it(page):
+    scene = opened(page.name)
+    while page.name not in scene.verdicts:
+        step(scene)
+    naive, ours = scene.verdicts[page.name]
+    assert scene.sides[0].steps == page.steps
+    if page.alike:
+        assert naive <= page.limit and ours <= page.limit
+    else:
+        assert naive > 1.5 * page.limit, f"{naive} {page.unit}: nothing is wrong with the naive way"
+        assert ours <= page.limit, f"{ours} {page.unit}"
+    assert next(goal for goal in scene.check() if goal.name == page.title).met
+
+
+def test_a_page_is_met_from_both_sides_only():
+    page, alike = (next(page for page in PAGES if page.alike is wanted) for wanted in (False, True))
+    over, under = 2.0 * page.limit, 0.5 * page.limit
+    assert is_met(page, over, under)
+    assert not is_met(page, under, under) and not is_met(page, over, over)
+    over, under = 2.0 * alike.limit, 0.5 * alike.limit
+    assert is_met(alike, under, under) and not is_met(alike, over, under) and not is_met(alike, under, over)
+    assert not is_met(page, float("nan"), float("nan")) and not is_met(alike, float("nan"), under)
+
+
+def run(page, effects, steps):
+    """The digests of our side after each step."""
+    settings = dict(page.ours.world)
+    solver = settings.pop("solver", "soft_step" if effects.stacking else "projection")
+    side = Side(page, page.ours, World(effects, solver=solver, **settings))
+    side.begin(side)
+    for _ in range(steps):
+        side.step()
+        yield side.world.digest()
+
+
+NEEDS = {"response": ("friction", "restitution", "stacking", "sleeping"), "stacking": ("sleeping",)}
+EFFECTS = [(page, effect) for page in PAGES for effect in page.effects.names()]
+
+
+@needs_speed
+@pytest.mark.parametrize("page, effect", EFFECTS, ids=[f"{page.name}-{effect}" for page, effect in EFFECTS])
+def test_a_page_declares_only_the_effects_that_it_calls_for(page, effect):
+    steps = 2 if page.name == "point" else min(page.steps, 150)
+    try:
+        gone = page.effects.with_(**dict.fromkeys((effect, *NEEDS.get(effect, ())), False))
+        for with_it, without in zip(run(page, page.effects, steps), run(page, gone, steps), strict=True):
+            if with_it != without:
+                return
+    except ValueError as error:
+        assert any(each in str(error) for each in (effect, *NEEDS.get(effect, ())))
+        return
+    pytest.fail(f"{page.name} declares {effect} and does not call for it")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_both_sides_begin_alike(page):
+    scene = opened(page.name)
+    left, right = (world.bodies[world.bodies["kind"] != 0] for world in scene.worlds)
+    assert len(left) == len(right) and page.naive != page.ours
+    if page.name == "far":
+        return
+    for column in ("x", "y", "angle", "vx", "vy", "angular_velocity"):
+        assert np.array_equal(left[column], right[column]), column
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_its_two_lines_fit_the_picture(page):
+    for text, font in ((page.seen, TEXT), (page.why, SMALL)):
+        assert load_font(font).measure(text, 1)[0] <= CANVAS_SIZE[0] - 10, text
+        assert text.endswith(".")
+    for way in (page.naive, page.ours):
+        assert load_font(TEXT).measure(way.name, 1)[0] <= 230
+    assert load_font(SMALL).measure(page.unit, 1)[0] <= 110
+
+
+def test_keys_turn_the_pages_and_begin_them_again():
+    scene = Gallery(0)
+    step(scene, "left")
+    assert scene.page is PAGES[-1]
+    step(scene, "right")
+    step(scene, "right")
+    assert scene.page is PAGES[1] and scene.sides[0].steps == 1
+    for _ in range(3):
+        step(scene)
+    assert scene.sides[0].steps == 4
+    step(scene, "fire")
+    assert scene.page is PAGES[1] and scene.sides[0].steps == 1
+    scene.restart()
+    assert scene.page is PAGES[1] and scene.sides[0].steps == 0
+
+
+@needs_speed
+def test_only_steps_that_were_made_are_timed_and_many_contacts_slow_the_picture():
+    scene = opened("point")
+    for _ in range(12):
+        step(scene)
+    assert scene.pace > 12 and scene.sides[0].steps == 1
+    assert [len(cost.last) for cost in scene.costs] == [1, 1]
+    assert all(cost.value > 0.0 for cost in scene.costs)
+
+
+@needs_speed
+def test_the_bot_looks_into_every_page_and_goes_on_when_one_is_judged():
+    scene = Gallery(0)
+    session = Session(scene, BotSource())
+    seen = []
+    for _ in range(TOURED):
+        session.step()
+        seen.append(scene.page.name)
+    assert tuple(dict.fromkeys(seen)) == NAMES and TOURED <= 600, "as long as tests play a lab"
+    for _ in range(PAGES[0].steps + 1):
+        session.step()
+    assert tuple(scene.verdicts) == NAMES[:1] and scene.page is PAGES[1]
+
+
+def test_errors_as_short_text():
+    assert [amount(v) for v in (0.0, 2.1e-13, 0.00166, 18.18, 84.3, 50313.9)] == [
+        "0", "2e-13", "0.00166", "18.2", "84.3", "50,314"
+    ]  # fmt: skip
