@@ -22,6 +22,7 @@ SCENES = {
     "lab/card_house": "scenes.lab.card_house:CardHouse",
     "lab/dominoes": "scenes.lab.dominoes:Dominoes",
     "lab/tumbler": "scenes.lab.tumbler:Tumbler",
+    "lab/sleeping": "scenes.lab.sleeping:Sleeping",
     "lab/mask_stack": "scenes.lab.mask_stack:MaskStack",
     "lab/carving": "scenes.lab.carving:Carving",
     # what collides and bounces

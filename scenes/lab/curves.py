@@ -9,15 +9,15 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, INK, SLATE
 from game.drawing.typical import Typical
 
-HISTORY = 150  # steps kept: 2.5 seconds
+HISTORY = 150  # steps kept unless told: 2.5 seconds
 
 
 class Curves:
-    """note(values) once per step; draw() into a canvas rect. `names`: series -> colour."""
+    """note(values) once per step; draw() into a canvas rect. `names`: series -> colour; kept: steps."""
 
-    def __init__(self, title, names):
-        self.title, self.names = title, names
-        self.history = {name: deque(maxlen=HISTORY) for name in names}
+    def __init__(self, title, names, kept=HISTORY):
+        self.title, self.names, self.kept = title, names, kept
+        self.history = {name: deque(maxlen=kept) for name in names}
         self.figures = {name: Typical() for name in names}
 
     def note(self, values):
@@ -48,7 +48,7 @@ class Curves:
             values = self.history[name]
             if len(values) < 2:
                 continue
-            step = plot.width / (HISTORY - 1)
+            step = plot.width / (self.kept - 1)
             x = plot.right - step * (len(values) - 1)
             points = [
                 (x + i * step, plot.bottom - plot.height * log10(value + 1.0) / decades)

@@ -5,15 +5,14 @@ window resolution.
 """
 
 from functools import lru_cache
-from math import cos, sin
 
 import numpy as np
 import pygame
 
 from game.drawing.colors import GREEN, INK, PAPER, RED, SKY, faded
-from physics import Capsule, Chain, Circle, PixelMask, Polygon
+from physics import Capsule, Chain, Circle, PixelMask
 from scenes.lab.gallery.page import MARKED
-from scenes.lab.pieces import RAMPS, hull, turning
+from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
 LEAST, MOST = 8.0, 120.0  # [canvas px] outside of which a shape is drawn plain
 ORDER = ("wood", "gold", "teal", "coral", "violet")
@@ -102,30 +101,11 @@ def is_piece(shape, zoom):
     return bool(sizes.min() >= LEAST and sizes.max() <= MOST)
 
 
-@lru_cache(maxsize=256)
-def scaled(shape, zoom):
-    """A convex shape so many times as large."""
-    if isinstance(shape, Circle):
-        return Circle(shape.radius * zoom, (shape.center[0] * zoom, shape.center[1] * zoom))
-    if isinstance(shape, Capsule):
-        a, b = ((x * zoom, y * zoom) for x, y in (shape.a, shape.b))
-        return Capsule(a, b, shape.radius * zoom)
-    return Polygon([(x * zoom, y * zoom) for x, y in shape.points], shape.radius * zoom)
-
-
-def placed(shape, zoom, pose):
-    """The corners of a convex shape, or of a chain, at a pose of the surface."""
-    points = np.array(shape.points) if isinstance(shape, Chain) else hull(shape)[0]
-    x, y, angle = pose
-    c, s = cos(angle) * zoom, sin(angle) * zoom
-    return np.column_stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]])
-
-
 def draw_ground(surface, shape, zoom, pose, sensor):
     """What stands still, on the canvas; a sensor is a bare colour."""
     if isinstance(shape, PixelMask):
         return
-    points = placed(shape, zoom, pose).tolist()
+    points = placed(shape, zoom, pose)
     if isinstance(shape, Circle):
         pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
     elif isinstance(shape, Chain):
@@ -141,7 +121,7 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 def draw_plain(surface, shape, zoom, pose, ramp):
     """A tiny, or a huge, convex shape in two colours."""
     rim, inside, *_ = ramp
-    points = placed(shape, zoom, pose).tolist()
+    points = placed(shape, zoom, pose)
     if isinstance(shape, Circle):
         pygame.draw.circle(surface, inside, points[0], max(1.5, shape.radius * zoom))
         pygame.draw.circle(surface, rim, points[0], max(1.5, shape.radius * zoom), 1)
