@@ -177,7 +177,7 @@ PAGES = (
         "An island at rest is put aside with its contacts and forces until something touches it.",
         Way("always awake", without=("sleeping",)),
         Way("sleeping"),
-        PILE.with_(sleeping=True),
+        PILE.with_(sleeping=True, friction=False),
         build_piles,
         moved,
         "bodies a step",

@@ -9,6 +9,7 @@ from scenes.lab.gallery.page import KEPT, LAST, METER, MM, SOFT, Page, Way, auto
 from scenes.lab.piles import deepest
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+ALIGNED = PILE.with_(friction=False)  # one above the other: nothing slides
 FOUR = Way("four substeps", {"substeps": 4})
 AUTO = Way('substeps="auto"', {"substeps": "auto"})
 CRATE = Polygon.box(METER, METER)
@@ -143,7 +144,7 @@ PAGES = (
         "A contact sags by F / (m w^2), and m is the lower crate's: a higher w, more substeps, is what helps.",
         FOUR,
         auto(6),
-        PILE,
+        ALIGNED,
         build_heavy,
         overlap,
         "mm overlap",
@@ -174,8 +175,8 @@ PAGES = (
         "When the heavy crate is gone, what it pressed flat springs up: left it jumps.",
         "What sank under the load comes out when it goes; what never sank has nowhere to come from.",
         FOUR,
-        auto(5),
-        PILE,
+        AUTO,
+        ALIGNED,
         build_load,
         rise,
         "mm up",
