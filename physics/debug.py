@@ -11,6 +11,7 @@ from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.collision.manifold import contacts_of
 from physics.queries.pair_axes import sat_axes
 from physics.queries.pair_distance import gjk_steps
+from physics.queries.visited import visited
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.rasters import draw_pictures
 from physics.tables.body import DYNAMIC
@@ -33,6 +34,7 @@ __all__ = [
     "sat_axes",
     "shape_rows",
     "structure",
+    "visited",
 ]
 
 ROW = np.dtype(

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from physics.broadphase.proxies import Strategy
+from physics.broadphase.proxies import Box, Strategy
 from physics.checks import Pair
 from physics.jit import kernel
 from physics.shapes.placement import refresh_aabbs
@@ -151,10 +151,14 @@ class AskedWorld(IndexedWorld, Protocol):
 
 
 class QueryIndex:
-    """The look-up of one world. The counters of its last step are left alone: a query counts in `work`."""
+    """The look-up of one world. The counters of its last step are left alone: a query counts in `work`.
+
+    asked: the boxes (lower x, y, upper x, y) [px] that the last query looked into, in order.
+    """
 
     def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
+        self.asked: list[Box] = []
         self.seen = ()  # what everything was looked at for: other tables make it stale
         self.step = -1  # the step after which it was last brought up to date
         self.awake = np.zeros(0, np.int64)  # body rows that were awake then
@@ -174,6 +178,7 @@ class QueryIndex:
     def begin(self, world: IndexedWorld) -> None:
         """Start a query: counters to zero, AABBs and loose rows up to date."""
         self.work[:] = 0
+        self.asked.clear()
         self.refresh(world)
 
     def refresh(self, world: IndexedWorld) -> None:
@@ -227,6 +232,7 @@ class QueryIndex:
         """Shape rows, in order, whose AABB meets the closed box [px] within rounding; none quarantined."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
+        self.asked.append(box)
         found = 0
         if not world.pairs.everything and self.loose_count < len(world.shapes):
             found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
