@@ -20,7 +20,7 @@ from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon, debug
 from scenes.lab.curves import Curves
-from scenes.lab.pieces import piece, placed, scaled, turning
+from scenes.lab.pieces import hull, piece, placed, scaled, turning
 from scenes.lab.piles import step_seconds
 from scenes.lab.yard import HEAD, Yard, plate
 
@@ -275,7 +275,7 @@ class Sleeping(Scene):
                 pygame.draw.polygon(frame.surface, color, points, thick)
             else:
                 for end in points:
-                    pygame.draw.circle(frame.surface, color, end, shape.radius * lens.scale, thick)
+                    pygame.draw.circle(frame.surface, color, end, hull(shape)[1] * lens.scale, thick)
         frame.surface.set_clip(None)
         for curves, (_, rect) in zip(self.curves, PLOTS, strict=True):
             curves.draw(frame, rect)
