@@ -26,7 +26,7 @@ needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here d
 # Thin lines and an upright box: whoever touches their bounds touches them.
 SAME_WITHOUT_NARROW_PHASE = {"lab/sensors"}
 # What these change is no matter of a world: the rules, the picture.
-BESIDE_THE_WORLDS = {("shooter", "hurts"), ("lab/shapes", "step")}
+BESIDE_THE_WORLDS = {("shooter", "hurts"), ("lab/shapes", "step"), ("lab/queries", "query"), ("lab/queries", "size")}
 
 
 def play(scene, frames, source=None):

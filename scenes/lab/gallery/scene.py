@@ -13,15 +13,15 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SLATE
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SLATE, faded
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from physics import Effects
-from scenes.lab.gallery.looks import Looks
-from scenes.lab.gallery.page import Side
+from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
+from scenes.lab.looks import Looks
 from scenes.lab.piles import SOLVERS, step_seconds
 from scenes.lab.yard import HEAD, draw_head
 
@@ -172,8 +172,18 @@ class Gallery(Scene):
     def draw_on_frame(self, frame):
         """What is tiny, and the errors against their limit."""
         for index, look in enumerate(self.looks):
-            look.draw_on_frame(frame, self.sides[index].marks, self.sides[index].steps)
+            look.draw_on_frame(frame)
+            self._draw_marks(frame, index)
             self._draw_errors(frame, index)
+
+    def _draw_marks(self, frame, index):
+        """Where something ended well, or did not."""
+        side, lens = self.sides[index], frame.lens(self.cameras[index])
+        frame.surface.set_clip(lens.clip)
+        for x, y, good, step in side.marks:
+            color = faded(GREEN if good else RED, 0.5 * (side.steps - step) / MARKED)
+            pygame.draw.circle(frame.surface, color, lens.points(x, y), 1.5 * frame.scale)
+        frame.surface.set_clip(None)
 
     def _draw_errors(self, frame, index):
         """A curve on a logarithmic scale, the limit across it."""

@@ -1,17 +1,17 @@
-"""How a page's bodies look: pieces in the game's style where they are large enough, plain shapes where they are tiny.
+"""How a world's bodies look: pieces in the game's style where they are large enough, plain shapes where they are tiny.
 
 Pieces are drawn on the canvas; what would be smaller than a few canvas pixels there, and pixels of masks, are drawn at
 window resolution.
 """
 
 from functools import lru_cache
+from math import hypot
 
 import numpy as np
 import pygame
 
-from game.drawing.colors import GREEN, INK, PAPER, RED, SKY, faded
+from game.drawing.colors import INK, PAPER, SKY, faded
 from physics import Capsule, Chain, Circle, PixelMask
-from scenes.lab.gallery.page import MARKED
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
 LEAST, MOST = 8.0, 120.0  # [canvas px] outside of which a shape is drawn plain
@@ -60,14 +60,11 @@ class Looks:
                     turning(scaled(shape, zoom), ramp if awake else ASLEEP).draw(canvas.surface, px, py, turn)
         canvas.surface.set_clip(None)
 
-    def draw_on_frame(self, frame, marks, steps):
-        """What is tiny, and pixels, at the poses of the last step; ways of what is fast; marks, see Side."""
+    def draw_on_frame(self, frame):
+        """What is tiny, and pixels, at the poses of the last step; the ways of what is fast."""
         bodies, lens = self.world.bodies, frame.lens(self.camera)
         surface = frame.surface
         surface.set_clip(lens.clip)
-        for px, py, good, step in marks:
-            color = faded(GREEN if good else RED, 0.5 * (steps - step) / MARKED)
-            pygame.draw.circle(surface, color, lens.points(px, py), 1.5 * frame.scale)
         self._draw_ways(surface, lens, bodies)
         x, y = lens.points(bodies["x"], bodies["y"])
         for identity, px, py, turn in zip(
@@ -113,6 +110,8 @@ def draw_ground(surface, shape, zoom, pose, sensor):
         pygame.draw.lines(surface, RIM, False, points, 2)
         for x, y in points:
             surface.set_at((round(x), round(y)), PAPER)
+    elif isinstance(shape, Capsule):
+        draw_plain(surface, shape, zoom, pose, (RIM, RIM))
     else:
         pygame.draw.polygon(surface, faded(SKY, 0.3) if sensor else GROUND, points)
         pygame.draw.polygon(surface, SKY if sensor else RIM, points, 1)
@@ -127,7 +126,12 @@ def draw_plain(surface, shape, zoom, pose, ramp):
         pygame.draw.circle(surface, rim, points[0], max(1.5, shape.radius * zoom), 1)
     elif isinstance(shape, Capsule):
         radius = max(1.0, shape.radius * zoom)
-        pygame.draw.line(surface, inside, points[0], points[1], round(2.0 * radius))
+        (ax, ay), (bx, by) = points
+        nx, ny = by - ay, ax - bx
+        share = radius / max(hypot(nx, ny), 1e-9)
+        nx, ny = share * nx, share * ny
+        sides = [(ax + nx, ay + ny), (bx + nx, by + ny), (bx - nx, by - ny), (ax - nx, ay - ny)]
+        pygame.draw.polygon(surface, inside, sides)
         for end in points:
             pygame.draw.circle(surface, inside, end, radius)
     else:

@@ -1,0 +1,391 @@
+"""Rays, casts, overlaps, areas, the closest point among hundreds of shapes: what do four broad phases look at for it?
+
+What to see: the same question is asked of four worlds in every step, one per strategy. All give the same answer: hits
+with their normals and fractions. What they look at to find it is drawn: boxes of the tree that were entered, and those
+where it turned back; cells of the hash; the stretch of the sweep; every box there is. A long slanted ray asks for
+several boxes along its way, the closest point for larger and larger ones around it.
+"""
+
+from math import atan2, cos, hypot, pi, sin
+from random import Random
+from time import perf_counter
+
+import numpy as np
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
+from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, SLATE, WHITE, YELLOW, faded
+from game.drawing.sprites import load_backdrop
+from game.input.inputs import InputFrame
+from game.overlays.layer_impulses import arrow
+from game.overlays.outlines import draw_outline
+from game.scene import Goal, Scene, Slider
+from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
+from scenes.lab.curves import Curves
+from scenes.lab.looks import Looks
+from scenes.lab.yard import HEAD, darken, draw_head
+
+STRATEGIES = ("tree", "hash", "sweep", "brute")
+QUERIES = ("ray", "all", "cast", "overlap", "closest", "area", "point")
+ABOUT = {
+    "ray": "a ray: the first shape it meets",
+    "all": "a ray: all shapes on its way",
+    "cast": "a disc is cast: what it touches first",
+    "overlap": "a box: whose shapes does it overlap?",
+    "closest": "the nearest point of any shape",
+    "area": "an upright area: whose bounds are in it?",
+    "point": "a point: whose shapes hold it?",
+}
+VIEW, ZOOM = (4, 18, 346, 248), 0.5
+WIDTH, HEIGHT = VIEW[2] / ZOOM, VIEW[3] / ZOOM  # [px] of the world
+SIDE_X, PLOT = 356, (354, 190, 122, 76)
+SPEED = 24.0  # [px/s]
+STILL_SHARE = 0.5  # of the bodies
+DISC = np.hypot(*np.mgrid[-7.5:8, -7.5:8])
+SHAPES = (
+    Circle(8.0),
+    Polygon.box(20.0, 12.0),
+    Capsule((-9.0, 0.0), (9.0, 0.0), 4.0),
+    Polygon([(-8.0, -6.0), (9.0, -2.0), (-1.0, 9.0)], 2.0),
+)
+RING = PixelMask.from_array((DISC < 8.0) & (DISC > 4.0))
+RING_EVERY = 13  # shapes, of which one is a ring of pixels
+ORIGIN, CLEAR = (0.06 * WIDTH, 0.3 * HEIGHT), 60.0  # [px] where rays begin, and around it nobody at first
+SHOWN = 24  # hits that are drawn with normal and fraction
+EACH = 84  # steps that the bot asks one question
+
+
+class Queries(Scene):
+    """Four worlds with the same bodies, and one question."""
+
+    name = "lab/queries"
+    title = "Queries"
+    about = "Rays, casts, overlaps, the closest point among hundreds of shapes: what is looked at to find the answer?"
+    effects = Effects(narrowphase=False)
+    pieces = ("circles", "boxes", "capsules", "masks", "queries", "casts")
+    features = (
+        "rays, casts, overlaps, areas, points, closest point",
+        "nodes and boxes visited, drawn and counted",
+        "tree, hash, sweep and brute force side by side",
+    )
+    sliders = (
+        Slider("query", 0, len(QUERIES) - 1, 0, choices=QUERIES),
+        Slider("size", 4, 80, 16, "px", step=4),
+        Slider("bodies", 100, 2000, 260, step=20),
+    )
+    actions = (
+        ("mouse", "where"),
+        ("click", "from where"),
+        ("left right", "query"),
+        ("up down", "broad phase"),
+        ("wheel", "size"),
+    )
+    switches_broadphase = False
+    hides_pointer = False
+    head = HEAD
+    legend_at = (8, 22)
+
+    def build(self):
+        """The sky, the curves, the tallies; fill() makes the four worlds."""
+        self.sky = load_backdrop("sky_dusk")
+        self.camera = Camera(VIEW, ZOOM)
+        self.curves = Curves("microseconds [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
+        self.shown = 0  # of STRATEGIES
+        self.origin, self.target = ORIGIN, (0.7 * WIDTH, 0.6 * HEIGHT)
+        self.asked = self.disagreements = self.found = 0
+        self.kinds = set()  # queries that found something
+        self.looked = dict.fromkeys(STRATEGIES, 0)  # boxes and nodes so far
+        self.fill()
+
+    def fill(self):
+        """Four new worlds with the same bodies."""
+        count = int(self.values["bodies"])
+        random = Random(f"{self.seed} {count}")
+        rows = [
+            (
+                self._place(random),
+                random.uniform(0.0, pi),
+                (random.uniform(-SPEED, SPEED), random.uniform(-SPEED, SPEED)),
+                RING if number % RING_EVERY == 0 else SHAPES[number % len(SHAPES)],
+                random.random() < STILL_SHARE,
+            )
+            for number in range(count)
+        ]
+        self.worlds = []
+        for strategy in STRATEGIES:
+            world = self.add_world(broadphase=strategy)
+            for place, angle, velocity, shape, still in rows:
+                angle = 0.0 if isinstance(shape, PixelMask) else angle
+                if still:
+                    world.add_body(shape, position=place, angle=angle, kind="static")
+                else:
+                    world.add_body(shape, position=place, angle=angle, velocity=velocity)
+        self.looks = [Looks(world, self.camera) for world in self.worlds]
+        self.answer = []  # (body id, x, y, normal x, normal y, fraction): see ask()
+        self.spent = dict.fromkeys(STRATEGIES, 0.0)  # [s] of the last step's query
+        self.work = {name: (0, 0) for name in STRATEGIES}  # nodes or cells, boxes compared
+
+    def _place(self, random):
+        while True:
+            x, y = random.uniform(10.0, WIDTH - 10.0), random.uniform(10.0, HEIGHT - 10.0)
+            if hypot(x - ORIGIN[0], y - ORIGIN[1]) > CLEAR:
+                return x, y
+
+    @property
+    def query(self):
+        """What is asked: one of QUERIES."""
+        return QUERIES[int(self.values["query"])]
+
+    def change_slider(self, name, value):
+        """Another number of bodies: fill the worlds anew."""
+        super().change_slider(name, value)
+        if name == "bodies":
+            self.fill()
+
+    def update(self, inputs):
+        """Keys and the pointer; a step of each world, then the question to each."""
+        turn = inputs.pressed("right") - inputs.pressed("left")
+        if turn:
+            self.change_slider("query", (self.values["query"] + turn) % len(QUERIES))
+        self.shown = (self.shown + inputs.pressed("down") - inputs.pressed("up")) % len(STRATEGIES)
+        if inputs.wheel:
+            self.change_slider("size", self.values["size"] + 4 * inputs.wheel)
+        if self.camera.viewport.collidepoint(inputs.pointer):
+            place = self.camera.to_world(*inputs.pointer)
+            self.target = place
+            if inputs.pointer_pressed:
+                self.origin = place
+        answers = []
+        for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
+            bounce(world)
+            world.step()
+            world.queries.refresh(world)  # what any first question after a step does, whoever asks
+            started = perf_counter()
+            found = ask(world, self.query, self.origin, self.target, float(self.values["size"]))
+            self.spent[strategy] = perf_counter() - started
+            answers.append(told(found))
+            counters = world.queries.counters
+            self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
+            self.looked[strategy] += sum(self.work[strategy])
+        self.answer = answers[0]
+        self.asked += 1
+        self.found += len(self.answer)
+        self.disagreements += any(each != self.answer for each in answers[1:])
+        if self.answer:
+            self.kinds.add(self.query)
+
+    def observe(self):
+        """Feed the curves."""
+        self.curves.note({name: spent * 1e6 for name, spent in self.spent.items()})
+
+    def views(self):
+        """The picture of the world whose structure is looked at."""
+        return [(self.worlds[self.shown], self.camera)]
+
+    def draw(self, canvas, alpha):
+        """The shapes, and on the right who looked at how much."""
+        canvas.surface.fill(NIGHT)
+        draw_head(canvas, "QUERIES", ABOUT[self.query])
+        view = self.camera.viewport
+        canvas.surface.blit(self.sky, view, (20, 10, *view.size))
+        darken(canvas, view, (*NIGHT, 190))
+        self.looks[self.shown].draw(canvas, alpha)
+        pygame.draw.rect(canvas.surface, SLATE, view.inflate(2, 2), 1)
+        canvas.text(self.query, SIDE_X, 20, GOLD)
+        canvas.text(self._said(), 474, 22, PAPER, SMALL, align="right")
+        for number, name in enumerate(STRATEGIES):
+            y, color = 34 + 38 * number, BROADPHASE_COLORS[name]
+            if number == self.shown:
+                canvas.surface.fill(faded(color, 0.75), (SIDE_X - 2, y - 2, 122, 36))
+                canvas.surface.fill(color, (SIDE_X - 2, y - 2, 2, 36))
+            canvas.text(name, SIDE_X + 3, y, color)
+            canvas.text(f"{self.curves.typical(name):,.0f} us", 473, y + 1, color, SMALL, align="right")
+            nodes, boxes = self.work[name]
+            for row, (word, value) in enumerate(((PARTS[name], nodes), ("boxes compared", boxes))):
+                canvas.text(word, SIDE_X + 3, y + 12 + 10 * row, FOG, SMALL)
+                canvas.text(f"{value:,}", 473, y + 12 + 10 * row, PAPER, SMALL, align="right")
+
+    def _said(self):
+        """The answer in a word."""
+        if self.query == "closest":
+            return f"{self.answer[0][5]:.1f} px away" if self.answer else "nobody"
+        if self.query in ("ray", "cast"):
+            return f"at {self.answer[0][5]:.3f}" if self.answer else "nothing"
+        return f"{len(self.answer)} found"
+
+    def draw_on_frame(self, frame):
+        """What is tiny; what was visited; the question; the hits with normal and fraction; the curve."""
+        world, lens = self.worlds[self.shown], frame.lens(self.camera)
+        self.looks[self.shown].draw_on_frame(frame)
+        frame.surface.set_clip(lens.clip)
+        self._draw_visited(frame, lens, world)
+        self._draw_found(frame, lens, world)
+        self._draw_question(frame, lens)
+        self._draw_hits(frame, lens)
+        frame.surface.set_clip(None)
+        self.curves.draw(frame, PLOT)
+
+    def _draw_visited(self, frame, lens, world):
+        """Boxes that the query came into in the strategy's colour, those that it turned away from darker."""
+        found, color = debug.visited(world), BROADPHASE_COLORS[STRATEGIES[self.shown]]
+        left, top = lens.points(found.rects[:, 0], found.rects[:, 1])
+        right, bottom = lens.points(found.rects[:, 2], found.rects[:, 3])
+        order = np.argsort(found.met, kind="stable")
+        columns = (each[order].tolist() for each in (left, top, right - left, bottom - top, found.met))
+        for x, y, width, height, met in zip(*columns, strict=True):
+            rect = pygame.Rect(round(x), round(y), max(1, round(width)), max(1, round(height)))
+            pygame.draw.rect(frame.surface, color if met else faded(color, 0.6), rect, 1)
+        for x0, y0, x1, y1 in found.asked.tolist():
+            x, y = lens.points(x0, y0)
+            rect = pygame.Rect(round(x), round(y), round((x1 - x0) * lens.scale), round((y1 - y0) * lens.scale))
+            pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
+
+    def _draw_found(self, frame, lens, world):
+        """The shapes of the answer, outlined."""
+        ids = {each[0] for each in self.answer}
+        rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
+        for outline in debug.outlines(world, rows) if rows else ():
+            if outline[0] != "mask":
+                draw_outline(frame.surface, lens, outline, WHITE, max(1, frame.scale - 1), frame.scale)
+
+    def _draw_question(self, frame, lens):
+        """The ray, the cast, the box, the point."""
+        surface, size, thick = frame.surface, float(self.values["size"]), max(1, frame.scale - 1)
+        start, end = lens.points(*self.origin), lens.points(*self.target)
+        if self.query in ("ray", "all", "cast"):
+            pygame.draw.line(surface, YELLOW, start, end, thick)
+            pygame.draw.circle(surface, YELLOW, start, 2.0 * frame.scale)
+        if self.query == "cast":
+            for place in (start, end, *(lens.points(*self._cast_end()),)):
+                pygame.draw.circle(surface, YELLOW, place, size * lens.scale, 1)
+        elif self.query == "overlap":
+            angle = self._angle()
+            c, s = cos(angle), sin(angle)
+            box = [(size * x, 0.6 * size * y) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            corners = [lens.points(self.target[0] + c * x - s * y, self.target[1] + s * x + c * y) for x, y in box]
+            pygame.draw.polygon(surface, YELLOW, corners, thick)
+        elif self.query == "area":
+            half = size * lens.scale
+            rect = pygame.Rect(round(end[0] - half), round(end[1] - half), round(2 * half), round(2 * half))
+            pygame.draw.rect(surface, YELLOW, rect, thick)
+        elif self.query in ("closest", "point"):
+            pygame.draw.circle(surface, YELLOW, end, 2.0 * frame.scale)
+            if self.query == "closest" and self.answer:
+                pygame.draw.line(surface, YELLOW, end, lens.points(*self.answer[0][1:3]), thick)
+
+    def _cast_end(self):
+        """Where what is cast stops."""
+        share = self.answer[0][5] if self.answer else 1.0
+        (x, y), (to_x, to_y) = self.origin, self.target
+        return x + share * (to_x - x), y + share * (to_y - y)
+
+    def _angle(self):
+        return angle_of(self.origin, self.target)
+
+    def _draw_hits(self, frame, lens):
+        """Points, normals and fractions of the first hits, as far as there is room for them."""
+        if self.query in ("overlap", "area", "point"):
+            return
+        for _, x, y, nx, ny, fraction in self.answer[:SHOWN]:
+            px, py = lens.points(x, y)
+            pygame.draw.circle(frame.surface, WHITE, (px, py), 1.5 * frame.scale)
+            if nx or ny:
+                arrow(frame, px, py, nx * 10 * frame.scale, ny * 10 * frame.scale, GOLD)
+            text = f"{fraction:.1f} px" if self.query == "closest" else f"{fraction:.3f}"
+            scale = frame.plot_scale
+            frame.text_if_free(text, px + 4 * scale, py + 3 * scale, WHITE, SMALL, scale, "left", True)
+
+    def check(self):
+        """The same answers from all, to every question; and three look at less than brute force."""
+        cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
+        return [
+            Goal(
+                "all four give the same answers",
+                60,
+                self.asked > 0 and self.disagreements == 0,
+                f"{self.disagreements} of {self.asked} differ",
+            ),
+            Goal("something is found", 60, self.found > 0, f"{self.found}"),
+            Goal("three strategies look at less than brute force", 60, cheaper, f"{self.looked}"),
+            Goal("every question finds something", 600, len(self.kinds) == len(QUERIES), ", ".join(sorted(self.kinds))),
+        ]
+
+    def bot(self):
+        """Point along a slow curve; the next question now and then, the next strategy more often."""
+        at = self.frame / 40.0
+        pointer = (
+            round(VIEW[0] + VIEW[2] * (0.55 + 0.38 * sin(at))),
+            round(VIEW[1] + VIEW[3] * (0.5 + 0.42 * cos(1.3 * at))),
+        )
+        taps = set()
+        if self.frame and self.frame % EACH == 0:
+            taps.add("right")
+        if self.frame % 21 == 20:
+            taps.add("down")
+        return InputFrame(frozenset(taps), pointer)
+
+    def state(self):
+        """The question and its answer, which no broad phase may change; the worlds hold the rest."""
+        return (
+            self.frame,
+            *self.values.values(),
+            self.shown,
+            *self.origin,
+            *self.target,
+            self.asked,
+            self.found,
+            self.disagreements,
+            *(value for row in self.answer for value in row),
+        )
+
+
+PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", "brute": "nodes"}
+
+
+def ask(world, query, origin, target, size):
+    """What a world answers."""
+    way = target[0] - origin[0], target[1] - origin[1]
+    if query == "ray":
+        return [world.ray_cast(origin, way)]
+    if query == "all":
+        return world.ray_cast_all(origin, way)
+    if query == "cast":
+        return [world.shape_cast(Circle(size), origin, way)]
+    if query == "overlap":
+        return world.overlap(Polygon.box(2.0 * size, 1.2 * size), (*target, angle_of(origin, target)))
+    if query == "closest":
+        return [world.closest(target)]
+    if query == "area":
+        return world.query_aabb((target[0] - size, target[1] - size), (target[0] + size, target[1] + size))
+    return world.query_point(target)
+
+
+def told(found):
+    """An answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for what there is not."""
+    rows = []
+    for each in found:
+        if each is None:
+            continue
+        if isinstance(each, tuple):  # of closest
+            body, point, distance = each
+            rows.append((body.id, *point, 0.0, 0.0, distance))
+        elif hasattr(each, "fraction"):
+            rows.append((each.body.id, *each.point, *each.normal, each.fraction))
+        else:
+            rows.append((each.id, *each.position, 0.0, 0.0, 0.0))
+    return rows
+
+
+def angle_of(origin, target):
+    """The angle of the box that overlaps are asked with: along the line from the origin [rad]."""
+    dx, dy = target[0] - origin[0], target[1] - origin[1]
+    return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0
+
+
+def bounce(world):
+    """Turn velocities around at the edges of the world, all at once."""
+    bodies = world.bodies
+    for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
+        outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))
+        bodies[speed][outwards] *= -1.0
