@@ -88,6 +88,8 @@ def warmup(
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
             if piece == "queries" and "masks" in pieces:
                 runs.append((piece, lambda: _pixels(effects)))
+            if piece == "casts" and "masks" in pieces:
+                runs.append((piece, lambda: _casts_at_pixels(effects)))
         elif piece == "characters" and effects.response:
             runs.append((piece, lambda: _character(effects, solver)))
         elif piece not in PIECES:
@@ -211,10 +213,13 @@ def _zone(effects, solver):
 
 
 def _queries(effects):
+    """Several kinds of pairs too: a world that stops at boxes tests them for nobody else."""
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))
     world.overlap(Circle(2), (0, 0, 0))
+    world.add_body(BOX, position=(3, 3), kind="static")
+    world.overlap(BOX, (0, 0, 0))
 
 
 def _pixels(effects):
@@ -224,6 +229,18 @@ def _pixels(effects):
     for shape in (Circle(2), BOX, MASK):
         world.overlap(shape, (0, 0, 0))
     world.query_point((0, 0))
+
+
+def _casts_at_pixels(effects):
+    """At the outlines of masks, one of which has more than one piece to its ring."""
+    world = World(effects)
+    ring = np.ones((12, 12), bool)
+    ring[4:8, 4:8] = False
+    for number, mask in enumerate((MASK, PixelMask(ring))):
+        world.add_body(mask, position=(0.0, 40.0 * number), kind="static")
+        world.ray_cast((-20.0, 40.0 * number), (40.0, 1.0))
+        world.shape_cast(Circle(2), (-20, 40.0 * number, 0), (40, 0))
+        world.closest((9.0, 40.0 * number))
 
 
 def _casts(effects):
