@@ -197,7 +197,7 @@ class Queries(Scene):
         for number, name in enumerate(STRATEGIES):
             y, color = 34 + 38 * number, BROADPHASE_COLORS[name]
             if number == self.shown:
-                canvas.surface.fill(faded(color, 0.75), (SIDE_X - 2, y - 2, 122, 36))
+                pygame.draw.rect(canvas.surface, faded(color, 0.3), (SIDE_X - 2, y - 2, 122, 36), 1)
                 canvas.surface.fill(color, (SIDE_X - 2, y - 2, 2, 36))
             canvas.text(name, SIDE_X + 3, y, color)
             canvas.text(f"{self.curves.typical(name):,.0f} us", 473, y + 1, color, SMALL, align="right")
