@@ -154,12 +154,8 @@ def recycle_manifolds(
     candidates = batch.candidates
     found = 0
     j = 0
-    row_a = -1
-    row_b = -1
-    p_cosine = 1.0
-    p_sine = 0.0
-    q_cosine = 1.0
-    q_sine = 0.0
+    row_a, row_b = -1, -1
+    p_cosine, p_sine, q_cosine, q_sine = 1.0, 0.0, 1.0, 0.0
     for i in range(batch.count):
         if kinds_inout[i] == NOTHING:
             continue

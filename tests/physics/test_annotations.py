@@ -10,8 +10,10 @@ FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):
-    """Whether numba compiles the function: it is decorated with kernel or subkernel."""
-    return any(isinstance(each, ast.Name) and each.id in ("kernel", "subkernel") for each in function.decorator_list)
+    """Whether numba compiles the function: it is decorated as one of the kinds of kernels."""
+    return any(
+        isinstance(each, ast.Name) and each.id in ("inlined", "kernel", "subkernel") for each in function.decorator_list
+    )
 
 
 def public_callables(node, owner=""):

@@ -331,7 +331,8 @@ def test_contacts_on_what_stays_keep_their_forces(solver):
         floor.carve(Circle(6), (20 + k, 104 + k % 3))
         world.step()
         told += len(world.events.begin) + len(world.events.end)
-        assert max(each.velocity.length for each in crates) < 1e-3
+        # A face that is found anew sticks from the next step on, and grips less firmly until then.
+        assert max(each.velocity.length for each in crates) < 0.02
     assert told == 0
     assert {*zip(world.contacts["body_a"].tolist(), world.contacts["body_b"].tolist(), strict=True)} == {
         (k, k + 1) for k in range(4)

@@ -265,7 +265,7 @@ def test_a_lift_raises_him_and_the_crate_on_his_head_and_squeezes_him_under_a_ce
     )
     world.add_body(Polygon.box(200, 20), position=(0, crate.position[1] - 30), kind="static")
     # A third of a second to the ceiling, and as long until the crate gives way no more.
-    assert any(each.squeezed for each in play(world, 45, hero, dy=1.0))
+    assert any(each.squeezed for each in play(world, 50, hero, dy=1.0))
 
 
 def test_a_piston_pushes_a_crate_and_the_crate_him_until_a_wall_squeezes_him():
