@@ -71,6 +71,14 @@ class RotatedPicture:
         return turned
 
 
+def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x, y [px] and angle [rad] of BODY rows so far between the last two steps, 0 to 1."""
+    x, y, angle = (
+        bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
+    )
+    return x, y, angle
+
+
 class Cast:
     """Which picture each body of a world has; draws them all in the order of their ids."""
 
@@ -93,10 +101,7 @@ class Cast:
     def draw(self, canvas: Canvas, camera: Camera, world: World, alpha: float) -> None:
         """Draw the bodies that have a picture, between the last two steps, clipped to the camera's view."""
         bodies, surface = world.bodies, canvas.surface
-        x, y, angle = (
-            bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
-            for name in ("x", "y", "angle")
-        )
+        x, y, angle = poses_between(bodies, alpha)
         x, y = camera.to_canvas(x, y, alpha)
         surface.set_clip(camera.viewport)
         near = camera.viewport.inflate(MARGIN, MARGIN)

@@ -181,6 +181,10 @@ class QueryIndex:
         self.asked.clear()
         self.refresh(world)
 
+    def asks_broadphase(self, world: IndexedWorld) -> bool:
+        """Whether a query asks the strategy: there is something that it knows."""
+        return not world.pairs.everything and self.loose_count < len(world.shapes)
+
     def refresh(self, world: IndexedWorld) -> None:
         """Bring AABBs and loose rows up to date. world: a World, or the StepState of its step.
 
@@ -234,7 +238,7 @@ class QueryIndex:
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
         found = 0
-        if not world.pairs.everything and self.loose_count < len(world.shapes):
+        if self.asks_broadphase(world):
             found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
         count = rows_meeting(
             world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work

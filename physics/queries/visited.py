@@ -32,8 +32,8 @@ class Visited(NamedTuple):
 def visited(world: IndexedWorld) -> Visited:
     """What the last query of a world visited. As long as nobody has stepped or changed it since."""
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
-    known = not world.pairs.everything and world.queries.loose_count < len(world.shapes)
-    found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in asked.tolist()] if known else []
+    boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
+    found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in boxes]
     met = [_meets(rects, box) for rects, box in zip(found, asked, strict=False)]
     return Visited(
         strategy.name, asked, np.concatenate([np.zeros((0, 4)), *found]), np.concatenate([np.zeros(0, bool), *met])

@@ -23,6 +23,8 @@ CONVEX = (Circle, Capsule, Polygon)
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
     """The mass of shapes with their densities: [(shape, density)]."""
+    if len(parts) < 2:
+        return together(shape.mass_of(density) for shape, density in parts)
     hulls = [_hull_of(shape, density) for shape, density in parts]
     groups = _groups([hull for hull in hulls if hull is not None])
     crowded = set().union(*groups) if groups else set()

@@ -12,9 +12,8 @@ import numpy as np
 from physics.jit import JIT, subkernel
 from physics.solver.pace import firmness_of
 
-LANES = (
-    8 if JIT else 1
-)  # what is not compiled takes one row after the other; measured: 16 are as fast in heaps, slower in few boxes
+# What is not compiled takes one row after the other. Measured: 16 are as fast in heaps, and slower in few boxes.
+LANES = 8 if JIT else 1
 
 # Where the lines of a block begin. What a row of CONSTRAINT says, and two of MOTION that last for the step; then what
 # each pass gathers from the motions. In one array, or a compiler could not tell that what is written is not read again.

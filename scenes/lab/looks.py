@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 
 from game.drawing.colors import INK, PAPER, SKY, faded
+from game.drawing.rotated import poses_between
 from physics import Capsule, Chain, Circle, PixelMask
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
@@ -42,10 +43,7 @@ class Looks:
     def draw(self, canvas, alpha):
         """Grounds and pieces, between the last two steps, clipped to the view."""
         bodies, zoom = self.world.bodies, self.camera.zoom
-        x, y, angle = (
-            bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
-            for name in ("x", "y", "angle")
-        )
+        x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
         view = self.camera.viewport
         canvas.surface.set_clip(view)

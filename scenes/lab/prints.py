@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import whole
+from game.drawing.rotated import poses_between
 
 ANGLES = 128  # pictures of a full turn
 KEPT = 300  # pictures of pieces, each at all its angles
@@ -56,10 +57,7 @@ class Prints:
         """All bodies that have a print, between the last two steps."""
         bodies = world.bodies
         rows = world.rows(np.array(sorted(self.of), np.int64))
-        x, y, angle = (
-            (bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha)[rows]
-            for name in ("x", "y", "angle")
-        )
+        x, y, angle = (each[rows] for each in poses_between(bodies, alpha))
         x, y = camera.to_canvas(x, y, alpha)
         columns = (bodies["id"][rows].tolist(), x.tolist(), y.tolist(), angle.tolist())
         for identity, *pose in zip(*columns, strict=True):

@@ -14,7 +14,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, PAPER, SKY, SLATE, faded
-from game.drawing.rotated import RotatedPicture
+from game.drawing.rotated import RotatedPicture, poses_between
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
@@ -103,7 +103,7 @@ class Sleeping(Scene):
         self.idle = 0  # bodies moved in steps that began with all asleep
         self.first_woken = 0  # islands that the first step of the wave woke
         self.waves = []  # (step, islands woken) since the first ball
-        self.awake, self.asleep, self.islands = self._count()
+        self.awake, self.asleep, self.islands = self._count(debug.islands(world))
 
     def _pile_up(self):
         world, size = self.world, 0.9 * METER
@@ -143,8 +143,9 @@ class Sleeping(Scene):
         before = self.awake
         self.world.step()
         self.since += 1
-        self._see_who_woke()
-        self.awake, self.asleep, self.islands = self._count()
+        islands = debug.islands(self.world)
+        self._see_who_woke(islands)
+        self.awake, self.asleep, self.islands = self._count(islands)
         if before == 0 and self.awake == 0:
             self.idle = max(self.idle, self.world.profile.counters["bodies_integrated"])
         if self.awake == 0 and self.thrown == 0 and self.slept_at < 0:
@@ -173,17 +174,16 @@ class Sleeping(Scene):
         self.thrown += 1
         self.play("land")
 
-    def _count(self):
-        """Bodies awake and asleep, and islands."""
+    def _count(self, islands):
+        """Bodies awake and asleep, and islands, of which each body's is given."""
         bodies = self.world.bodies
         moves = bodies["inverse_mass"] > 0.0
         awake = int(np.count_nonzero(bodies["awake"] & moves))
-        islands = debug.islands(self.world)
         return awake, int(np.count_nonzero(moves)) - awake, len(np.unique(islands[islands >= 0]))
 
-    def _see_who_woke(self):
+    def _see_who_woke(self, islands):
         bodies, woken = self.world.bodies, set()
-        columns = (each.tolist() for each in (bodies["id"], bodies["awake"], debug.islands(self.world)))
+        columns = (each.tolist() for each in (bodies["id"], bodies["awake"], islands))
         for identity, awake, island in zip(*columns, strict=True):
             if identity not in self.shapes:
                 continue
@@ -215,10 +215,7 @@ class Sleeping(Scene):
             surface.fill(SLATE, (round(left), round(top), 6, FLOOR - round(top)))
             surface.fill(faded(PAPER, 0.4), (round(left), round(top), 6, 1))
         bodies = self.world.bodies
-        x, y, angle = (
-            bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha
-            for name in ("x", "y", "angle")
-        )
+        x, y, angle = poses_between(bodies, alpha)
         x, y = camera.to_canvas(x, y, alpha)
         columns = (each.tolist() for each in (bodies["id"], bodies["awake"], x, y, angle))
         for identity, awake, px, py, turn in zip(*columns, strict=True):
