@@ -1,0 +1,9 @@
+"""Every hard case of the catalogue with its limits and sources, by section: tests read them, and docs/stability.md."""
+
+from tests.stability.rows.a_broad_phase import BROAD_PHASE
+from tests.stability.rows.row import Limit, Row, Section
+
+__all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
+
+SECTIONS = (BROAD_PHASE,)
+ROWS = {row.id: row for section in SECTIONS for row in section.rows}
