@@ -9,11 +9,10 @@ DOCS = Path(__file__).resolve().parents[2] / "docs"
 PAGE, KEPT = DOCS / "stability.md", DOCS / "stability.json"
 TITLE = """# What stays stable
 
-Every hard case of the catalogue that this engine is held to: cases that broke the best engines, from their test suites,
-samples, issues and papers. Limits are theirs where they name one. The tests are in
-[tests/stability](../tests/stability), a file per section, the row's id in the name of its test; what is measured below is
-the worst over all that the test tries. Margin: how many times further it could be before the limit; *exact*: one value
-is right, and it is the one.
+Every hard case that this engine is held to: cases that broke the best engines, from their test suites, samples, issues
+and papers. Limits are theirs where they name one. The tests are in [tests/stability](../tests/stability), a file per
+section, the row's id in the name of its test; what is measured below is the worst over all that the test tries. Margin:
+how many times further it could be before the limit; *exact*: one value is right, and it is the one.
 
 Lengths are in the scene's own unit, m unless it says px. This page is written, not edited:
 

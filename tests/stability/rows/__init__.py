@@ -1,9 +1,11 @@
 """Every hard case of the catalogue with its limits and sources, by section: tests read them, and docs/stability.md."""
 
 from tests.stability.rows.a_broad_phase import BROAD_PHASE
+from tests.stability.rows.i_mass import MASS
+from tests.stability.rows.k_bad_input import BAD_INPUT
 from tests.stability.rows.row import Limit, Row, Section
 
 __all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
 
-SECTIONS = (BROAD_PHASE,)
+SECTIONS = (BROAD_PHASE, MASS, BAD_INPUT)
 ROWS = {row.id: row for section in SECTIONS for row in section.rows}

@@ -60,9 +60,9 @@ def exactly(figure, value, unit=""):
 class Row:
     """A hard case.
 
-    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. fault: what is known
-    to be outside its limit, and why; its test is expected to fail. peer: the best figure of another engine that a source
-    quotes.
+    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. fault: what is
+    known to be outside its limit, and why; its test is expected to fail. peer: the best figure of another engine that a
+    source quotes.
     """
 
     id: str
