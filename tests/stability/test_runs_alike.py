@@ -27,7 +27,7 @@ from physics import (
     World,
 )
 from tests.stability.invariants import Watch, deepest, kinetic, movers, rms_speed
-from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, pile_effects, pyramid
+from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, pile_effects
 from tests.stability.worlds import heap
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -273,59 +273,6 @@ def test_order_of_making_changes_only_rounding_before_the_heap_forms(solver):
     order = np.random.default_rng(1).permutation(16)
     one, two = heap(solver=solver, steps=steps), heap(solver=solver, order=order, steps=steps)
     assert np.median(np.abs(one - two)) <= 1e-9
-
-
-@needs_speed
-def test_pyramid_far_away_sleeps_at_the_same_step():
-    """At 1e7 a double keeps 2e-9: the same step of falling asleep, poses within 1e-7 (as others: 1e-3)."""
-    found = []
-    for x, y in ((0.0, 0.0), (1e7, 0.0), (1e5, -8e4)):
-        world = metres(effects=pile_effects(sleeping=True))
-        floor(world, x=x, y=y)
-        pyramid(world, 4, x=x, y=y, spread=1.25)
-        slept = None
-        for n in range(250):
-            world.step()
-            if slept is None and not movers(world)["awake"].any():
-                slept = n
-        rows = movers(world)
-        found.append((slept, np.column_stack([rows["x"] - x, rows["y"] - y])))
-    assert found[0][0] is not None
-    for slept, poses in found[1:]:
-        assert slept == found[0][0] and np.abs(poses - found[0][1]).max() <= 1e-7
-
-
-@needs_speed
-def test_stacks_and_recovery_far_away_are_as_at_the_origin():
-    def overlapping(x, y):
-        world = metres()
-        floor(world, x=x, y=y)
-        for row in range(4):
-            world.add_bodies(
-                Polygon.box(1, 1), [(x + 0.75 * (k - (3 - row) / 2), y - 0.5 - 0.75 * row) for k in range(4 - row)]
-            )
-        Watch(world).step(60)
-        rows = movers(world)
-        return np.column_stack([rows["x"] - x, rows["y"] - y])
-
-    def standing(x, y):
-        world = metres()
-        floor(world, x=x, y=y)
-        world.add_bodies(Polygon.box(1, 1), [(x, y - 0.5 - k) for k in range(10)])
-        Watch(world).step(120)
-        rows = movers(world)
-        return np.column_stack([rows["x"] - x, rows["y"] - y])
-
-    assert standing(4e4, -2.5e4) == pytest.approx(standing(0, 0), abs=1e-8)
-    assert overlapping(8e4, -7e4) == pytest.approx(overlapping(0, 0), abs=1e-6)
-
-
-def test_angle_after_a_million_turns_is_still_an_angle():
-    world = metres(gravity=(0, 0))
-    body = world.add_body(Polygon.box(1, 1), angle=2e6 * np.pi, angular_velocity=1.0)
-    other = world.add_body(Polygon.box(1, 1), position=(5, 0), angular_velocity=1.0)
-    Watch(world).step(60)
-    assert np.sin(body.angle - other.angle) == pytest.approx(0.0, abs=1e-8)
 
 
 # --- an hour ----------------------------------------------------------------------------------------------------------

@@ -285,28 +285,6 @@ def test_woken_body_stays_where_it_lay(solver):
         assert awake(boxes) == [False] * 3
 
 
-@pytest.mark.parametrize("kind", ["static", "kinematic"])
-def test_sleeper_over_a_sensor_is_heard_once_and_once_when_it_leaves(kind):
-    world = metres(effects=SLEEPY)
-    ground = floor(world)
-    pad = world.add_body(Polygon.box(4, 1), position=(0.0, -0.5), kind=kind, sensor=True)
-    box = world.add_body(Polygon.box(1, 1), position=(0.0, -3.0))
-    begun, ended = [], []
-
-    def listen():
-        for heard, rows in ((begun, world.events.sensor_begin), (ended, world.events.sensor_end)):
-            sides = zip(rows["body_a"].tolist(), rows["body_b"].tolist(), strict=True)
-            heard.extend(b for a, b in sides if (a, b) == (pad.id, box.id))
-
-    Watch(world).step(180, each=listen)
-    assert not box.awake and begun == [box.id] and ended == []
-    Watch(world).step(60, each=listen)
-    assert begun == [box.id] and ended == []
-    box.velocity = (20.0, -2.0)
-    Watch(world).step(60, each=listen)
-    assert begun == [box.id] and ended == [box.id] and (ground.id, pad.id) == (0, 1)
-
-
 def test_contact_events_pair_up_over_sleep():
     world, ground, boxes = bedroom()
     open_pairs = {(0, 1), (1, 2), (2, 3)}

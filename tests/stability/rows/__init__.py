@@ -3,11 +3,13 @@
 from tests.stability.rows.a_broad_phase import BROAD_PHASE
 from tests.stability.rows.b_primitives import PRIMITIVES
 from tests.stability.rows.c_distance import DISTANCE
+from tests.stability.rows.h_queries import QUERIES
 from tests.stability.rows.i_mass import MASS
+from tests.stability.rows.j_far_away import FAR_AWAY
 from tests.stability.rows.k_bad_input import BAD_INPUT
 from tests.stability.rows.row import Limit, Row, Section
 
 __all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
 
-SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, MASS, BAD_INPUT)
+SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, QUERIES, MASS, FAR_AWAY, BAD_INPUT)
 ROWS = {row.id: row for section in SECTIONS for row in section.rows}
