@@ -3,6 +3,7 @@
 from tests.stability.rows.a_broad_phase import BROAD_PHASE
 from tests.stability.rows.b_primitives import PRIMITIVES
 from tests.stability.rows.c_distance import DISTANCE
+from tests.stability.rows.g_continuous import CONTINUOUS
 from tests.stability.rows.h_queries import QUERIES
 from tests.stability.rows.i_mass import MASS
 from tests.stability.rows.j_far_away import FAR_AWAY
@@ -11,5 +12,5 @@ from tests.stability.rows.row import Limit, Row, Section
 
 __all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
 
-SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, QUERIES, MASS, FAR_AWAY, BAD_INPUT)
+SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, CONTINUOUS, QUERIES, MASS, FAR_AWAY, BAD_INPUT)
 ROWS = {row.id: row for section in SECTIONS for row in section.rows}
