@@ -3,6 +3,7 @@
 from tests.stability.rows.a_broad_phase import BROAD_PHASE
 from tests.stability.rows.b_primitives import PRIMITIVES
 from tests.stability.rows.c_distance import DISTANCE
+from tests.stability.rows.e_ground import GROUND
 from tests.stability.rows.g_continuous import CONTINUOUS
 from tests.stability.rows.h_queries import QUERIES
 from tests.stability.rows.i_mass import MASS
@@ -12,5 +13,5 @@ from tests.stability.rows.row import Limit, Row, Section
 
 __all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
 
-SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, CONTINUOUS, QUERIES, MASS, FAR_AWAY, BAD_INPUT)
+SECTIONS = (BROAD_PHASE, PRIMITIVES, DISTANCE, GROUND, CONTINUOUS, QUERIES, MASS, FAR_AWAY, BAD_INPUT)
 ROWS = {row.id: row for section in SECTIONS for row in section.rows}
