@@ -47,12 +47,13 @@ def lines_of(row, figures):
         ]
     lines = []
     for limit in row.limits:
-        value, first = figures[limit.figure], not lines
-        told = f"{number(value)} {limit.unit}".rstrip()
+        value, first = figures.get(limit.figure), not lines
+        told = "–" if value is None else f"{number(value)} {limit.unit}".rstrip()
+        margin = "–" if value is None else limit.margin(value)
         lines.append(
             f"| {row.id if first else ''} | {cell(row.case) if first else ''} | {cell(limit.figure)} {limit.sense} "
             f"{number(limit.value)} {limit.unit}".rstrip()
-            + f" | {told} | {limit.margin(value)} | {row.peer if first else ''} | {row.source if first else ''} |"
+            + f" | {told} | {margin} | {row.peer if first else ''} | {row.source if first else ''} |"
         )
     if row.fault:
         lines.append(f"| | **open:** {cell(row.fault)} | | | | | |")

@@ -29,8 +29,8 @@ GROUND = Section(
             ),
             "Jolt ActiveEdges",
             "1e-3 m, 2e-3 m/s",
-            fault="under sequential impulses a cube pushed out of boxes that are bodies of their own is turned by 2.4 mrad "
-            "and feels two of their sides: 8.9e-3 m/s off; on tiles and links, and under soft_step, it does not",
+            fault="under sequential impulses a cube pushed out of boxes that are bodies of their own is turned by "
+            "2.4 mrad and feels two of their sides: 8.9e-3 m/s off; on tiles and links, and under soft_step, none",
         ),
         Row(
             "E4",
