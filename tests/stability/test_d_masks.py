@@ -240,11 +240,10 @@ def test_d6_ninety_turns_of_four_degrees_end_at_the_source(measured):
     """Always turned from the source, in a world as by hand; turned again and again a sprite wears off."""
     mask = sprite()
     world = World(Effects())
-    body, worn = world.add_body(mask), mask
+    body = world.add_body(mask)
     for k in range(1, 91):
         body.move_to((0.0, 0.0), math.radians(4.0 * k))
         world.step()
-        worn = worn.turned(math.radians(4.0))
     _, left, top, solid = debug.masks(world)[0]
     still = World(Effects())
     still.add_body(mask)

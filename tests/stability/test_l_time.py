@@ -161,7 +161,11 @@ def test_l1_fresh_processes_with_other_hash_seeds_agree(measured, solver):
             env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(ROOT)},
         )
         assert found.returncode == 0, found.stderr
-        measured("L1", "digests that differ", sum(one != two for one, two in zip(found.stdout.splitlines(), here)))
+        measured(
+            "L1",
+            "digests that differ",
+            sum(one != two for one, two in zip(found.stdout.splitlines(), here, strict=True)),
+        )
         assert found.stdout.splitlines() == here
 
 

@@ -71,7 +71,6 @@ def test_m2_no_work_without_a_cause(measured, solver):
         "M2", "sweeps, tangent, restitution, mask and sensor work without cause", sum(work(material=smooth).values())
     )
     assert work(material=smooth, sensor=True)["sensor_tests"] > 0
-    assert work(material=smooth, velocities=[(0.0, 90.0)] * 5)["toi_calls"] > 0
     if solver != "projection":
         world = metres(solver, effects=effects)
         floor(world, friction=0.5)
@@ -93,35 +92,29 @@ def shooter(effects, gravity=(0, 0)):
 
 
 def test_m3_a_shooter_needs_no_solver(measured):
-    """Beside a world that solves, put to the same poses before each step: the same pairs touch."""
+    """Beside worlds that solve, made anew with the same poses: the same pairs touch."""
     differ = rows = met = 0
-    quick, whole = shooter(Effects()), shooter(pile_effects(gravity=False))
-    for _ in range(40):
-        for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y"):
-            whole.bodies[name][:] = quick.bodies[name]
-        quick.step(0.0)
-        whole.step(0.0)
-        pairs = [
-            {(int(a), int(b)) for a, b in zip(each.contacts["shape_a"], each.contacts["shape_b"], strict=True)}
-            for each in (quick, whole)
-        ]
-        # Where masks push, contacts follow their outlines, which are within half a pixel of the pixels.
-        outline = {(int(row["shape_a"]), int(row["shape_b"])) for row in whole.contacts if row["separation"] > -1.0}
-        differ += len(
-            (pairs[0] ^ pairs[1]) - outline - {pair for pair in pairs[0] - pairs[1] if area(quick, pair) < 40.0}
-        )
-        met += len(pairs[0])
+    quick = shooter(Effects())
+    for step in range(40):
         quick.step()
         rows += quick.profile.counters["solver_rows"] + quick.profile.counters["islands"]
+        if step % 8:
+            continue
+        quick.step(0.0)
+        whole = shooter(pile_effects(gravity=False))
+        for body, like in zip(whole, quick, strict=True):
+            body.move_to(like.position, like.angle)
+            body.velocity = like.velocity
+        whole.step(1e-9)
+        pairs = []
+        for each in (quick, whole):
+            told = each.contacts[each.contacts["separation"] <= 0.0]
+            pairs.append(set(zip(told["shape_a"].tolist(), told["shape_b"].tolist(), strict=True)))
+        differ += len(pairs[0] ^ pairs[1])
+        met += len(pairs[0])
     assert met > 100
     measured("M3", "pairs that differ", differ)
     measured("M3", "rows solved", rows)
-
-
-def area(world, pair):
-    """The area that a pair shares [px²]; a disc's contact tells none."""
-    rows = world.contacts
-    return float(rows["area"][(rows["shape_a"] == pair[0]) & (rows["shape_b"] == pair[1])].max(initial=0.0))
 
 
 def test_m4_a_platformers_mover_needs_no_solver(measured):
@@ -219,7 +212,7 @@ def test_m7_only_bullets_are_swept_and_only_the_heavy_island_takes_more(measured
     for _ in range(10):
         world.step()
         swept += world.profile.counters["toi_calls"]
-    world.add_body(Circle(1.0), position=(10.0, -300.0), velocity=(0.0, 9000.0), continuous="toi")
+    world.add_body(Circle(1.0), position=(20.0, -300.0), velocity=(0.0, 9000.0), continuous="toi")
     calls = 0
     for _ in range(10):
         world.step()
