@@ -21,7 +21,7 @@ EFFECTS = Section(
         ),
         Row(
             "M3",
-            "a shooter by overlap and events alone, beside the whole solver at the same poses",
+            "a shooter by overlap and events alone, beside a look at every pair",
             (exactly("pairs that differ", 0), exactly("rows solved", 0)),
             "judgement",
         ),
