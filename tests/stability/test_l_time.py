@@ -360,7 +360,7 @@ def test_l4_frames_of_any_length_give_the_same_steps(measured, pattern):
         plain.step()
         right.append(plain.digest())
     measured("L4", "digests that differ after the same steps", sum(a != b for a, b in zip(digests, right, strict=True)))
-    measured("L4", "steps of one frame", most)
+    measured("L4", "steps of one frame: a quarter of a second", most)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

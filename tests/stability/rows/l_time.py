@@ -32,7 +32,10 @@ TIME = Section(
         Row(
             "L4",
             "frames of 5 to 50 ms, a stall of 1 s, pauses, slow motion, through the game's clock",
-            (exactly("digests that differ after the same steps", 0), at_most("steps of one frame", 5)),
+            (
+                exactly("digests that differ after the same steps", 0),
+                at_most("steps of one frame: a quarter of a second", 15),
+            ),
             "judgement",
         ),
         Row(
