@@ -252,61 +252,6 @@ def test_tiles_that_vanish_wake_what_stood_on_them():
     assert boxes[0].position[1] > 0.5, "it fell into the gap"
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_support_dragged_from_under_a_sleeper_takes_it_along_or_lets_it_fall(solver):
-    """At 0.15 m/s from the first moment on: it never floats."""
-    world = metres(solver, effects=SLEEPY)
-    shelf = world.add_body(Polygon.box(4, 0.5), position=(0.0, 0.25), kind="kinematic")
-    box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5), material=Material(friction=0.5))
-    Watch(world).step(90)
-    assert not box.awake
-    shelf.velocity = (0.15, 0.0)
-    watch = Watch(world)
-    watch.step(2)
-    assert box.awake
-    watch.step(120)
-    assert box.position[0] == pytest.approx(shelf.position[0], abs=0.02), "it is carried"
-    shelf.velocity = (0.0, 0.15)
-    watch.step(120)
-    assert box.position[1] == pytest.approx(shelf.position[1] - 0.75, abs=2 * SLOP)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_woken_body_stays_where_it_lay(solver):
-    """Contacts kept through the sleep hold it: it sinks by no more than a slop, and sleeps again."""
-    world, _, boxes = bedroom(solver)
-    before = [box.position for box in boxes]
-    for _ in range(3):
-        boxes[0].wake()
-        watch = Watch(world, passive=True)
-        for _ in range(60):
-            watch.step()
-            assert all(math.dist(box.position, at) <= SLOP for box, at in zip(boxes, before, strict=True))
-        assert awake(boxes) == [False] * 3
-
-
-@pytest.mark.parametrize("kind", ["static", "kinematic"])
-def test_sleeper_over_a_sensor_is_heard_once_and_once_when_it_leaves(kind):
-    world = metres(effects=SLEEPY)
-    ground = floor(world)
-    pad = world.add_body(Polygon.box(4, 1), position=(0.0, -0.5), kind=kind, sensor=True)
-    box = world.add_body(Polygon.box(1, 1), position=(0.0, -3.0))
-    begun, ended = [], []
-
-    def listen():
-        for heard, rows in ((begun, world.events.sensor_begin), (ended, world.events.sensor_end)):
-            sides = zip(rows["body_a"].tolist(), rows["body_b"].tolist(), strict=True)
-            heard.extend(b for a, b in sides if (a, b) == (pad.id, box.id))
-
-    Watch(world).step(180, each=listen)
-    assert not box.awake and begun == [box.id] and ended == []
-    Watch(world).step(60, each=listen)
-    assert begun == [box.id] and ended == []
-    box.velocity = (20.0, -2.0)
-    Watch(world).step(60, each=listen)
-    assert begun == [box.id] and ended == [box.id] and (ground.id, pad.id) == (0, 1)
-
-
 def test_contact_events_pair_up_over_sleep():
     world, ground, boxes = bedroom()
     open_pairs = {(0, 1), (1, 2), (2, 3)}

@@ -14,7 +14,7 @@ G = 10.0
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_locked_capsule_on_a_slope_gets_finite_impulses(solver):
+def test_f13_locked_capsule_on_a_slope_gets_finite_impulses(measured, solver):
     world = metres(solver)
     floor(world, friction=0.9, angle=math.pi / 4)
     world.add_body(
@@ -23,26 +23,31 @@ def test_locked_capsule_on_a_slope_gets_finite_impulses(solver):
         fixed_rotation=True,
         material=Material(friction=0.9),
     )
-    watch, rubbed = Watch(world, passive=True), 0.0
+    watch, rubbed, odd = Watch(world, passive=True), 0.0, 0
     for _ in range(500 if JIT else 60):
         watch.step()
         if len(world.contacts):
             rubbed = max(rubbed, np.abs(world.contacts["tangent_impulse"]).max())
-    assert rubbed > 1e-4
+            odd += int((~np.isfinite(world.contacts["tangent_impulse"])).sum())
+    measured("F13", "impulses not finite", odd)
+    measured("F13", "tangent impulse seen", rubbed)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("speed", [4.0, -4.0, 9.0])
-def test_sliding_box_follows_its_recurrence(solver, speed):
-    """mu = sqrt(0.9 x 0.8): v less mu g dt per step, both ways alike."""
+@pytest.mark.parametrize("speed", [4.0, 9.0])
+def test_f14_sliding_box_follows_its_recurrence(measured, solver, speed):
+    """mu = sqrt(0.9 x 0.8): v less mu g h per substep, both ways alike."""
     world = metres(solver)
     floor(world, friction=0.9)
-    box = world.add_body(
-        Polygon.box(1, 1),
-        position=(0.0, -0.5),
-        velocity=(speed, 0.0),
-        material=Material(friction=0.8),
-        fixed_rotation=True,
+    box, other = (
+        world.add_body(
+            Polygon.box(1, 1),
+            position=(20.0 * side, -0.5),
+            velocity=(side * speed, 0.0),
+            material=Material(friction=0.8),
+            fixed_rotation=True,
+        )
+        for side in (1, -1)
     )
     parts = 4 if solver == "soft_step" else 1
     watch, x, v, h = Watch(world, passive=True), 0.0, abs(speed), world.dt / parts
@@ -51,13 +56,14 @@ def test_sliding_box_follows_its_recurrence(solver, speed):
         for _ in range(parts):
             v = max(0.0, v - math.sqrt(0.72) * G * h)
             x += v * h
-        assert abs(abs(box.position[0]) - x) <= 1e-2 + abs(speed) * h and abs(abs(box.velocity[0]) - v) <= 2e-2 + G * h
-    assert math.copysign(1.0, box.position[0]) == math.copysign(1.0, speed)
+        measured("F14", "error of the place", abs(box.position[0] - 20.0 - x))
+        measured("F14", "error of the speed", abs(box.velocity[0] - v))
+        measured("F14", "difference of both ways", abs(box.position[0] + other.position[0]))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("friction", [0.1, 0.3, 0.6, 1.0])
-def test_box_holds_just_below_its_friction_angle_and_slides_just_above(solver, friction):
+def test_f15_box_holds_just_below_its_friction_angle_and_slides_just_above(measured, solver, friction):
     for degrees in (-1.0, 1.0):
         angle = math.atan(friction) + math.radians(degrees)
         world = metres(solver)
@@ -72,11 +78,11 @@ def test_box_holds_just_below_its_friction_angle_and_slides_just_above(solver, f
         start, before = box.position, math.hypot(*box.velocity)
         watch.step(600 if degrees < 0 and JIT else 120)
         if degrees < 0:
-            assert math.dist(box.position, start) <= 1e-3, "it creeps"
+            measured("F15", "drift below it, 10 s", math.dist(box.position, start))
         else:
             gain = (math.hypot(*box.velocity) - before) / 2.0
             right = G * (math.sin(angle) - friction * math.cos(angle))
-            assert gain == pytest.approx(right, rel=0.02)
+            measured("F15", "relative error of the acceleration", abs(gain / right - 1.0))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -119,20 +125,20 @@ def dominoes(scale, density=1.0, seconds=9.0):
 
 
 @needs_speed
-def test_all_dominoes_fall():
+def test_f20_all_dominoes_fall(measured):
     times, angles = dominoes(1.0)
     assert sorted(times) == list(range(15)) and [times[k] for k in range(15)] == sorted(times.values())
-    assert (angles > math.radians(60)).all()
+    measured("F20", "dominoes short of 60°", (angles <= math.radians(60)).sum())
 
 
 @pytest.mark.deep
 @needs_speed
-def test_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass():
+def test_f20_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass(measured):
     """Four times the size, twice the speed, within 2 %; the mass cancels."""
     small, large, dense = dominoes(1.0)[0], dominoes(4.0)[0], dominoes(1.0, density=8.0)[0]
     speed = 7.0 / (small[12] - small[5])
-    assert 4.0 * 7.0 / (large[12] - large[5]) == pytest.approx(2.0 * speed, rel=0.02)
-    assert 7.0 / (dense[12] - dense[5]) == pytest.approx(speed, rel=1e-6)
+    measured("F20", "speed of the wave off sqrt(size)", abs(4.0 * 7.0 / (large[12] - large[5]) / (2.0 * speed) - 1.0))
+    measured("F20", "change with the density", abs(7.0 / (dense[12] - dense[5]) / speed - 1.0))
 
 
 # --- bounces ----------------------------------------------------------------------------------------------------------
@@ -156,20 +162,20 @@ def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.5, 0.8, 0.95])
-def test_apex_is_the_square_of_restitution_whatever_the_margin(solver, restitution):
+def test_f21_apex_is_the_square_of_restitution_whatever_the_margin(measured, solver, restitution):
     """Within 0.05; none for e = 0; five times the margin of speculative contact changes it by no more than 0.05."""
     found = [first_apex(solver, restitution, scale) / 2.0 for scale in (1.0, 5.0)]
     if restitution == 0.0:
-        assert max(found) < 0.02
-    assert found[0] == pytest.approx(restitution**2, abs=0.05)
+        measured("F21", "apex of e = 0", max(found))
+    measured("F21", "apex off e²", abs(found[0] - restitution**2))
     if restitution * math.sqrt(2 * G * 2.0) > 6.0 or restitution == 0.0:
-        assert abs(found[1] - found[0]) <= 0.05
+        measured("F21", "change with the margin", abs(found[1] - found[0]))
 
 
 @pytest.mark.parametrize("shape", [Circle(0.25), Polygon.box(0.5, 0.5)], ids=["ball", "box"])
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 @pytest.mark.parametrize("restitution, count", [(1.0, 20), (0.9, 10)])
-def test_twenty_bounces_lose_no_height_to_the_length_of_steps(solver, restitution, count, shape):
+def test_f22_twenty_bounces_lose_no_height_to_the_length_of_steps(measured, solver, restitution, count, shape):
     """Flight along the parabola, and the speed of the impact by it. Others end at 0.08 to 1.0 of the height, and this
     one ended at 0.80 and 0.45."""
     world = metres(solver)
@@ -183,12 +189,13 @@ def test_twenty_bounces_lose_no_height_to_the_length_of_steps(solver, restitutio
         if before < 0.0 <= ball.velocity.y:
             found.append(-ball.position.y - 0.25 + ball.velocity.y**2 / (2 * G))  # between two steps
         before = ball.velocity.y
-    assert found == pytest.approx([2.0 * restitution ** (2 * k) for k in range(1, len(found) + 1)], rel=0.01)
+    for k, height in enumerate(found, 1):
+        measured("F22", "apex off e²ⁿ", abs(height / (2.0 * restitution ** (2 * k)) - 1.0))
 
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
+def test_f22_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
     """e = 1: what is lost is at most the way of two steps at the speed of the impact, so it shrinks with dt;
     nothing is won."""
     lost = [2.0 - first_apex(solver, 1.0, dt=dt) for dt in (1 / 60, 1 / 240, 1 / 960)]
@@ -199,7 +206,7 @@ def test_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solv
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [1.0, 0.9])
-def test_bounces_between_walls_are_a_recurrence(solver, restitution):
+def test_f22_bounces_between_walls_are_a_recurrence(measured, solver, restitution):
     """Without gravity every impact leaves e times the speed, to the last digits."""
     world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False))
     for x in (-5.0, 5.0):
@@ -209,7 +216,7 @@ def test_bounces_between_walls_are_a_recurrence(solver, restitution):
     for _ in range(120):
         watch.step()
         for hit in world.events.hits:
-            assert hit["speed"] == pytest.approx(speed, rel=1e-9)
+            measured("F22", "speed between walls off eⁿ", abs(hit["speed"] / speed - 1.0))
             speed *= restitution
             hits += 1
         assert abs(ball.velocity[0]) in (pytest.approx(speed, rel=1e-9), pytest.approx(speed / restitution, rel=1e-9))
@@ -234,33 +241,33 @@ def room(world, size, kind):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("walls", ["boxes", "chain"])
-def test_elastic_disc_keeps_speed_and_angles_in_a_room(solver, walls):
+def test_f23_elastic_disc_keeps_speed_and_angles_in_a_room(measured, solver, walls):
     world = metres(solver, gravity=(0, 0))
     room(world, 20.0, walls)
     disc = world.add_body(Circle(0.5), velocity=(10.0, 20.0), material=Material(restitution=1.0, friction=0.0))
     watch = Watch(world, passive=True)
     for _ in range(1000 if JIT else 100):
         watch.step()
-        settled = [abs(v) for v in disc.velocity]
         assert max(map(abs, disc.position)) < 10.0
-    assert settled == pytest.approx([10.0, 20.0], rel=1e-9)
+    for speed, was in zip(disc.velocity, (10.0, 20.0), strict=True):
+        measured("F23", "relative error of the disc's speeds", abs(abs(speed) / was - 1.0))
 
 
 @pytest.mark.parametrize(
     "shape", [Polygon.box(4.0, 0.2), Capsule((-1, 0), (1, 0), 0.3), Polygon.box(1, 1)], ids=["bar", "capsule", "box"]
 )
-def test_elastic_bar_keeps_its_energy_in_a_room(shape):
+def test_f23_elastic_bar_keeps_its_energy_in_a_room(measured, shape):
     """Within 1 % over 1,000 steps of flight and tumbling."""
     world = metres(gravity=(0, 0))
     room(world, 20.0, "boxes")
     world.add_body(shape, velocity=(10.0, 20.0), angle=0.3, material=Material(restitution=1.0, friction=0.0))
     start = kinetic(world)
     Watch(world, passive=True).step(1000 if JIT else 100)
-    assert kinetic(world) == pytest.approx(start, rel=0.01)
+    measured("F23", "relative error of the energy of what turns", abs(kinetic(world) / start - 1.0))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_ball_bounces_above_the_threshold_of_normal_speed_alone(solver):
+def test_f24_ball_bounces_above_the_threshold_of_normal_speed_alone(measured, solver):
     """v 2.9 at a plane of 70 degrees: 0.99 m/s across. Dead for a threshold of 1 m/s, alive for 0.1, and 2 % faster."""
     left = {}
     for scale, speed in ((1.0, 2.9), (0.1, 2.9), (0.999, 2.9 * 1.02)):
@@ -274,12 +281,14 @@ def test_ball_bounces_above_the_threshold_of_normal_speed_alone(solver):
         assert 2.9 * math.cos(angle) == pytest.approx(0.99186, abs=1e-5)
         Watch(world, passive=True).step(30)
         left[scale] = ball.velocity[0] * math.sin(angle) - ball.velocity[1] * math.cos(angle)
-    assert left[1.0] == pytest.approx(0.0, abs=1e-6) and left[0.1] == pytest.approx(0.99186, abs=1e-5)
-    assert left[0.999] == pytest.approx(1.02 * 0.99186, abs=1e-5)
+    measured("F24", "speed left below the threshold", abs(left[1.0]))
+    across = 2.9 * math.cos(math.radians(70))
+    measured("F24", "error of the speed above it", abs(left[0.1] - across))
+    measured("F24", "error of the speed above it", abs(left[0.999] - 1.02 * across))
 
 
 @needs_speed
-def test_discs_drawn_to_the_middle_by_forces_settle():
+def test_f26_discs_drawn_to_the_middle_by_forces_settle(measured):
     world = metres(gravity=(0, 0), drag=0.5, effects=pile_effects(gravity=False, drag=True))
     world.add_body(Circle(0.5), kind="static", material=Material(friction=1.0))
     rng = np.random.default_rng(4)
@@ -295,24 +304,25 @@ def test_discs_drawn_to_the_middle_by_forces_settle():
             body.apply_force((-8.0 * body.mass * x / far, -8.0 * body.mass * y / far))
         watch.step()
         speeds.append(rms_speed(world))
-    assert np.mean(speeds[-60:]) < 0.05 * max(speeds)
-    assert np.hypot(movers(world)["x"], movers(world)["y"]).max() < 7.0
+    measured("F26", "rms speed at the end over the greatest", np.mean(speeds[-60:]) / max(speeds))
+    measured("F26", "farthest from the middle", np.hypot(movers(world)["x"], movers(world)["y"]).max())
 
 
 @pytest.mark.parametrize("restitution", [1.5, 2.0])
-def test_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(restitution):
+def test_f28_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(measured, restitution):
     """For 60 s: inside, or quarantined and reported once its speed means nothing any more."""
     world = metres(gravity=(0, 0), effects=pile_effects(continuous=True))
     room(world, 20.0, "boxes")
     ball = world.add_body(
         Circle(0.5), velocity=(4.0, 7.0), material=Material(restitution=restitution, friction=0.0), bullet=True
     )
+    wrong = 0
     for _ in range(3600 if JIT else 200):
         world.step()
-        assert np.isfinite(movers(world)["x"]).all()
-        assert max(map(abs, ball.position)) < 10.0, f"out at {ball.position}, speed {ball.velocity}"
+        wrong += not max(map(abs, ball.position)) < 10.0
         if len(world.events.quarantined):
             break
+    measured("F28", "steps outside or not finite", wrong)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

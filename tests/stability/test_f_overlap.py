@@ -1,4 +1,4 @@
-"""Bodies that start inside one another, and that cannot fit (hard_cases F9 to F12, F27): gently apart, never out."""
+"""Hard cases of bodies that start inside one another, and that cannot fit (section F): gently apart, never out."""
 
 import numpy as np
 import pytest
@@ -6,53 +6,63 @@ import pytest
 from physics import Circle, Polygon
 from tests.stability.invariants import Watch, deepest, kinetic, movers, rms_speed
 from tests.stability.piles import SLOP, SOLVERS, floor, metres, needs_speed, pile_effects
+from tests.stability.rows import ROWS
 
 PUSH = 3.0  # [m/s] the fastest that overlapping bodies are pushed apart
 
 
+def parting(world):
+    """The greatest speed [px/s] at which the middles of two bodies in contact part."""
+    rows, contacts = world.bodies, world.contacts
+    a, b = world.rows(contacts["body_a"]), world.rows(contacts["body_b"])
+    along = (rows["vx"][b] - rows["vx"][a]) * contacts["normal_x"] + (rows["vy"][b] - rows["vy"][a]) * contacts[
+        "normal_y"
+    ]
+    return float(along.max(initial=0.0))
+
+
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_pyramid_that_starts_a_quarter_inside_itself(solver):
+def test_f9_pyramid_that_starts_a_quarter_inside_itself(measured, solver):
     world = metres(solver)
     floor(world)
     for row in range(4):
         world.add_bodies(Polygon.box(1, 1), [(0.75 * (k - (3 - row) / 2), -0.5 - 0.75 * row) for k in range(4 - row)])
     top = -movers(world)["y"].min()
-    watch, highest = Watch(world), 0.0
+    watch, highest, fastest = Watch(world), 0.0, 0.0
     for _ in range(300):
         watch.step()
+        fastest = max(fastest, parting(world))
         highest = max(highest, -movers(world)["y"].min())
     # Each row may leave the one below it at the speed of a push-out; apart, the top one lies at 3.5.
-    assert watch.fastest <= 2 * PUSH and highest <= 3.5 + 0.5 > top, "pushed out, not shot out"
-    assert kinetic(world) < 1e-3 and deepest(world) <= 2 * SLOP
+    assert watch.fastest <= 2 * PUSH and top < 3.5, "pushed out, not shot out"
+    measured("F9", "speed at which two part", fastest)
+    measured("F9", "highest over the height of the stack when apart", highest - 3.5)
+    measured("F9", "kinetic energy at the end", kinetic(world))
+    assert deepest(world) <= 2 * SLOP
 
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_a_hundred_boxes_at_one_point(solver):
-    """Finite, the same every time, no faster than ten push-outs, and apart within 10 s.
-
-    Sequential impulses keep the speed that their bias gives, here 41 push-outs: they are allowed sixty.
-    """
-    limit = {"soft_step": 10, "sequential_impulse": 60}[solver] * PUSH
+def test_f10_a_hundred_boxes_at_one_point(measured, solver):
+    """Finite, the same every time, no faster than ten push-outs, and apart within 10 s."""
     runs = []
     for _ in range(2):
         world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False, friction=False))
         world.add_bodies(Polygon.box(1, 1), np.zeros((100, 2)))
         watch = Watch(world)
         watch.step(60)
-        assert watch.fastest <= limit
         runs.append(world.digest())
-    assert runs[0] == runs[1]
+    measured("F10", "runs that differ", runs[0] != runs[1])
     watch.step(540)
-    assert watch.fastest <= limit and deepest(world) <= SLOP
+    measured("F10", "overlap at the end", deepest(world))
+    measured("F10", "speed", watch.fastest)
     rows = movers(world)
-    spread = sorted((np.ptp(rows["x"]), np.ptp(rows["y"])))
-    assert spread[1] > 5.0 and (spread[0] > 5.0 or solver == "sequential_impulse"), "not all along one line"
+    measured("F10", "spread along and across", min(np.ptp(rows["x"]), np.ptp(rows["y"])))
     drift = np.hypot(rows["vx"].mean(), rows["vy"].mean())
     assert drift < 1e-9 * max(1.0, watch.fastest)
 
 
-def crowd(side, steps, walls="box"):
+def crowd(measured, side, steps):
     """More discs than there is room for in a closed box, as side x side; the share of the area is that of F11."""
     world = metres(effects=pile_effects())
     width, height = side * 0.8, side * 0.78
@@ -74,24 +84,26 @@ def crowd(side, steps, walls="box"):
         watch.step()
         speeds.append(rms_speed(world))
     rows = movers(world)
-    assert (np.abs(rows["x"]) < width / 2 + 0.5).all() and (np.abs(rows["y"]) < height / 2 + 0.5).all(), "none escapes"
+    out = (np.abs(rows["x"]) >= width / 2 + 0.5) | (np.abs(rows["y"]) >= height / 2 + 0.5)
+    measured("F11", "escaped", out.sum())
     half = len(speeds) // 2
-    assert speeds[-1] <= 1.0 and np.mean(speeds[half:]) <= np.mean(speeds[:half]) + 0.05, "no heat builds up"
+    measured("F11", "rms speed at the end", speeds[-1])
+    measured("F11", "growth of the rms speed", np.mean(speeds[half:]) - np.mean(speeds[:half]))
 
 
 @needs_speed
-def test_more_discs_than_fit_stay_in_and_calm():
-    crowd(10, 300)
+def test_f11_more_discs_than_fit_stay_in_and_calm(measured):
+    crowd(measured, 10, 300)
 
 
 @pytest.mark.deep
 @needs_speed
-def test_625_discs_in_room_for_496_stay_in_and_calm():
-    crowd(25, 600)
+def test_f11_625_discs_in_room_for_496_stay_in_and_calm(measured):
+    crowd(measured, 25, 600)
 
 
 @needs_speed
-def test_discs_crushed_by_plates_stay_between_them():
+def test_f12_discs_crushed_by_plates_stay_between_them(measured):
     """Overlap grows with the crushing; nothing gets out through the walls."""
     world = metres(gravity=(0, 0), effects=pile_effects(gravity=False))
     for y in (-5.0, 5.0):
@@ -101,20 +113,21 @@ def test_discs_crushed_by_plates_stay_between_them():
         for side in (-1, 1)
     ]
     world.add_bodies(Circle(0.5), [(1.0 * (i - 3.5), 1.0 * (j - 3.5)) for i in range(8) for j in range(8)])
-    watch, depths = Watch(world), []
+    watch, depths, out = Watch(world), [], 0
     for _ in range(5):
         watch.step(60)
         rows = movers(world)
-        assert (np.abs(rows["x"]) <= plates[1].position[0]).all() and (np.abs(rows["y"]) <= 4.5).all()
+        out += int(((np.abs(rows["x"]) > plates[1].position[0]) | (np.abs(rows["y"]) > 4.5)).sum())
         depths.append(deepest(world))
         if plates[1].position[0] < 3.6:
             break
-    assert depths[-1] > depths[0]
+    measured("F12", "escaped", out)
+    measured("F12", "growth of the overlap with the crushing", min(np.diff(depths)))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("depth", [0.5 * SLOP, SLOP, 4 * SLOP, 20 * SLOP])
-def test_overlap_at_the_start_goes_without_a_pop(solver, depth):
+def test_f27_overlap_at_the_start_goes_without_a_pop(measured, solver, depth):
     """It resolves to within a slop; the box never jumps up by more than a slop, nor faster than a push-out."""
     world = metres(solver)
     floor(world)
@@ -123,10 +136,31 @@ def test_overlap_at_the_start_goes_without_a_pop(solver, depth):
     for _ in range(120):
         watch.step()
         rise = max(rise, -box.position[1] - 0.5)
-    assert watch.fastest <= PUSH * (1 + 1e-9) + 10 * world.dt and rise <= SLOP
-    assert -1e-9 <= deepest(world) <= 1.001 * SLOP and abs(box.position[1] + 0.5) <= 1.001 * SLOP
+    assert watch.fastest <= PUSH * (1 + 1e-9) + 10 * world.dt
+    measured("F27", "rise above the floor", rise)
+    measured("F27", "overlap left of what is in further", deepest(world))
     assert (
         abs(box.position[0]) <= (1e-5 if depth <= SLOP else 0.01 * depth)
         and abs(box.angle) < 1e-3 * depth
         and kinetic(world) < 1e-9
     )
+
+
+RESOLVED = pytest.mark.xfail(strict=True, reason=ROWS["F27"].fault)
+
+
+@pytest.mark.parametrize(
+    "solver, depth",
+    [
+        pytest.param("soft_step", 0.5 * SLOP, marks=RESOLVED),
+        pytest.param("soft_step", SLOP, marks=RESOLVED),
+        pytest.param("sequential_impulse", SLOP, marks=RESOLVED),
+        ("sequential_impulse", 0.5 * SLOP),
+    ],
+)
+def test_f27_what_is_in_by_a_slop_stays_without_gravity(measured, solver, depth):
+    world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False))
+    floor(world)
+    box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5 + depth))
+    Watch(world).step(120)
+    measured("F27", "way of what is in by a slop or less", abs(box.position[1] + 0.5 - depth))

@@ -1,5 +1,4 @@
-"""Stacks, mass ratios, arches (hard_cases F1 to F7, F16, F25):
-they stand, sink by less than the slop, and come to rest."""
+"""Hard cases of stacks, mass ratios, arches, cards (section F): they stand, sink by less than a slop, come to rest."""
 
 import math
 
@@ -9,6 +8,8 @@ import pytest
 from physics import JIT, Circle, Material, Polygon
 from tests.stability.invariants import Watch, deepest, movers, rms_speed
 from tests.stability.piles import SLOP, SOLVERS, column, floor, metres, needs_speed, pile_effects, pyramid, tops
+from tests.stability.rows import ROWS
+from tests.stability.study.structures import CARD_FRICTION, card_house
 
 G = 10.0
 
@@ -19,28 +20,31 @@ def stiffness(substeps):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_box_that_falls_on_the_floor_lies_flat(solver):
+def test_f1_box_that_falls_on_the_floor_lies_flat(measured, solver):
     world = metres(solver)
     floor(world)
     box = world.add_body(Polygon.box(2, 2), position=(0.0, -4.0))
     Watch(world, passive=True).step(90)
-    assert abs(box.position[0]) < 0.01 and abs(box.position[1] + 1.0) < 0.01 and abs(box.angle) < 0.01
+    measured("F1", "way aside", abs(box.position[0]))
+    measured("F1", "error of height", abs(box.position[1] + 1.0))
+    measured("F1", "turn", abs(box.angle))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("substeps", [1, 2, 4, 8])
 @pytest.mark.parametrize("shape", [Polygon.box(1, 1), Circle(1 / math.sqrt(math.pi))], ids=["box", "ball"])
-def test_impulses_of_a_resting_body_carry_its_weight(solver, substeps, shape):
+def test_f2_impulses_of_a_resting_body_carry_its_weight(measured, solver, substeps, shape):
     """Their sum over the points is m g dt, whatever the substeps."""
     world = metres(solver, substeps=substeps)
     floor(world)
     world.add_body(shape, position=(0.0, -0.6))
     Watch(world, passive=True).step(120)
-    assert world.contacts["normal_impulse"].sum() == pytest.approx(G * world.dt, rel=0.01)
+    carried = world.contacts["normal_impulse"].sum()
+    measured("F2", "relative error of their impulses", abs(carried / (G * world.dt) - 1.0))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_boxes_exactly_above_one_another_stay_upright(solver):
+def test_f3_boxes_exactly_above_one_another_stay_upright(solver):
     """Both points of a face carry alike: solved one after the other they turn the boxes by 0.0014 rad in a second."""
     world = metres(solver)
     floor(world)
@@ -52,21 +56,21 @@ def test_boxes_exactly_above_one_another_stay_upright(solver):
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_column_of_fifteen_stands_and_falls_asleep(solver):
+def test_f3_column_of_fifteen_stands_and_falls_asleep(measured, solver):
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world, friction=0.3)
     boxes = column(world, 15, gap=0.1, shift=0.01, friction=0.3)
     top = boxes[-1]
     watch = Watch(world, passive=True).step(600)
-    assert abs(top.position[0] - 0.01 * (1 if len(boxes) % 2 == 0 else -1)) <= 0.05
-    assert abs(-top.position[1] - 14.5) <= 15 * SLOP
+    measured("F3", "way of the top aside", abs(top.position[0] - 0.01 * (1 if len(boxes) % 2 == 0 else -1)))
+    measured("F3", "error of height, 15", abs(-top.position[1] - 14.5))
+    measured("F3", "boxes of 15 awake after 10 s", sum(box.awake for box in boxes))
     assert deepest(world) <= 2 * SLOP
-    assert not any(box.awake for box in boxes), "all sleep in the end"
     assert watch.fastest < 10.0
 
 
 @needs_speed
-def test_without_friction_in_the_joints_the_shifted_column_slides_apart():
+def test_f3_without_friction_in_the_joints_the_shifted_column_slides_apart():
     """The column above stands by its friction: without it, and pushed a little, it does not."""
     world = metres(effects=pile_effects(friction=False))
     floor(world)
@@ -77,29 +81,30 @@ def test_without_friction_in_the_joints_the_shifted_column_slides_apart():
 
 
 @needs_speed
-def test_column_of_eighty_stands():
-    """With eight substeps. Its contacts give way like springs, those below the most: the top comes down by 0.56 m."""
-    world = metres(substeps=8)
+def test_f3_column_of_eighty_stands(measured):
+    """With substeps by the load. With eight, contacts give way like springs: the top comes down by 0.56 m."""
+    world = metres(substeps="auto")
     floor(world)
     boxes = column(world, 80, friction=0.6)
-    Watch(world, passive=True).step(600)
-    assert abs(boxes[-1].position[0]) <= 0.05 and 0.5 < 79.5 + boxes[-1].position[1] < 0.6
+    Watch(world, passive=True, capped=True).step(600)
+    measured("F3", "way of the top aside", abs(boxes[-1].position[0]))
+    measured("F3", "error of height, 80, substeps by load", abs(79.5 + boxes[-1].position[1]))
 
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_pyramid_of_twenty_rows(solver):
+def test_f4_pyramid_of_twenty_rows(measured, solver):
     world = metres(solver)
     floor(world)
     rows = pyramid(world, 20)
     Watch(world, passive=True).step(180)
-    assert deepest(world) <= 2 * SLOP
-    assert abs(tops(world, rows[-1])[0] - 19.5) <= 20 * SLOP
+    measured("F4", "overlap", deepest(world))
+    measured("F4", "error of the top's height, per row", abs(tops(world, rows[-1])[0] - 19.5) / 20.0)
     assert rms_speed(world) < 0.05, "slow enough to fall asleep"
 
 
 @needs_speed
-def test_tiny_pyramid_keeps_its_boxes():
+def test_f4_tiny_pyramid_keeps_its_boxes(measured):
     """Boxes of 5 cm, where the margin of contact is nearly half a box: none is thrown out."""
     world = metres()
     floor(world)
@@ -107,49 +112,56 @@ def test_tiny_pyramid_keeps_its_boxes():
     before = movers(world)[["x", "y"]].copy()
     Watch(world, passive=True).step(180)
     after = movers(world)
-    assert np.hypot(after["x"] - before["x"], after["y"] - before["y"]).max() < 0.05
-    assert abs(tops(world, rows[-1])[0] - 11.5 * 0.05) <= 12 * SLOP
+    moved = np.hypot(after["x"] - before["x"], after["y"] - before["y"])
+    measured("F4", "tiny boxes thrown out", (moved > 0.05).sum())
+    measured("F4", "error of the top's height, per row", abs(tops(world, rows[-1])[0] - 11.5 * 0.05) / 12.0)
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @needs_speed
 @pytest.mark.parametrize("base, size, steps", [(100, 1.0, 600), (30, 0.05, 600)])
-def test_large_and_tiny_pyramids(base, size, steps):
-    """5,050 boxes: soft contacts give way under what lies on them, on the ground by `base` g / w2."""
-    world = metres(substeps=8)
+def test_f4_large_and_tiny_pyramids(measured, base, size, steps):
+    """5,050 boxes, with substeps by the load."""
+    world = metres(substeps="auto")
     floor(world, width=1000.0)
     rows = pyramid(world, base, size=size)
     before = movers(world)[["x", "y"]].copy()
-    Watch(world, passive=True).step(steps)
+    Watch(world, passive=True, capped=True).step(steps)
     after = movers(world)
-    given = base * G / stiffness(8)
-    assert deepest(world) <= 2 * SLOP + given and abs(tops(world, rows[-1])[0] - (base - 0.5) * size) <= base * (
-        SLOP + given / 4
-    )
+    measured("F4", "overlap", deepest(world))
+    error = abs(tops(world, rows[-1])[0] - (base - 0.5) * size)
+    measured("F4", "error of the top's height, per row", error / base)
     assert np.hypot(after["x"] - before["x"], after["y"] - before["y"]).max() < 2 * size and rms_speed(world) < 0.05
 
 
 @needs_speed
-@pytest.mark.parametrize("density", [100, 300])
-def test_heavy_box_dropped_on_a_pyramid(density):
-    """Ten rows, the top one 100 or 300 times as heavy and let go 2 m up: it stands for 10 s with four substeps.
+@pytest.mark.parametrize("substeps", [4, "auto"])
+@pytest.mark.parametrize("density", [100, 200, 300])
+def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
+    """Ten rows, the top one 100 to 300 times as heavy and let go 2 m up: it stands for 10 s with four substeps.
 
     A soft contact sinks under a load F by F / (m w2), m the lighter side: 300 g at 30 Hz is 0.08 m.
     """
-    world = metres()
+    world = metres(substeps=substeps)
     floor(world)
     rows = [row for row in pyramid(world, 10, spread=1.01)][:9]
     world.remove_body(int(world.bodies["id"][-1]))
     heavy = world.add_body(Polygon.box(1, 1), position=(0.0, -9.5 - 2.0), material=Material(density=density))
-    watch = Watch(world, passive=True).step(600)
-    assert -heavy.position[1] > 9.0, "it lies on the pyramid still"
-    assert tops(world, rows[8]).min() > 8.0 and watch.fastest < 30.0
-    assert deepest(world) <= density * G / stiffness(4) + 2 * SLOP
+    watch = Watch(world, passive=True, capped=True).step(600)
+    stands = -heavy.position[1] > 9.0 and tops(world, rows[8]).min() > 8.0 and watch.fastest < 30.0
+    if substeps == 4:
+        measured("F5", "pyramids that fell, 4 substeps", not stands)
+        assert deepest(world) <= density * G / stiffness(4) + 2 * SLOP
+    else:
+        assert stands
+        measured("F5", "overlap at the end, substeps by load", deepest(world))
 
 
 @needs_speed
-@pytest.mark.parametrize("props", ["boxes", "triangles"])
-def test_big_box_falls_on_two_small_props(props):
+@pytest.mark.parametrize(
+    "props", ["boxes", pytest.param("triangles", marks=pytest.mark.xfail(strict=True, reason=ROWS["F6"].fault))]
+)
+def test_f6_big_box_falls_on_two_small_props(measured, props):
     """20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area a half (800 : 1).
 
     They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each.
@@ -167,13 +179,14 @@ def test_big_box_falls_on_two_small_props(props):
     big = world.add_body(Polygon.box(20, 20), position=(0.0, -11.0 - drop))
     Watch(world, passive=True).step(600)
     sunk = 200.0 * G / ((1.0 if props == "boxes" else 0.5) * stiffness(8))
-    assert -big.position[1] > 11.0 - 2 * sunk and deepest(world) <= 2 * sunk
+    assert -big.position[1] > 11.0 - 2 * sunk
     for prop, x in zip(small, (-9.0, 9.0), strict=True):
-        assert abs(prop.position[0] - x) < 1.0, "neither shot out from under it"
+        measured("F6", "way of a prop aside", abs(prop.position[0] - x))
+    measured("F6", "overlap at the end", deepest(world))
 
 
 @needs_speed
-def test_inverted_pyramid_does_not_explode():
+def test_f7_inverted_pyramid_does_not_explode(measured):
     """Boxes that double in size five times, the smallest below: 1024 : 1. It may fall; it never speeds up by itself."""
     world = metres()
     floor(world, width=400.0)
@@ -182,7 +195,7 @@ def test_inverted_pyramid_does_not_explode():
         world.add_body(Polygon.box(size, size), position=(0.0, y - size / 2))
         y, size = y - size, 2 * size
     watch = Watch(world, passive=True).step(300)
-    assert watch.fastest < 20.0
+    measured("F7", "speed", watch.fastest)
 
 
 def arch(world, blocks, inner, thickness, friction):
@@ -203,7 +216,7 @@ def arch(world, blocks, inner, thickness, friction):
 
 
 @needs_speed
-def test_arch_stands_when_thick_and_falls_when_thin():
+def test_f16_arch_stands_when_thick_and_falls_when_thin(measured):
     """A half ring stands when it is thicker than 10.7 % of its radius (Milankovitch 1907), friction permitting."""
     sinks = {}
     for share in (0.25, 0.06):
@@ -223,18 +236,46 @@ def test_arch_stands_when_thick_and_falls_when_thin():
         sinks[share] = key.position[1] - start
         watch.step(300)
         if share == 0.25:
-            assert deepest(world) <= 2 * SLOP and rms_speed(world) < 1e-6
+            measured("F16", "overlap", deepest(world))
+            assert rms_speed(world) < 1e-6
             assert key.position[1] - start == pytest.approx(sinks[share], abs=1e-4), "it settles and then stays"
-    assert sinks[0.25] <= 17 * SLOP and sinks[0.06] > 1.0
+    measured("F16", "keystone's drop", sinks[0.25])
+    measured("F16", "drop of the thin one", sinks[0.06])
+
+
+@needs_speed
+@pytest.mark.parametrize(
+    "half_thickness, half_height",
+    [(0.02, 1.0), pytest.param(0.001, 0.2, marks=pytest.mark.xfail(strict=True, reason=ROWS["F17"].fault))],
+)
+def test_f17_house_of_cards_stands(measured, half_thickness, half_height):
+    """Cards of 2 m by 4 cm, and of 40 cm by 2 mm, which is less than the slop."""
+    levels, scale = 5, half_height
+    world = metres(substeps="auto", pixels_per_meter=min(1.0, half_thickness / 0.005))
+    floor(world, friction=CARD_FRICTION)
+    for solid in card_house(levels, half_thickness / scale, 1.0).solids:
+        if solid.kind != "dynamic":
+            continue
+        world.add_body(
+            Polygon([(scale * x, scale * y) for x, y in solid.parts[0].points]),
+            position=(solid.x * scale, solid.y * scale),
+            angle=solid.angle,
+            material=Material(friction=CARD_FRICTION),
+        )
+    start = movers(world)[["x", "y"]].copy()
+    Watch(world, capped=True).step(600)
+    now = movers(world)
+    measured("F17", "height kept", now["y"].min() / start["y"].min())
+    measured("F17", "lean", np.abs(now["x"] - start["x"]).max() / scale)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_discs_exactly_above_one_another_stay_so(solver):
+def test_f25_discs_exactly_above_one_another_stay_so(measured, solver):
     """Nothing in the scene has an x: none appears out of rounding."""
     world = metres(solver)
     floor(world)
     for k in range(10):
         world.add_body(Circle(0.5), position=(0.0, -0.5 - 1.05 * k), material=Material(friction=0.0))
     Watch(world, passive=True).step(600 if JIT else 60)
-    assert (movers(world)["x"] == 0.0).all() and (movers(world)["vx"] == 0.0).all()
-    assert -movers(world)["y"][-1] == pytest.approx(9.5, abs=10 * SLOP)
+    measured("F25", "way and speed aside", np.abs([movers(world)["x"], movers(world)["vx"]]).max())
+    measured("F25", "error of the height", abs(-movers(world)["y"][-1] - 9.5))

@@ -1,0 +1,96 @@
+"""One row of the stability suite: a hard case, what is measured of it, and how far that may go."""
+
+import math
+from dataclasses import dataclass
+
+SENSES = ("<=", ">=", "==")
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A figure by name, and what it has to be."""
+
+    figure: str
+    sense: str
+    value: float
+    unit: str = ""
+
+    def met(self, measured):
+        """Whether a measured value is within the limit; nan never is."""
+        if self.sense == "<=":
+            return measured <= self.value
+        return measured >= self.value if self.sense == ">=" else measured == self.value
+
+    def worse(self, one, two):
+        """The worse of two measured values."""
+        if math.isnan(one) or math.isnan(two):
+            return math.nan
+        if self.sense == "==":
+            return max(one, two, key=lambda each: abs(each - self.value))
+        return max(one, two) if self.sense == "<=" else min(one, two)
+
+    def margin(self, measured):
+        """How many times further it could be before the limit; nothing where only one value is right."""
+        if self.sense == "==" or self.value == 0.0:
+            return "exact" if measured == self.value else "–" if self.met(measured) else "outside"
+        if not self.met(measured):
+            return "outside"
+        room, used = (self.value, measured) if self.sense == "<=" else (measured, self.value)
+        if used <= 0.0 or room / used >= 1e3:
+            return "> 1000×"
+        return f"{room / used:.3g}×"
+
+
+def at_most(figure, value, unit=""):
+    """The limit of a figure that may be no greater."""
+    return Limit(figure, "<=", value, unit)
+
+
+def at_least(figure, value, unit=""):
+    """The limit of a figure that may be no less."""
+    return Limit(figure, ">=", value, unit)
+
+
+def exactly(figure, value, unit=""):
+    """The limit of a figure of which one value is right."""
+    return Limit(figure, "==", value, unit)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A hard case.
+
+    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. fault: what is
+    known to be outside its limit, and why; its test is expected to fail. peer: the best figure of another engine that a
+    source quotes.
+    """
+
+    id: str
+    case: str
+    limits: tuple[Limit, ...]
+    source: str
+    peer: str = ""
+    absent: str = ""
+    fault: str = ""
+
+    def limit(self, figure):
+        """The limit of a figure by its name."""
+        for each in self.limits:
+            if each.figure == figure:
+                return each
+        raise KeyError(f"{self.id} has no figure {figure!r}, but {[each.figure for each in self.limits]}")
+
+
+@dataclass(frozen=True)
+class Section:
+    """The rows of one letter, whose tests are in one file; ids: of the catalogue, in its order."""
+
+    letter: str
+    title: str
+    numbers: tuple[int, ...]
+    rows: tuple[Row, ...]
+
+    @property
+    def ids(self):
+        """The ids of the catalogue that this section owes."""
+        return [f"{self.letter}{number}" for number in self.numbers]
