@@ -58,7 +58,7 @@ def drawn(palette, layers):
     scene = stepped(Crowd())
     scene.set_accessibility(Accessibility(palette=palette))
     overlays = Overlays(layers)
-    overlays.times.note(scene)
+    overlays.note(scene)
     return pygame.surfarray.array3d(Picture().draw_scene(scene, overlays).surface).astype(int)
 
 
