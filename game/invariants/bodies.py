@@ -41,6 +41,17 @@ class Bodies:
             and np.array_equal(self.felt, other.felt)
         )
 
+    def differs_from(self, other: "Bodies | None") -> np.ndarray:
+        """Which are others, or otherwise, than before; all without a before."""
+        if other is None:
+            return np.ones(len(self), bool)
+        if np.array_equal(self.ids, other.ids):
+            return (self.numbers != other.numbers).any(axis=0) | (self.kind != other.kind)
+        at = np.searchsorted(other.ids, self.ids).clip(max=max(0, len(other) - 1))
+        if not len(other):
+            return np.ones(len(self), bool)
+        return (other.ids[at] != self.ids) | (self.numbers != other.numbers[:, at]).any(axis=0)
+
     @cached_property
     def speed(self) -> np.ndarray:
         """[px/s] of each centre of mass."""
@@ -92,14 +103,17 @@ class Bodies:
         """Mass times speed, summed without direction: what a drift of the momentum is measured by."""
         return float(self.mass @ self.speed)
 
-    @property
-    def spin(self) -> tuple[float, float]:
-        """(angular momentum about the common centre of mass, the same summed without sign)."""
-        total = self.total_mass
+    def spin(self, among: np.ndarray) -> tuple[float, float, float]:
+        """Of those flagged: (angular momentum about their common centre of mass; the same summed without sign; what its
+        rounding is measured by: arms times momenta as they stand in the world, and what a second of gravity gives)."""
+        mass = self.mass * among
+        total = float(mass.sum())
         if total == 0.0:
-            return 0.0, 0.0
-        x, y = self.cx - self.mass @ self.cx / total, self.cy - self.mass @ self.cy / total
-        vx, vy = self.vx - self.mass @ self.vx / total, self.vy - self.mass @ self.vy / total
-        orbit, own = self.mass * (x * vy - y * vx), self.inertia * self.turn
-        scale = self.mass * np.sqrt(x * x + y * y) * np.sqrt(vx * vx + vy * vy) + np.abs(own)
-        return float(orbit.sum() + own.sum()), float(scale.sum())
+            return 0.0, 0.0, 0.0
+        x, y = self.cx - mass @ self.cx / total, self.cy - mass @ self.cy / total
+        vx, vy = self.vx - mass @ self.vx / total, self.vy - mass @ self.vy / total
+        orbit, own = mass * (x * vy - y * vx), self.inertia * among * self.turn
+        arm = np.sqrt(x * x + y * y)
+        scale = mass * arm * np.sqrt(vx * vx + vy * vy) + np.abs(own)
+        arms = mass * arm @ (self.speed + math.hypot(*self.gravity))
+        return float(orbit.sum() + own.sum()), float(scale.sum()), float(arms)

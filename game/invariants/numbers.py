@@ -16,7 +16,7 @@ UNIT = 2e-12  # of the square of a normal's length: 1e-12 of the length (hard_ca
 Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, what it is
 
 
-def tables(world: World) -> list:
+def tables(world: World, sleeping: bool) -> list:
     """(name, rows, columns) of all that a world tells in numbers, but for the boxes of shapes."""
     events = world.events
     told = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in TOLD]
@@ -25,6 +25,7 @@ def tables(world: World) -> list:
         ("contacts", world.contacts, CONTACT_NUMBERS),
         ("events.hits", events.hits, HIT_NUMBERS),
         *told,
+        *([("sleeping_contacts", world.sleeping_contacts, CONTACT_NUMBERS)] if sleeping else []),
     ]
 
 
@@ -39,9 +40,9 @@ def ids_of(row: np.void) -> tuple[int, ...]:
     )
 
 
-def not_finite(world: World) -> Bad | None:
-    """The first number that is not finite. A shape without a solid part has a box from +inf to -inf: that is none."""
-    for name, rows, columns in tables(world):
+def not_finite(world: World, sleeping: bool = False) -> Bad | None:
+    """The first number that is not finite; sleeping: of contacts that sleep too, which are listed for it. A shape without a solid part has a box from +inf to -inf: that is none."""
+    for name, rows, columns in tables(world, sleeping):
         if not len(rows):
             continue
         numbers = block(rows, columns)
@@ -59,9 +60,9 @@ def not_finite(world: World) -> Bad | None:
     return None
 
 
-def not_unit(world: World) -> Bad | None:
+def not_unit(world: World, sleeping: bool = False) -> Bad | None:
     """The first normal that is not of unit length; the value is by how much the square of its length is off."""
-    for name, rows, columns in tables(world)[1:]:
+    for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):
             x, y = block(rows, columns)[2:4]
             off = np.abs(x * x + y * y - 1.0)

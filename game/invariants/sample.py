@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from game.invariants.step import Step
-from physics import Bounds, Capsule, Circle, Polygon, Segment
+from physics import Capsule, Circle, PixelMask, Polygon, Segment, TileGrid, World
 from physics.shapes.kinds import Shape
 
 CONVEX = (Circle, Capsule, Polygon, Segment)
-PAIRS = 2  # asked about in a step; a concave one counts for both: it takes ten times as long
+PAIRS = 2  # asked about in a step; a concave one counts for both: it takes ten times as long and more
 TRIES = 8  # candidates looked at to find them
+LARGEST = 1 << 16  # pixels or tiles of a shape that is asked about: a moon of 4096 x 1024 px takes a second
 
 Pose = tuple[float, float, float]
 
@@ -40,6 +41,11 @@ class Pair(NamedTuple):
         return isinstance(self.shape_a, CONVEX) and isinstance(self.shape_b, CONVEX)
 
     @property
+    def small(self) -> bool:
+        """Whether neither is a mask or a grid beyond LARGEST."""
+        return max(extent_of(self.shape_a), extent_of(self.shape_b)) <= LARGEST
+
+    @property
     def same(self) -> bool:
         """Whether nothing tells A from B: the same shape at the same place."""
         return self.pose_a == self.pose_b and self.shape_a == self.shape_b
@@ -58,8 +64,8 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
         if ids in seen:
             continue
         seen.add(ids)
-        pair = pair_of(step, *ids)
-        if pair is None or not (pair.hulls or concave):
+        pair = pair_of(world, *ids)
+        if pair is None or not (pair.hulls or concave and pair.small):
             continue
         yield pair
         room -= 1 if pair.hulls else PAIRS
@@ -67,9 +73,9 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
             return
 
 
-def pair_of(step: Step, shape_a: int, shape_b: int) -> Pair | None:
+def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
     """The pair of two shape ids; None where one is taken out, or is no number."""
-    found = [placed(step, each) for each in (shape_a, shape_b)]
+    found = [placed(world, each) for each in (shape_a, shape_b)]
     if found[0] is None or found[1] is None:
         return None
     (body_a, one, pose_a, reach_a), (body_b, two, pose_b, reach_b) = found
@@ -79,20 +85,22 @@ def pair_of(step: Step, shape_a: int, shape_b: int) -> Pair | None:
     return Pair(body_a, body_b, shape_a, shape_b, one, pose_a, two, pose_b, size)
 
 
-def placed(step: Step, shape_id: int):
+def extent_of(shape: Shape) -> int:
+    """Pixels of a mask, tiles of a grid, with those that are clear."""
+    if isinstance(shape, PixelMask):
+        return shape.size[0] * shape.size[1]
+    return shape.solid.size if isinstance(shape, TileGrid) else 1
+
+
+def placed(world: World, shape_id: int):
     """(body id, shape, pose, reach [px] from the pose) of a shape."""
-    shapes, bodies = step.world.shapes, step.world.bodies
+    shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))
     row = int(shapes["body_row"][at])
     if bodies["quarantined"][row]:
         return None
-    body = step.world.body(int(bodies["id"][row]))
+    body = world.body(int(bodies["id"][row]))
     shape = body.shapes[body.shape_ids.index(shape_id)]
     pose = tuple(bodies[name].item(row) for name in ("x", "y", "angle"))
     center = abs(bodies["local_center_x"].item(row)) + abs(bodies["local_center_y"].item(row))
     return body.id, shape, pose, bodies["extent"].item(row) + center
-
-
-def is_box(shape: Shape) -> bool:
-    """Whether it stands for the box of another: the box of a turned shape is another box."""
-    return isinstance(shape, Bounds)

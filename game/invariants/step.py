@@ -1,4 +1,4 @@
-"""A step that was made: the world after it, its bodies before and after, and what acted on it from outside."""
+"""A step that was made: the world after it, its bodies before and after, and whom anything from outside acted on."""
 
 from functools import cached_property
 
@@ -9,10 +9,14 @@ from physics import DYNAMIC, KINEMATIC, World
 
 
 class Step:
-    """`edited`: somebody changed the world since the step before it; `forced`: forces had been applied to bodies."""
+    """`dt`: its length [s]; `edited`: somebody changed the world since the step before it. By row of the bodies before it: `changed`, those
+    that were changed; `forced`, those that forces had been applied to."""
 
-    def __init__(self, world: World, before: Bodies, edited: bool, forced: bool) -> None:
-        self.world, self.before, self.edited, self.forced = world, before, edited, forced
+    def __init__(
+        self, world: World, before: Bodies, dt: float, edited: bool, changed: np.ndarray, forced: np.ndarray
+    ) -> None:
+        self.world, self.before, self.dt = world, before, dt
+        self.edited, self.changed, self.forced = edited, changed, forced
         self.number = world.steps
         self.now = Bodies(world)
         self.contacts = world.contacts
@@ -28,45 +32,50 @@ class Step:
         depths = self.contacts["separation"]
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
-    def rows_of(self, ids: np.ndarray) -> np.ndarray:
-        """Rows of bodies that are there."""
-        return np.searchsorted(self.now.ids, ids)
+    @cached_property
+    def sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """Rows of the two bodies of each contact."""
+        return (
+            np.searchsorted(self.now.ids, self.contacts["body_a"]),
+            np.searchsorted(self.now.ids, self.contacts["body_b"]),
+        )
+
+    def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
+        """Those flagged, and whoever touches them, directly or by others; both bodies of a contact must be `through`."""
+        a, b = self.sides
+        open_ones = through[a] & through[b]
+        a, b, reached = a[open_ones], b[open_ones], rows.copy()
+        while (reached[a] != reached[b]).any():
+            reached[b[reached[a]]] = True
+            reached[a[reached[b]]] = True
+        return reached
+
+    @cached_property
+    def moved_by_hand(self) -> np.ndarray:
+        """Kinematic bodies that move."""
+        now = self.now
+        moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
+        moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)
+        return moves & (now.kind == KINEMATIC)
 
     @cached_property
     def outside(self) -> str:
-        """What adds momentum and energy from outside in this step, "" where nothing does."""
+        """What may act on any body from outside in this step and stands in no table, "" where nothing does."""
         world, effects = self.world, self.world.effects
-        if self.forced:
-            return "forces act"
-        if len(world.characters.rows):
-            return "a character walks and pushes"
         if len(self.before) != len(self.now):
             return "bodies came or went"
-        movers = self.now.kind == KINEMATIC
-        if movers.any():
-            turned = (self.now.vx != 0.0) | (self.now.vy != 0.0) | (self.now.turn != 0.0)
-            moved = (self.now.numbers[:3] != self.before.numbers[:3]).any(axis=0)
-            if (movers & (turned | moved)).any():
-                return "a kinematic body moves"
+        if effects.response and len(world.characters.rows):
+            return "a character walks and pushes"
         if effects.wind and any(world.wind):
             return "wind blows"
-        if effects.conveyor and world.shapes["surface_speed"].any():
-            return "a belt runs"
-        if len(world.events.quarantined):
-            return "a body was taken out"
         return ""
 
     @cached_property
-    def open(self) -> str:
-        """Why the bodies are not alone with each other, so that momentum may leave them; "" where they are."""
-        world, effects = self.world, self.world.effects
-        if self.outside:
-            return self.outside
-        if any(self.now.gravity):
-            return "gravity acts"
-        if effects.drag and world.drag > 0.0:
-            return "drag acts"
-        sides = np.concatenate((self.contacts["body_a"], self.contacts["body_b"]))
-        if len(sides) and (self.now.kind[self.rows_of(sides)] != DYNAMIC).any():
-            return "something that stands is touched"
-        return ""
+    def alone(self) -> np.ndarray:
+        """The dynamic bodies that nothing but gravity acted on from outside: no force, and nothing that stands, sleeps
+        or is moved by hand touched them, or one that they touched."""
+        rows = self.world.bodies
+        still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
+        if self.world.effects.response and len(self.contacts):
+            still = self.spread(still, np.ones(len(self.now), bool))
+        return ~still

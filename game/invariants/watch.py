@@ -45,17 +45,17 @@ class Watch:
         self.seconds = 0.0
         self.last: Bodies | None = None
         self.shapes = np.zeros(0, np.int64)
-        self.edited = self.forced = True
+        self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
 
     def before(self, world: World) -> None:
         """To be called right before a step: what has been changed since the last one?"""
         started = perf_counter()
         rows, now = world.bodies, Bodies(world)
-        self.edited = (
-            self.last is None or not now.same_as(self.last) or not np.array_equal(world.shapes["id"], self.shapes)
-        )
-        self.forced = bool(rows["force_x"].any() or rows["force_y"].any() or rows["torque"].any())
-        self.last = now
+        same = self.last is not None and now.same_as(self.last)
+        self.changed = np.zeros(len(now), bool) if same else now.differs_from(self.last)
+        self.edited = not same or not np.array_equal(world.shapes["id"], self.shapes)
+        self.forced = (rows["force_x"] != 0.0) | (rows["force_y"] != 0.0) | (rows["torque"] != 0.0)
+        self.last, self.time = now, world.time
         self.seconds += perf_counter() - started
 
     def after(self, world: World) -> None:
@@ -63,7 +63,7 @@ class Watch:
         started = perf_counter()
         if self.last is None:
             raise ValueError("before() must be called before the step")
-        step = Step(world, self.last, self.edited, self.forced)
+        step = Step(world, self.last, world.time - self.time, self.edited, self.changed, self.forced)
         for invariant in self.invariants:
             answer = invariant.look(step)
             if not isinstance(self.found.get(invariant.id), Broken):
