@@ -76,6 +76,11 @@ class Spin(OfTheAlone):
     """U4: so does their angular momentum, about their common centre of mass, to 1e-3 of Σ |r × m v| + |I ω| in 600
     steps, and the rounding of U3 at their arms.
 
+    An impulse acts where two bodies are found to meet, at one moment of a step in which they go on moving past each other:
+    it may be off by that way (`slip`), and so may the spin by the way times the impulse. That is no drift, but how
+    accurate a step is: measured 0.7 % of the scale in one hit of two stones of lab/carving, 0.1 % in 214 steps of
+    lab/tumbler with 130 bodies. What lies beyond is added up.
+
     Not of bodies that a solver without stacking pushes apart: it moves places and not speeds, so that momentum gets
     another arm. A column of ten that falls over under projection loses 0.9 % in one step, and 0.004 % by its impulses.
     """
@@ -108,7 +113,26 @@ class Spin(OfTheAlone):
         """(what was gained [2], what may be in LONG steps, the change of each body)."""
         (now, scale, arms), (before, *_) = step.now.spin(alone), step.before.spin(alone)
         change = np.abs(step.now.inertia * (step.now.turn - step.before.turn))
-        return np.array((now - before, 0.0)), TWIST * scale + DRIFT * arms, change
+        beyond = max(0.0, abs(now - before) - slip(step, alone))
+        return np.array((math.copysign(beyond, now - before), 0.0)), TWIST * scale + DRIFT * arms, change
+
+
+def slip(step: Step, among: np.ndarray) -> float:
+    """Σ impulse times the way in the step, past each other, of those flagged that touch."""
+    rows, (a, b) = step.contacts, step.sides
+    pushed = np.flatnonzero(among[a] & among[b])
+    if not len(pushed):
+        return 0.0
+    rows, a, b = rows[pushed], a[pushed], b[pushed]
+    impulse = np.abs(rows["normal_impulse"]) + np.abs(rows["tangent_impulse"])
+    way = np.zeros(len(rows))
+    for bodies in (step.before, step.now):
+        ax, ay = rows["point_x"] - bodies.cx[a], rows["point_y"] - bodies.cy[a]
+        bx, by = rows["point_x"] - bodies.cx[b], rows["point_y"] - bodies.cy[b]
+        vx = bodies.vx[b] - bodies.turn[b] * by - bodies.vx[a] + bodies.turn[a] * ay
+        vy = bodies.vy[b] + bodies.turn[b] * bx - bodies.vy[a] - bodies.turn[a] * ax
+        way += np.sqrt(vx * vx + vy * vy) * step.dt
+    return float(impulse @ way)
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
