@@ -17,4 +17,4 @@ def block(rows: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
     """(len(names), n) float64 of n rows; the names of columns of that type only."""
     table = np.ascontiguousarray(rows)
     words = table.view(np.float64).reshape(len(table), table.dtype.itemsize // 8)
-    return np.ascontiguousarray(words[:, _words(table.dtype, names)].T)
+    return np.array(words[:, _words(table.dtype, names)].T, order="C")  # a copy even of a single row
