@@ -59,7 +59,7 @@ class Bodies:
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """[px2/s2] gravity times how far each has come along it: its energy of height per mass, with the sign turned."""
+        """[px2/s2] gravity times how far each has come along it: minus its energy of height, per mass."""
         gx, gy = self.gravity
         return gx * self.cx + gy * self.cy
 
@@ -103,17 +103,13 @@ class Bodies:
         """Mass times speed, summed without direction: what a drift of the momentum is measured by."""
         return float(self.mass @ self.speed)
 
-    def spin(self, among: np.ndarray) -> tuple[float, float, float]:
-        """Of those flagged: (angular momentum about their common centre of mass; the same summed without sign; what its
-        rounding is measured by: arms times momenta as they stand in the world, and what a second of gravity gives)."""
+    def spin(self, among: np.ndarray) -> float:
+        """Angular momenta of those flagged about their common centre of mass, summed without sign."""
         mass = self.mass * among
         total = float(mass.sum())
         if total == 0.0:
-            return 0.0, 0.0, 0.0
+            return 0.0
         x, y = self.cx - mass @ self.cx / total, self.cy - mass @ self.cy / total
         vx, vy = self.vx - mass @ self.vx / total, self.vy - mass @ self.vy / total
-        orbit, own = mass * (x * vy - y * vx), self.inertia * among * self.turn
-        arm = np.sqrt(x * x + y * y)
-        scale = mass * arm * np.sqrt(vx * vx + vy * vy) + np.abs(own)
-        arms = mass * arm @ (self.speed + math.hypot(*self.gravity))
-        return float(orbit.sum() + own.sum()), float(scale.sum()), float(arms)
+        orbit = mass * np.sqrt((x * x + y * y) * (vx * vx + vy * vy))
+        return float(orbit.sum() + (self.inertia * among) @ np.abs(self.turn))

@@ -13,7 +13,7 @@ NO_STEP = "no step was made yet"
 
 @dataclass
 class Light:
-    """`reason`: why it is grey; `breaks`: frames in which it was broken, since the scene began; `last`: the last one."""
+    """`reason`: why it is grey; `breaks`: frames in which it was, since the scene began; `last`: the last one."""
 
     id: str
     word: str

@@ -36,12 +36,17 @@ def ids_of(row: np.void) -> tuple[int, ...]:
     """Of the bodies that a row of any table is about."""
     names = row.dtype.names or ()
     return tuple(
-        int(row[name]) for name in (("id",) if "kind" in names and "x" in names else ("body", "body_a", "body_b")) if name in names
+        int(row[name])
+        for name in (("id",) if "kind" in names and "x" in names else ("body", "body_a", "body_b"))
+        if name in names
     )
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """The first number that is not finite; sleeping: of contacts that sleep too, which are listed for it. A shape without a solid part has a box from +inf to -inf: that is none."""
+    """The first number that is not finite; sleeping: of contacts that sleep too, which are listed for it.
+
+    A shape without a solid part has a box from +inf to -inf: that is none.
+    """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
             continue

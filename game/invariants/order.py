@@ -14,16 +14,16 @@ class Order(Invariant):
     """Cannot be asked of a world that runs, which has one order only: its light is never green. `furthest_apart` asks
     it of two worlds, and tests do (tests/game/test_invariants.py).
 
-    It holds of bodies that do not press on each other. Those that do are solved one contact after the other, in an order
-    that begins with their ids, and what a step leaves unsolved depends on it: four columns of three boxes differ by 2e-7
-    of where they stand after 60 steps where substeps follow from the loads, by 5e-5 with 4 of them.
+    It holds of bodies that do not press on each other. Those that do are solved one contact after the other, in an
+    order that begins with their ids, and what a step leaves unsolved depends on it: four columns of three boxes differ
+    by 2e-7 of where they stand after 60 steps where substeps follow from the loads, by 5e-5 with 4 of them.
     """
 
     id, word = "U9", "order"
 
     def look(self, step: Step) -> Answer:
         """Never asked."""
-        return NotAsked("takes a second world, with the bodies added in another order: tests ask it")
+        return NotAsked("takes a second world: tests ask it")
 
 
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:

@@ -86,9 +86,7 @@ class Turn(OfPairs):
         """Ask it of one pair."""
         quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
         here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
-        there = distance(
-            pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters)
-        )
+        there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
         if math.isinf(here.distance) and math.isinf(there.distance):
             return None
         off, allowed = abs(here.distance - there.distance), ULPS * rounding(pair)
@@ -129,7 +127,7 @@ class Agree(OfPairs):
 
 
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
-    """(value, allowed, sentence) where distance, depth, contact and, in a world that only looks, its contacts differ."""
+    """(value, allowed, sentence) where distance, depth, contact and what a world that only looks tells differ."""
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
         return None

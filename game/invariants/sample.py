@@ -1,4 +1,4 @@
-"""A few of the pairs that a step looked at, others in every step, as shapes at poses that physics can be asked about."""
+"""A few of the pairs that a step looked at, others in every step, as shapes at poses to ask physics about."""
 
 from collections.abc import Iterator
 from typing import NamedTuple

@@ -9,8 +9,8 @@ from physics import DYNAMIC, KINEMATIC, World
 
 
 class Step:
-    """`dt`: its length [s]; `edited`: somebody changed the world since the step before it. By row of the bodies before it: `changed`, those
-    that were changed; `forced`, those that forces had been applied to."""
+    """`dt`: its length [s]; `edited`: somebody changed the world since the step before it. By row of the bodies before
+    it: `changed`, those that were changed; `forced`, those that forces had been applied to."""
 
     def __init__(
         self, world: World, before: Bodies, dt: float, edited: bool, changed: np.ndarray, forced: np.ndarray
@@ -33,6 +33,14 @@ class Step:
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
     @cached_property
+    def pace(self) -> np.ndarray:
+        """[px/s] how fast each body is or was moved, whichever is more: what overlaps is pushed out without speed."""
+        if self.dt == 0.0 or len(self.before) != len(self.now):
+            return self.now.speed
+        x, y = self.now.cx - self.before.cx, self.now.cy - self.before.cy
+        return np.maximum(self.now.speed, np.sqrt(x * x + y * y) / self.dt)
+
+    @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
         """Rows of the two bodies of each contact."""
         return (
@@ -41,7 +49,7 @@ class Step:
         )
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Those flagged, and whoever touches them, directly or by others; both bodies of a contact must be `through`."""
+        """Those flagged, and whom they touch, directly or by others; both bodies of a contact must be `through`."""
         a, b = self.sides
         open_ones = through[a] & through[b]
         a, b, reached = a[open_ones], b[open_ones], rows.copy()

@@ -1,12 +1,13 @@
 """Invariants: eleven lights, U1 to U11, green, red or grey, and what the last broken one said."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import pygame
 
 from game.drawing.canvas import SMALL, shorten
 from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SLATE, Color, faded
 from game.drawing.presenter import Frame
+from game.drawing.typical import Typical
 from game.invariants import lights as states
 from game.invariants.lights import Light, Lights
 from game.overlays.layer import Layer, LegendLine
@@ -18,14 +19,20 @@ COUNTED = 999  # breaks beyond are not told one by one
 
 
 class Invariants(Layer):
-    """A lamp a light with its id, its word and how often it was broken; under them what the last broken one said, or the
-    one under the pointer."""
+    """A lamp a light with its id, its word and how often it was broken; under them what the last broken one said, or
+    the one under the pointer."""
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
 
     def __init__(self) -> None:
         self.lights = Lights()
+        self.cost = Typical()  # [s] of watching
         self.places: list[tuple[pygame.Rect, Light]] = []  # of the last picture
+
+    def note(self, lights: Lights | None) -> None:
+        """To be told of every step: the scene's lights, None while nobody watches."""
+        if lights is not None:
+            self.cost.note(lights.seconds)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
         """(width, height) [frame px] that the strip can have, the widest first."""
@@ -35,10 +42,10 @@ class Invariants(Layer):
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Of a light with its gap, so that none moves when one is broken."""
-        texts = (f"{light.id} {light.word} {COUNTED}" if light.breaks else f"{light.id} {light.word}" for light in self.lights.lights)
+        """Of a light with its gap: as wide as the widest."""
         scale = frame.text_scale
-        return max(frame.measure(text, SMALL, scale)[0] for text in texts) + (LAMP + 2 + GAP) * scale
+        widest = max(frame.measure(label_of(light), SMALL, scale)[0] for light in self.lights.lights)
+        return widest + (LAMP + 2 + GAP) * scale
 
     def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
         """Paint into a frame rect of one of the sizes; `pointer`: where the mouse is."""
@@ -66,11 +73,8 @@ class Invariants(Layer):
             frame.surface.fill(color, lamp)
         if light.state == states.RED:
             frame.surface.fill(INK, lamp.inflate(-3 * scale, -3 * scale))
-        text = f"{light.id} {light.word}"
-        if light.breaks:
-            text += f" {min(light.breaks, COUNTED)}"
         tone = {states.GREEN: PAPER, states.RED: color, states.GREY: FOG}[light.state]
-        frame.text(text, lamp.right + 2 * scale, top, tone, SMALL, scale)
+        frame.text(label_of(light), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def _told(self, pointer) -> tuple[Color, str]:
         for place, light in self.places:
@@ -90,14 +94,18 @@ class Invariants(Layer):
         count = [light.state for light in self.lights.lights].count
         return (
             f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
-            f"{self.lights.seconds * 1e6:.0f} us a frame"
+            f"{self.cost.value * 1e6:.0f} us a frame"
         )
 
-    def notes(self) -> Sequence[LegendLine]:
+    def notes(self) -> list[LegendLine]:
         """Which are not asked, by their reasons."""
         reasons: dict[str, list[str]] = {}
         for light in self.lights.lights:
             if light.state == states.GREY:
                 reasons.setdefault(light.reason, []).append(light.id)
-        head = [(self.color, "invariants: " + self.summary())]
-        return head + [(FOG, f"{', '.join(ids)} not asked: {reason}") for reason, ids in reasons.items()]
+        return [(FOG, f"{', '.join(ids)} not asked: {reason}") for reason, ids in reasons.items()]
+
+
+def label_of(light: Light) -> str:
+    """Its id and word, and how often it was broken."""
+    return f"{light.id} {light.word}" + (f" {min(light.breaks, COUNTED)}" if light.breaks else "")

@@ -67,6 +67,7 @@ class Overlays:
     def note(self, scene: Scene) -> None:
         """To be told of every step. The invariants are watched from the step after the one that shows them."""
         self.times.note(scene)
+        self.invariants.note(scene.lights)
         shown = "invariants" in self.on
         if shown and scene.lights is None:
             scene.watch_invariants()
@@ -123,11 +124,13 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_lights(self, frame, area, scale):
-        """The strip of lights along the bottom or the top, in as few rows as find room."""
+        """The strip of lights in the middle, as near to the bottom or the top as it can be, in few rows."""
         for size in self.invariants.sizes(frame):
-            middle, margin = area.centerx - size[0] // 2, 4 * scale
-            edges = [(middle, area.bottom - size[1] - margin), (middle, area.top + margin)]
-            place = frame.free_place(size, edges + _corners(area, size, margin))
+            margin = 4 * scale
+            top, bottom = area.top + margin, area.bottom - size[1] - margin
+            x = area.centerx - size[0] // 2
+            places = [(x, y) for off in range(0, area.height // 2, margin) for y in (bottom - off, top + off)]
+            place = frame.free_place(size, places + _corners(area, size, margin))
             if place is not None:
                 self.put_lights(frame, pygame.Rect(place, size))
                 return

@@ -1,4 +1,4 @@
-"""The invariants: each holds in worlds that are sound, and each is broken by a world that was tampered with in a step."""
+"""The invariants: each holds in worlds that are sound, and is broken by one that was tampered with in a step."""
 
 import math
 
@@ -270,7 +270,7 @@ def test_u9_takes_two_worlds():
 
 
 def two_orders(places):
-    """(how far two worlds of boxes at these places are apart after 60 steps, the worlds); one added in another order."""
+    """(how far two worlds of boxes at these places are apart after 60 steps, the worlds), one in another order."""
     worlds, ids, count = [], [], len(places)
     for order in (range(count), [5 * k % count for k in range(count)]):
         world = World()

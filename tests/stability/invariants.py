@@ -1,4 +1,4 @@
-"""Steps a world and asserts after every step what game/invariants watches, and what a test knows of its world besides."""
+"""Steps a world and asserts after every step what game/invariants watches, and what a test knows of it besides."""
 
 import math
 
@@ -43,9 +43,9 @@ def pulling(world):
 class Watch:
     """Steps a world and asserts the invariants after every step.
 
-    passive: nothing adds energy from here on, whatever the tables prove of it (U5); isolated: nothing outside pushes, so
-    momentum stays (U3); depth: the deepest overlap allowed after every step [px]; capped: whether a cap may be hit (U11);
-    without: invariants that this world is there to break.
+    passive: nothing adds energy from here on, whatever the tables prove of it (U5); isolated: nothing outside pushes,
+    so momentum stays (U3); depth: the deepest overlap allowed after every step [px]; capped: whether a cap may be hit
+    (U11); without: invariants that this world is there to break.
     """
 
     def __init__(self, world, passive=False, isolated=False, depth=math.inf, capped=False, without=()):
