@@ -60,7 +60,7 @@ class Invariants(Layer):
             top = rect.y + (MARGIN + number // columns * LINE) * scale
             self._draw_light(frame, light, left, top, scale)
             self.places.append((pygame.Rect(left, top, width - GAP * scale, LINE * scale), light))
-        color, told = self._told(pointer)
+        color, told = self.told(pointer)
         line = shorten(told, rect.width - 2 * MARGIN * scale, SMALL, scale)
         frame.text(line, rect.x + MARGIN * scale, rect.bottom - (MARGIN + LINE - 2) * scale, color, SMALL, scale)
 
@@ -76,7 +76,8 @@ class Invariants(Layer):
         tone = {states.GREEN: PAPER, states.RED: color, states.GREY: FOG}[light.state]
         frame.text(label_of(light), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
-    def _told(self, pointer) -> tuple[Color, str]:
+    def told(self, pointer: tuple[int, int]) -> tuple[Color, str]:
+        """The line under the lights: of the one under the pointer, else of the last that was broken, else of all."""
         for place, light in self.places:
             if place.collidepoint(pointer):
                 return COLORS[light.state], light.sentence

@@ -137,7 +137,8 @@ class Overlays:
 
     def put_lights(self, frame: Frame, rect: pygame.Rect) -> None:
         """Paint the strip of lights into a rect and keep other text out of it."""
-        self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if pygame.mouse.get_focused() else (-1, -1))
+        there = pygame.display.get_init() and pygame.mouse.get_focused()
+        self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
