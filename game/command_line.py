@@ -82,7 +82,11 @@ def make_parser() -> Parser:
     add("--screenshot", metavar="FILE", help="save the presented picture after the last frame (PNG)")
     add("--profile", action="store_true", help="print a table of times at the end")
     add("--warmup", action="store_true", help="compile every kernel now")
-    add("--strict", action="store_true", help="warnings, quarantined bodies and cap hits are failures")
+    add(
+        "--strict",
+        action="store_true",
+        help="warnings are failures, and the first broken invariant ends the run: U1 to U11, after every step",
+    )
     add("--version", action="store_true", help="versions of the game and what it runs on")
     return parser
 

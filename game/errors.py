@@ -40,7 +40,7 @@ class ReplayDiverged(Exception):
 
 
 class StrictFailure(Exception):
-    """A warning turned into a failure by --strict; exit 1."""
+    """What --strict objects to: a warning, a broken invariant; exit 1."""
 
     exit_code = 1
 

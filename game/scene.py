@@ -21,7 +21,9 @@ from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
 from game.input.drag import Drag
 from game.input.inputs import CHANGES, InputFrame, InputState
-from physics import BROADPHASES, SOLVERS, Effects, World
+from game.invariants.lights import Lights
+from game.invariants.watch import WatchedWorld
+from physics import BROADPHASES, SOLVERS, Effects
 
 STEP_SECONDS = 1.0 / 60.0
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input
@@ -150,6 +152,7 @@ class Scene:
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # of the last step, where a drag is drawn to
+        self.lights: Lights | None = None  # of the invariants of its worlds; None: nobody watches
         self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
@@ -162,7 +165,9 @@ class Scene:
         self.cues: list[
             tuple[str, float | None, float]
         ] = []  # (sound, canvas x, volume) of this step; the app plays them
-        self.worlds: list[World] = []
+        self.worlds: list[WatchedWorld] = []
+        if self.lights is not None:
+            self.lights = Lights(self.lights.strict)
         self.camera = Camera()
         self.camera.shake_share = self.accessibility.shake
         self.flash = Flash()
@@ -183,7 +188,7 @@ class Scene:
 
     def add_world(
         self, effects: Effects | None = None, broadphase: str | None = None, solver: str | None = None, **settings: Any
-    ) -> World:
+    ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.
 
         settings: what else World takes: gravity, drag, substeps, pixels_per_meter ...
@@ -191,12 +196,14 @@ class Scene:
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         strategy = BROADPHASES[broadphase or self.broadphase]()
         settings.setdefault("seed", self.seed + len(self.worlds))
-        world = World(effects, strategy, solver or self.solver, **settings)
+        world = WatchedWorld(effects, strategy, solver or self.solver, **settings)
+        if self.lights is not None:
+            self.lights.take(world)
         self.worlds.append(world)
         return world
 
     @property
-    def world(self) -> World:
+    def world(self) -> WatchedWorld:
         """The first world."""
         return self.worlds[0]
 
@@ -214,6 +221,16 @@ class Scene:
         self.particles.step(STEP_SECONDS)
         self.flash.step()
         self.frame += 1
+        if self.lights is not None:
+            self.lights.note(self.frame, self.worlds)
+
+    def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
+        """Look at every step of its worlds from now on, or no longer. strict: see Lights."""
+        self.lights = Lights(strict) if on else None
+        for world in self.worlds:
+            world.watch = None
+            if self.lights is not None:
+                self.lights.take(world)
 
     def _cameras(self):
         """Each camera once: the scene's own, and those of all its pictures."""
@@ -305,7 +322,7 @@ class Scene:
         """
         return ""
 
-    def views(self) -> list[tuple[World, Camera]]:
+    def views(self) -> list[tuple[WatchedWorld, Camera]]:
         """(world, camera) of each picture on the canvas: overlays look through them, step() begins their steps."""
         return [(self.world, self.camera)]
 

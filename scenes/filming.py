@@ -89,7 +89,7 @@ class Film:
     def step(self):
         """One step of the game."""
         self.session.step()
-        self.overlays.times.note(self.scene)
+        self.overlays.note(self.scene)
 
     def take(self):
         """The picture now."""

@@ -70,7 +70,7 @@ class DrawnRun(Run):
     def step(self):
         """Make one step, and draw after it."""
         self.session.step()
-        self.overlays.times.note(self.scene)
+        self.overlays.note(self.scene)
         if self.scene.frame % DRAWN_EVERY == 0:
             self.picture.draw_scene(self.scene, self.overlays)
         return scene_digest(self.scene)

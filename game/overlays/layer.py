@@ -25,6 +25,7 @@ LAYER_NAMES = (
     "centers",
     "ghosts",
     "outlines",
+    "invariants",
 )
 
 

@@ -7,6 +7,7 @@ import pygame
 from game.drawing.canvas import SMALL, Canvas
 from game.drawing.colors import FOG, NIGHT, PAPER, faded
 from game.drawing.presenter import Frame
+from game.invariants.lights import Lights
 from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_bounds import Bounds, Motion
 from game.overlays.layer_centers import Centers
@@ -16,6 +17,7 @@ from game.overlays.layer_features import Features
 from game.overlays.layer_filters import Filters
 from game.overlays.layer_ghosts import Ghosts
 from game.overlays.layer_impulses import Impulses
+from game.overlays.layer_invariants import Invariants
 from game.overlays.layer_islands import Islands
 from game.overlays.layer_masks import Masks
 from game.overlays.layer_outlines import Outlines
@@ -33,6 +35,7 @@ class Overlays:
     def __init__(self, on: Iterable[str] = ()) -> None:
         self.times = Times()  # keeps a history, to be told of every step
         self.filters = Filters()  # asks the scene what its kinds are called
+        self.invariants = Invariants()  # shows the lights of the scene
         self.layers: tuple[Layer, ...] = (
             Bounds(),
             Motion(),
@@ -49,6 +52,7 @@ class Overlays:
             Centers(),
             Ghosts(),
             Outlines(),
+            self.invariants,
         )
         self.on = set(on)
 
@@ -60,9 +64,19 @@ class Overlays:
         """All off if any is on, else all on."""
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
+    def note(self, scene: Scene) -> None:
+        """To be told of every step. The invariants are watched from the step after the one that shows them."""
+        self.times.note(scene)
+        self.invariants.note(scene.lights)
+        shown = "invariants" in self.on
+        if shown and scene.lights is None:
+            scene.watch_invariants()
+        elif not shown and scene.lights is not None and not scene.lights.strict:
+            scene.watch_invariants(False)
+
     def shows_geometry(self) -> bool:
         """True if a layer lies on the world: sprites are then drawn at the exact poses it shows."""
-        return bool(self.on - {"times"})
+        return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
         """Layers that are exact to the canvas pixel; before the canvas is scaled."""
@@ -75,6 +89,7 @@ class Overlays:
         """Layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
+        self.invariants.lights = scene.lights or Lights()
         for layer in self._active("on_frame"):
             if not layer.on_canvas:  # else its picture has begun there
                 layer.begin(len(scene.views()))
@@ -97,6 +112,8 @@ class Overlays:
         """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
+        if "invariants" in self.on:
+            self._draw_lights(frame, area, scale)
         for size in self.times.sizes(frame) if "times" in self.on else ():
             place = frame.free_place(size, _corners(area, size, 4 * scale))
             if place is not None:
@@ -105,6 +122,24 @@ class Overlays:
                 frame.reserve(rect)
                 break
         self._draw_legend(frame, area, legend_at, scale)
+
+    def _draw_lights(self, frame, area, scale):
+        """The strip of lights in the middle, as near to the bottom or the top as it can be, in few rows."""
+        for size in self.invariants.sizes(frame):
+            margin = 4 * scale
+            top, bottom = area.top + margin, area.bottom - size[1] - margin
+            x = area.centerx - size[0] // 2
+            places = [(x, y) for off in range(0, area.height // 2, margin) for y in (bottom - off, top + off)]
+            place = frame.free_place(size, places + _corners(area, size, margin))
+            if place is not None:
+                self.put_lights(frame, pygame.Rect(place, size))
+                return
+
+    def put_lights(self, frame: Frame, rect: pygame.Rect) -> None:
+        """Paint the strip of lights into a rect and keep other text out of it."""
+        there = pygame.display.get_init() and pygame.mouse.get_focused()
+        self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
+        frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
         """The legend where it fits; with many layers on a small picture its end is counted instead of written."""

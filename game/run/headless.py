@@ -8,7 +8,7 @@ from time import perf_counter
 
 import pygame
 
-from game.errors import UsageError
+from game.errors import StrictFailure, UsageError
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
@@ -40,25 +40,28 @@ def run_headless(options: Options, registry: Registry) -> int:
     frames = options.last_frame or DEFAULT_FRAMES
     source = recording or (BotSource() if options.bot else IdleSource())
     recorder = Recorder(scene, options.bot) if options.record else None
-    session = Session(scene, source, recorder, recording)
+    session = Session(scene, source, recorder, recording, options.strict)
     overlays = Overlays(scene.overlays if options.overlay is None else options.overlay)
     picture = Picture()
     draws = bool(options.overlay) or options.profile
+    broken = ""
     set_loaded_aside()
     try:
         for frame in range(frames):
             session.step()
-            overlays.times.note(scene)
+            overlays.note(scene)
             if draws or (options.screenshot and frame == frames - 1):
                 started = perf_counter()
                 picture.draw_scene(scene, overlays)
                 session.report.note_drawing(perf_counter() - started)
+    except StrictFailure as failure:
+        broken = str(failure)
     finally:
         if recorder is not None and options.record:
             save_or_fail(recorder.save, options.record)
     if options.screenshot:
         save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)
-    return finish(scene, session.report, options)
+    return finish(scene, session.report, options, broken)
 
 
 def save_or_fail(save: Callable[[str], object], path: str) -> None:
@@ -69,10 +72,10 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
         raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
-def finish(scene: Scene, report: RunReport, options: Options) -> int:
-    """Print what was asked for and return the exit code."""
+def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
+    """Print what was asked for and return the exit code. broken: the invariant that ended the run, where one did."""
     played = options.played_by_bot
-    extra = report.strict_failures() if options.strict else []
+    extra = [broken] if broken else report.strict_failures() if options.strict else []
     check = judge(scene, report.steps, extra) if played else not_judged(scene, extra)
     if options.profile:
         # With --json, standard output holds the one object and nothing else.

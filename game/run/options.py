@@ -37,8 +37,8 @@ class Options:
 
     @property
     def is_a_run(self) -> bool:
-        """True for a run that is measured or saved: it is about one scene, and ends with it."""
-        return bool(self.frames or self.record or self.json or self.profile or self.screenshot)
+        """True for a run that is measured, saved or watched: it is about one scene, and ends with it."""
+        return bool(self.frames or self.record or self.json or self.profile or self.screenshot or self.strict)
 
     @property
     def played_by_bot(self) -> bool:

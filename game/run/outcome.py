@@ -54,7 +54,7 @@ class RunReport:
             self.last = None
 
     def strict_failures(self) -> list[str]:
-        """What --strict objects to: quarantined bodies and any cap that was hit."""
+        """What --strict objects to at the end of a run: quarantined bodies and any cap that was hit."""
         failures = []
         if self.quarantined:
             failures.append(f"{self.quarantined} bodies were quarantined")

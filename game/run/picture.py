@@ -99,6 +99,7 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     scale = frame.text_scale
     if rect.height < 40 * scale:
         return
+    rect = _lights_above(frame, rect, overlays, scale)
     left = rect.x + 4 * scale
     wanted = (GRAPH_LEAST + 8) * scale if "times" in overlays.on else 0
     for column in legend_columns(frame, overlays.legend(), rect.width - wanted, rect.height - 2 * scale, scale):
@@ -108,6 +109,16 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     if "times" in overlays.on and graph.width > GRAPH_LEAST * scale:
         overlays.times.draw_graph(frame, graph)
     frame.reserve(rect)
+
+
+def _lights_above(frame, rect, overlays, scale):
+    """The strip of invariants in the widest form that fits; returns what is left of the rect under it."""
+    if "invariants" in overlays.on:
+        for width, height in overlays.invariants.sizes(frame):
+            if width <= rect.width - 8 * scale and height <= rect.height - 4 * scale:
+                overlays.put_lights(frame, pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, width, height))
+                return pygame.Rect(rect.x, rect.y + height + 4 * scale, rect.width, rect.height - height - 4 * scale)
+    return rect
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:

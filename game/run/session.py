@@ -2,6 +2,7 @@
 
 from time import perf_counter
 
+from game.errors import StrictFailure
 from game.input.inputs import InputState
 from game.run.outcome import RunReport
 from game.run.replay import Recorder, Replay
@@ -10,10 +11,15 @@ from game.scene import Scene
 
 
 class Session:
-    """`source.next(scene)` gives the input; recorder and replay may be None."""
+    """`source.next(scene)` gives the input; recorder and replay may be None. strict: a broken invariant ends it."""
 
     def __init__(
-        self, scene: Scene, source: Source, recorder: Recorder | None = None, replay: Replay | None = None
+        self,
+        scene: Scene,
+        source: Source,
+        recorder: Recorder | None = None,
+        replay: Replay | None = None,
+        strict: bool = False,
     ) -> None:
         self.scene = scene
         self.source = source
@@ -21,16 +27,26 @@ class Session:
         self.replay = replay
         self.inputs = InputState()
         self.report = RunReport()
+        if strict:
+            scene.watch_invariants(strict=True)
 
     def step(self) -> None:
-        """One fixed step. Raises ReplayDiverged when a replay's digest differs."""
+        """One fixed step. Raises ReplayDiverged when a replay's digest differs, StrictFailure for a broken invariant.
+
+        What watching took is not counted as the scene's time.
+        """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)
         started = perf_counter()
         self.scene.step(self.inputs)
-        self.report.note_step(self.scene, perf_counter() - started)
+        lights = self.scene.lights
+        watching = lights.seconds if lights is not None else 0.0
+        self.report.note_step(self.scene, perf_counter() - started - watching)
         self.scene.observe()
         if self.recorder is not None:
             self.recorder.note(frame, self.scene)
+        if lights is not None and lights.strict and lights.first is not None:
+            frame, broken = lights.first
+            raise StrictFailure(f"{self.scene.name}, frame {frame}: {broken}")
         if self.replay is not None:
             self.replay.verify(self.scene)

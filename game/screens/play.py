@@ -59,6 +59,7 @@ class Play(SceneScreen):
         records: bool = False,
         overlays: Iterable[str] | None = None,
         settings: Settings | None = None,
+        strict: bool = False,
     ) -> None:
         super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
@@ -68,7 +69,7 @@ class Play(SceneScreen):
         self.renews = self.person and not records  # each attempt is a recording of its own
         self.table = table_of(scene.name, scene.level_file)  # now: by the end the level's file may be another, or gone
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
-        self.session = Session(scene, source, self.recorder, recording)
+        self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
@@ -151,7 +152,7 @@ class Play(SceneScreen):
     def step(self) -> None:
         """One fixed step, its sounds and its measurements."""
         self.session.step()
-        self.overlays.times.note(self.scene)
+        self.overlays.note(self.scene)
         self.sounds.play_cues(self.scene.cues)
         if self.person:
             self._note_help()

@@ -209,6 +209,7 @@ class Screens:
             bool(options.record),
             options.overlay,
             arcade.settings,
+            options.strict,
         )
         play.last_frame = options.last_frame
         self._begin(play)

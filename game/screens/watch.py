@@ -101,7 +101,7 @@ class Watch(SceneScreen):
         """One recorded step, with its sounds where they are as fast as they were."""
         if not self.tape.ended:
             self.tape.step()
-            self.overlays.times.note(self.tape.scene)
+            self.overlays.note(self.tape.scene)
             if SPEEDS[self.speed] == 1.0:
                 self.sounds.play_cues(self.tape.scene.cues)
 

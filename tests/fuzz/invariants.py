@@ -5,12 +5,12 @@ Reads the tables and asks the public functions; knows nothing of how a step is m
 
 import numpy as np
 
-from physics import Capsule, Circle, Polygon, distance
-from tests.stability.invariants import BODY_NUMBERS, CONTACT_NUMBERS
+from game.invariants.numbers import not_finite, not_unit
+from game.invariants.pairs import disagreement, looks_only
+from game.invariants.sample import CONVEX, pair_of
+from tests.stability.invariants import pulling
 
 STATIC, DYNAMIC = 0, 2
-CONVEX = (Circle, Capsule, Polygon)
-BAND = 1e-9  # of where and how large things are: nearer to touching, either answer is right
 
 
 class Broken(AssertionError):
@@ -60,7 +60,7 @@ class Watch:
         self.touching = self.events(self.touching, "begin", "end", "persist")
         self.sensing = self.events(self.sensing, "sensor_begin", "sensor_end", None)
         self.contacts_begin()
-        if not self.world.effects.response and not self.world.effects.continuous and self.world.effects.narrowphase:
+        if looks_only(self.world):
             self.as_the_shapes_are()
 
     def alike(self, twin):
@@ -70,21 +70,15 @@ class Watch:
     # --- numbers ---------------------------------------------------------------------------------------------------
 
     def numbers(self):
-        """U1, U2: finite, of unit length."""
+        """U1, U2: finite, of unit length, of what sleeps too; and contacts push."""
         world = self.world
-        events = world.events
-        told = (events.begin, events.end, events.persist, events.sensor_begin, events.sensor_end)
-        tables = [(world.bodies, BODY_NUMBERS), (world.contacts, CONTACT_NUMBERS)]
-        tables += [(rows, CONTACT_NUMBERS[:4]) for rows in told]
-        tables += [(events.hits, (*CONTACT_NUMBERS[:4], "speed", "normal_impulse"))]
-        tables += [(world.sleeping_contacts, CONTACT_NUMBERS)]
-        for rows, names in tables:
-            for name in names:
-                hold(np.isfinite(rows[name]).all(), "numbers are finite", name)
-        for rows in (world.contacts, events.begin, events.persist, events.hits, events.sensor_begin):
-            off = np.abs(rows["normal_x"] ** 2 + rows["normal_y"] ** 2 - 1.0)
-            hold((off <= 2e-12).all(), "normals are of unit length", off)
-        hold((world.contacts["normal_impulse"] >= 0.0).all(), "contacts push", world.contacts["normal_impulse"])
+        for name, bad in (
+            ("numbers are finite", not_finite(world, sleeping=True)),
+            ("normals are of unit length", not_unit(world, sleeping=True)),
+        ):
+            hold(bad is None, name, bad)
+        pulls = pulling(world)
+        hold(len(pulls) == 0, "contacts push", pulls)
 
     # --- handles ---------------------------------------------------------------------------------------------------
 
@@ -166,25 +160,19 @@ class Watch:
 
     def as_the_shapes_are(self):
         """U10 in worlds that only look: contacts are of those shapes, and no others, whose distance is not above 0."""
-        world = self.world
-        rows = world.contacts[world.contacts["separation"] <= 0.0]
-        told = set(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
-        placed = []
+        world, placed = self.world, []
         for body in world:
             row = world.bodies[world.rows([body.id])[0]]
             for identity, shape in zip(body.shape_ids, body.shapes, strict=True):
                 if isinstance(shape, CONVEX) and not row["quarantined"]:
-                    placed.append((identity, shape, (row["x"].item(), row["y"].item(), row["angle"].item()), row))
+                    placed.append((identity, row))
         placed.sort(key=lambda each: each[0])
-        for at, (a, shape_a, pose_a, row_a) in enumerate(placed):
-            for b, shape_b, pose_b, row_b in placed[at + 1 :]:
+        for at, (a, row_a) in enumerate(placed):
+            for b, row_b in placed[at + 1 :]:
                 one, two = self._shape(a), self._shape(b)
                 meet = one["membership"] & two["mask"] and two["membership"] & one["mask"]
                 if row_a["id"] == row_b["id"] or not meet or row_a["kind"] == row_b["kind"] == STATIC:
                     continue
-                if one["sensor"] or two["sensor"]:
-                    continue
-                gap = distance(shape_a, pose_a, shape_b, pose_b).distance
-                room = BAND * (abs(gap) + max(map(abs, (*pose_a, *pose_b))) + 100.0)
-                if abs(gap) > room:
-                    hold(((a, b) in told) == (gap <= 0.0), "contacts are of what overlaps", (a, b, gap))
+                pair = pair_of(world, a, b)
+                found = pair and disagreement(world, pair)
+                hold(not found, "contacts are of what overlaps", (a, b, found))

@@ -37,7 +37,7 @@ def play(request):
 @pytest.mark.parametrize("layers", [(), LAYER_NAMES, None])
 def test_play_with_overlays_and_panel(play, size, panel, layers):
     play.overlays = Overlays(play.scene.overlays if layers is None else layers)
-    play.overlays.times.note(play.scene)
+    play.overlays.note(play.scene)
     play.panel_open = panel
     frame = play.draw(Picture(pygame.Surface(size)))
     assert_text_is_apart(frame.boxes, frame.rect)

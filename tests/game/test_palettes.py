@@ -58,7 +58,8 @@ def drawn(palette, layers):
     scene = stepped(Crowd())
     scene.set_accessibility(Accessibility(palette=palette))
     overlays = Overlays(layers)
-    overlays.times.note(scene)
+    overlays.note(scene)
+    stepped(scene, 1)  # invariants are watched from the step after the one that shows them
     return pygame.surfarray.array3d(Picture().draw_scene(scene, overlays).surface).astype(int)
 
 

@@ -147,7 +147,7 @@ def test_a_slow_step_is_not_shown(name, monkeypatch):
         for stage in world.profile.stages:
             world.profile.stages[stage] = 3.0  # seconds
     scene.observe()
-    play.overlays.times.note(scene)
+    play.overlays.note(scene)
     play.session.report.steps = 10_000
     frame = play.draw(Picture(pygame.Surface(WINDOWS["x3"])))
     figures = [text for _, text in frame.boxes if re.search(r"[\d,.]+ (ms|us)$", text)]

@@ -49,7 +49,7 @@ def test_f10_a_hundred_boxes_at_one_point(measured, solver):
     for _ in range(2):
         world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False, friction=False))
         world.add_bodies(Polygon.box(1, 1), np.zeros((100, 2)))
-        watch = Watch(world)
+        watch = Watch(world, without=("U6",))  # under sequential impulses the last of it goes as slowly as what settles
         watch.step(60)
         runs.append(world.digest())
     measured("F10", "runs that differ", runs[0] != runs[1])

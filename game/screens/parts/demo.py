@@ -32,7 +32,7 @@ class Demo:
     def step(self) -> None:
         """One fixed step."""
         self.session.step()
-        self.overlays.times.note(self.scene)
+        self.overlays.note(self.scene)
 
     def draw(
         self, picture: Picture, panel: Docked | None = None, reserve: Callable[[Frame], None] | None = None

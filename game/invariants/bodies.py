@@ -1,0 +1,115 @@
+"""The bodies of a world at one moment, as columns, and what physics keeps of them: momentum, spin, energy."""
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from game.invariants.columns import block
+from physics import DYNAMIC, World
+
+BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y", "mass", "inertia")
+
+
+class Bodies:
+    """A copy: what the world does later changes nothing here. Sums are over the dynamic bodies.
+
+    Units: px, s, rad; mass in density px2. `gravity` [px/s2] is (0, 0) where the effect is not declared.
+    """
+
+    def __init__(self, world: World) -> None:
+        rows = world.bodies
+        self.ids = rows["id"].copy()
+        self.kind = rows["kind"].copy()
+        self.numbers = block(rows, BODY_NUMBERS)
+        self.x, self.y, self.angle, self.vx, self.vy, self.turn, self.cx, self.cy, mass, inertia = self.numbers
+        self.dynamic = self.kind == DYNAMIC
+        self.mass, self.inertia = mass * self.dynamic, inertia * self.dynamic
+        self.gravity = world.gravity if world.effects.gravity else (0.0, 0.0)
+        self.felt = rows["gravity_scale"].copy() if any(self.gravity) else np.ones(len(rows))
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def same_as(self, other: "Bodies") -> bool:
+        """Whether all is as it was, to the bit."""
+        return (
+            np.array_equal(self.ids, other.ids)
+            and np.array_equal(self.kind, other.kind)
+            and self.numbers.tobytes() == other.numbers.tobytes()
+            and self.gravity == other.gravity
+            and np.array_equal(self.felt, other.felt)
+        )
+
+    def differs_from(self, other: "Bodies | None") -> np.ndarray:
+        """Which are others, or otherwise, than before; all without a before."""
+        if other is None:
+            return np.ones(len(self), bool)
+        if np.array_equal(self.ids, other.ids):
+            return (self.numbers != other.numbers).any(axis=0) | (self.kind != other.kind)
+        at = np.searchsorted(other.ids, self.ids).clip(max=max(0, len(other) - 1))
+        if not len(other):
+            return np.ones(len(self), bool)
+        return (other.ids[at] != self.ids) | (self.numbers != other.numbers[:, at]).any(axis=0)
+
+    @cached_property
+    def speed(self) -> np.ndarray:
+        """[px/s] of each centre of mass."""
+        return np.sqrt(self.vx * self.vx + self.vy * self.vy)
+
+    @cached_property
+    def heights(self) -> np.ndarray:
+        """[px2/s2] gravity times how far each has come along it: minus its energy of height, per mass."""
+        gx, gy = self.gravity
+        return gx * self.cx + gy * self.cy
+
+    @cached_property
+    def kinetic_each(self) -> np.ndarray:
+        """Kinetic energy of each body."""
+        return 0.5 * (self.mass * self.speed**2 + self.inertia * self.turn * self.turn)
+
+    @cached_property
+    def energy_each(self) -> np.ndarray:
+        """Kinetic energy and the energy of height of each body."""
+        return self.kinetic_each - self.mass * self.felt * self.heights
+
+    @property
+    def kinetic(self) -> float:
+        """Kinetic energy."""
+        return float(self.kinetic_each.sum())
+
+    @property
+    def energy(self) -> float:
+        """Kinetic energy and the energy of height."""
+        return float(self.energy_each.sum())
+
+    @property
+    def total_mass(self) -> float:
+        """Mass of all."""
+        return float(self.mass.sum())
+
+    @property
+    def weight(self) -> float:
+        """Mass times gravity, of all."""
+        return self.total_mass * math.hypot(*self.gravity)
+
+    @property
+    def momentum(self) -> tuple[float, float]:
+        """Mass times velocity, of all together."""
+        return float(self.mass @ self.vx), float(self.mass @ self.vy)
+
+    @property
+    def momentum_scale(self) -> float:
+        """Mass times speed, summed without direction: what a drift of the momentum is measured by."""
+        return float(self.mass @ self.speed)
+
+    def spin(self, among: np.ndarray) -> float:
+        """Angular momenta of those flagged about their common centre of mass, summed without sign."""
+        mass = self.mass * among
+        total = float(mass.sum())
+        if total == 0.0:
+            return 0.0
+        x, y = self.cx - mass @ self.cx / total, self.cy - mass @ self.cy / total
+        vx, vy = self.vx - mass @ self.vx / total, self.vy - mass @ self.vy / total
+        orbit = mass * np.sqrt((x * x + y * y) * (vx * vx + vy * vy))
+        return float(orbit.sum() + (self.inertia * among) @ np.abs(self.turn))

@@ -1,0 +1,224 @@
+"""U3, U4 and U5: what bodies keep while nobody pushes them from outside: momentum, spin, and energy at most.
+
+They are asked only where the tables prove that nothing acts from outside. What is changed by hand between two steps is
+where the next one starts.
+"""
+
+import math
+
+import numpy as np
+
+from game.invariants.bodies import Bodies
+from game.invariants.invariant import Answer, Invariant, NotAsked
+from game.invariants.step import Step
+from physics import World
+
+DRIFT = 1e-10  # of the momentum's scale in LONG steps (hard_cases U3) …
+TWIST = 1e-3  # … and of the spin's, which letting overlaps out breaks slightly (U4)
+GAIN = 0.01  # of the energy in play (U5)
+LONG = 600  # steps
+APART = 2.0  # slops that bodies may overlap by at the start: what lies deeper is lifted out
+
+
+class OfTheAlone(Invariant):
+    """What bodies that are alone with each other keep. In every step those count that nothing from outside acted on
+    (Step.alone), and what they gain in it is added up over the steps."""
+
+    gained: str  # what is said of it
+
+    def __init__(self) -> None:
+        self.drift, self.room, self.steps = np.zeros(2), 0.0, 0
+
+    def look(self, step: Step) -> Answer:
+        """Ask it of the step just made."""
+        alone = None if step.outside else step.alone
+        why = step.outside or self.why_not(step, alone)
+        if why:
+            return NotAsked(why)
+        gain, room, change = self.gain(step, alone)
+        self.drift, self.room, self.steps = self.drift + gain, max(self.room, room), self.steps + 1
+        drift, allowed = float(np.hypot(*self.drift)), self.room * max(1.0, self.steps / LONG)
+        if drift <= allowed:
+            return None
+        self.drift = np.zeros(2)  # told once, not in every step from here on
+        return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
+
+    def why_not(self, step: Step, alone: np.ndarray) -> str:
+        """Why it is not asked, "" where it is."""
+        if not alone.any():
+            return "all that is dynamic touches what stands, sleeps or is driven"
+        return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
+
+    def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
+        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        raise TypeError(f"{type(self).__name__} must define gain")
+
+
+class Momentum(OfTheAlone):
+    """U3: the momentum of bodies that are alone with each other changes by what gravity gives, and no more than 1e-10
+    of Σ m v in 600 steps."""
+
+    id, word = "U3", "momentum"
+    gained = "momentum drifted though nothing pushes from outside"
+
+    def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
+        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        now, before = step.now, step.before
+        mass = now.mass * alone
+        fall = mass * now.felt * step.dt
+        gx, gy = now.gravity
+        x, y = mass * (now.vx - before.vx) - fall * gx, mass * (now.vy - before.vy) - fall * gy
+        scale = float(mass @ now.speed + mass @ before.speed + np.abs(fall).sum() * math.hypot(gx, gy))
+        return np.array((x.sum(), y.sum())), DRIFT * scale, np.hypot(x, y)
+
+
+class Spin(OfTheAlone):
+    """U4: so does their angular momentum, about their common centre of mass, to 1e-3 of Σ |r × m v| + |I ω| in 600
+    steps, and the rounding of U3 at their arms. What is looked at is the torque of the impulses about the places where
+    the bodies are in the middle of the step.
+
+    Not counted, since neither is a drift but how accurate a step is: places that are pushed out of an overlap, by which
+    momenta get other arms (a column of ten that falls over under projection loses 0.9 % in a step); and what an impulse
+    `slips` in the step, as two bodies that meet at one moment of it go on moving past each other (0.7 % in one hit of
+    two stones of lab/carving, 0.1 % in 214 steps of 130 bodies in lab/tumbler).
+    """
+
+    id, word = "U4", "spin"
+    gained = "angular momentum drifted though nothing turns from outside"
+
+    def why_not(self, step: Step, alone: np.ndarray) -> str:
+        """Why it is not asked, "" where it is."""
+        why = super().why_not(step, alone)
+        if why:
+            return why
+        felt = step.now.felt[alone]
+        if (felt != felt[0]).any():
+            return "gravity pulls some more than others"
+        touching = np.zeros(len(alone), bool)
+        for side in step.sides:
+            touching[side] = True
+        touching &= alone
+        if step.world.effects.response and (step.world.bodies["inverse_inertia"][touching] == 0.0).any():
+            return "a body that cannot be turned is touched"
+        return ""
+
+    def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
+        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        now, before = step.now, step.before
+        mass, inertia = now.mass * alone, now.inertia * alone
+        total = float(mass.sum())
+        x, y = 0.5 * (before.cx + now.cx), 0.5 * (before.cy + now.cy)
+        x, y = x - mass @ x / total, y - mass @ y / total
+        torque = mass * (x * (now.vy - before.vy) - y * (now.vx - before.vx)) + inertia * (now.turn - before.turn)
+        arm, pace = np.sqrt(x * x + y * y), np.maximum(step.pace, before.speed)
+        fall = math.hypot(*now.gravity) * step.dt * np.abs(now.felt)
+        scale = now.spin(alone) + before.spin(alone)
+        reach = arm + step.world.bodies["extent"]
+        rounding = float(mass @ (reach * (pace + fall)) + inertia @ (np.abs(now.turn) + np.abs(before.turn)))
+        drift = float(torque.sum())
+        beyond = math.copysign(max(0.0, abs(drift) - slip(step, alone)), drift)
+        return np.array((beyond, 0.0)), TWIST * scale + DRIFT * rounding, np.abs(torque)
+
+
+def slip(step: Step, among: np.ndarray) -> float:
+    """Σ impulse times the way in the step, past each other, and the gap or overlap, of those flagged that touch."""
+    rows, (a, b) = step.contacts, step.sides
+    pushed = np.flatnonzero(among[a] & among[b])
+    if not len(pushed):
+        return 0.0
+    rows, a, b = rows[pushed], a[pushed], b[pushed]
+    impulse = np.abs(rows["normal_impulse"]) + np.abs(rows["tangent_impulse"])
+    way = np.abs(rows["separation"])
+    for bodies in (step.before, step.now):
+        ax, ay = rows["point_x"] - bodies.cx[a], rows["point_y"] - bodies.cy[a]
+        bx, by = rows["point_x"] - bodies.cx[b], rows["point_y"] - bodies.cy[b]
+        vx = bodies.vx[b] - bodies.turn[b] * by - bodies.vx[a] + bodies.turn[a] * ay
+        vy = bodies.vy[b] + bodies.turn[b] * bx - bodies.vy[a] - bodies.turn[a] * ax
+        way += np.sqrt(vx * vx + vy * vy) * step.dt
+    return float(impulse @ way)
+
+
+def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
+    """The id of the body with the greatest change, () where there is none."""
+    return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
+
+
+class Account:
+    """The energy of a world since a moment: `start` and the room that U5 leaves above it."""
+
+    def __init__(self, bodies: Bodies, overlap: float = 0.0) -> None:
+        self.start = self.top = bodies.energy
+        self.overlap = overlap  # [px] of the deepest contact at the start
+        self.low, self.high = math.inf, -math.inf
+        self._span(bodies)
+
+    def _span(self, bodies):
+        if bodies.dynamic.any():
+            heights = bodies.heights[bodies.dynamic]
+            self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
+
+    def gain(self, world: World, now: Bodies) -> tuple[float, float]:
+        """(how far the energy is above the start, how far it may be).
+
+        1 % of the energy in play and m g slop of each body, and the overlap that it is let out of. A body that is
+        stopped on its way keeps the speed it would have had at the end of it: m g v dt for those.
+        """
+        self._span(now)
+        energy = now.energy
+        self.top = max(self.top, energy)
+        in_play = now.kinetic + now.total_mass * max(0.0, self.high - self.low)
+        late = world.bodies["fraction"] < 1.0
+        ahead = float((now.mass * now.speed)[late].sum()) * math.hypot(*now.gravity) * world.dt
+        return energy - self.start, GAIN * in_play + now.weight * (world.tolerances.slop + self.overlap) + ahead
+
+
+class Energy(Invariant):
+    """U5: what nobody drives never has more energy than at the start (Account.gain says how much more).
+
+    The start is that of the last change by hand, once nothing overlaps by more than two slops: bodies set into each
+    other are pushed out, and some of them up.
+    """
+
+    id, word = "U5", "energy"
+
+    def __init__(self) -> None:
+        self.account: Account | None = None
+
+    def look(self, step: Step) -> Answer:
+        """Ask it of the step just made."""
+        world = step.world
+        why = step.outside or driven(step)
+        if why:
+            self.account = None
+            return NotAsked(why)
+        if self.account is None or step.edited:
+            apart = not world.effects.response or step.overlap <= APART * step.slop
+            self.account = Account(step.before, step.overlap) if apart else None
+            if self.account is None:
+                return NotAsked("bodies that were set into each other come apart")
+        gain, allowed = self.account.gain(world, step.now)
+        if gain <= allowed:
+            return None
+        self.account = None
+        rise = step.now.energy_each - step.before.energy_each
+        return self.broken(step, most(step, rise), gain, allowed, "energy rose above the start though nothing drives")
+
+
+def driven(step: Step) -> str:
+    """What gives energy to bodies, "" where nothing does."""
+    world, effects = step.world, step.world.effects
+    if step.forced.any():
+        return "forces act"
+    if not effects.response:
+        return ""
+    if effects.conveyor and world.shapes["surface_speed"].any():
+        return "a belt runs"
+    if effects.restitution and (world.shapes["restitution"] > 1.0).any():
+        return "a surface gives more than it takes: restitution above 1"
+    if step.moved_by_hand.any():
+        a, b = step.sides
+        if (step.moved_by_hand[a] | step.moved_by_hand[b]).any():
+            return "a body that is moved by hand touches something"
+    if len(world.events.quarantined):
+        return "a body was taken out"
+    return ""

@@ -1,0 +1,85 @@
+"""Eleven lights of a scene, one an invariant, over all its worlds: green, red or grey, and nothing that latches."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from game.invariants.invariant import Broken
+from game.invariants.watch import Watch, WatchedWorld, all_invariants
+
+GREY, GREEN, RED = "grey", "green", "red"
+AFTERGLOW = 60  # frames that a light stays red after its invariant was broken
+NO_STEP = "no step was made yet"
+
+
+@dataclass
+class Light:
+    """`reason`: why it is grey; `breaks`: frames in which it was, since the scene began; `last`: the last one."""
+
+    id: str
+    word: str
+    state: str = GREY
+    reason: str = NO_STEP
+    breaks: int = 0
+    last: Broken | None = None
+    last_frame: int = 0
+
+    @property
+    def sentence(self) -> str:
+        """What there is to say of it."""
+        if self.state == RED:
+            return self.last_told
+        told = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
+        return f"{told}; {self.last_told}" if self.breaks else told
+
+    @property
+    def last_told(self) -> str:
+        """The last break in a line, "" where there was none."""
+        return f"frame {self.last_frame}, {self.id}: {self.last.brief}" if self.last is not None else ""
+
+
+class Lights:
+    """take(world) each world of a scene; note() after each of its frames.
+
+    strict: whoever steps the scene ends the run at `first`, and pairs of concave shapes are asked about too.
+    """
+
+    def __init__(self, strict: bool = False) -> None:
+        self.strict = strict
+        self.lights = tuple(Light(each.id, each.word) for each in all_invariants())
+        self.first: tuple[int, Broken] | None = None  # (frame, what)
+        self.frame = 0
+        self.seconds = 0.0  # that watching took in the last frame
+
+    def take(self, world: WatchedWorld) -> None:
+        """Watch a world from now on."""
+        world.watch = Watch(concave=self.strict)
+
+    def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
+        """Frame number `frame` was made: the lights follow."""
+        self.frame, self.seconds = frame, 0.0
+        answers = []
+        for number, world in enumerate(worlds):
+            if world.watch is None:
+                self.take(world)
+                continue
+            found, seconds = world.watch.collect()
+            self.seconds += seconds
+            if found:
+                answers.append((number, found))
+        for light in self.lights:
+            self._follow(light, [(number, found[light.id]) for number, found in answers])
+
+    def _follow(self, light, answers):
+        for number, answer in answers:
+            if isinstance(answer, Broken):
+                light.last, light.last_frame = replace(answer, world=number), self.frame
+                light.breaks += 1
+                if self.first is None:
+                    self.first = self.frame, light.last
+                break
+        if light.last is not None and self.frame - light.last_frame < AFTERGLOW:
+            light.state = RED
+        elif any(answer is None for _, answer in answers):
+            light.state = GREEN
+        elif answers:
+            light.state, light.reason = GREY, next(answer.reason for _, answer in answers if answer is not None)

@@ -1,0 +1,161 @@
+"""U7, U8 and U10: what two shapes are told to do does not depend on who is asked first, from where, or in which words.
+
+They ask physics about the pairs of a sample: a few in a step, the next ones in the next, one invariant a step in turn.
+"""
+
+import math
+
+import numpy as np
+
+from game.invariants.invariant import Answer, Invariant, NotAsked
+from game.invariants.sample import Pair, sample
+from game.invariants.step import Step
+from physics import PixelMask, World, collide, distance
+
+ULPS = 4.0  # of the poses, that a turn and a shift may change a distance by (hard_cases U8)
+SHIFT = (16.0, -32.0)  # [px] whole, so that pixels stay pixels
+BAND = 1e-9  # of where and how large two shapes are: nearer to touching, either answer is right
+TURNS = 3  # invariants that take turns
+SELDOM = 4  # times that one has its turn before it asks about a concave pair again: a tile map takes 5 ms
+
+
+class OfPairs(Invariant):
+    """Asks about a sample of pairs in every third step; in between the last answer stands. concave: those pairs too."""
+
+    turn: int
+
+    def __init__(self, concave: bool = True) -> None:
+        self.concave = concave
+        self.answer: Answer = NotAsked("not its turn yet")
+
+    def look(self, step: Step) -> Answer:
+        """Ask it of the step just made."""
+        if not step.world.effects.narrowphase:
+            return NotAsked("no narrow phase: boxes that meet are a hit")
+        if step.number % TURNS != self.turn:
+            return self.answer
+        asked = step.number // TURNS
+        pairs = list(sample(step, asked, self.concave and asked % SELDOM == 0))
+        self.answer = None if pairs else NotAsked("no two shapes are near each other")
+        for pair in pairs:
+            broken = self.ask(step, pair)
+            if broken is not None:
+                return broken
+        return self.answer
+
+    def ask(self, step: Step, pair: Pair) -> Answer:
+        """Ask it of one pair."""
+        raise TypeError(f"{type(self).__name__} must define ask")
+
+
+class Swap(OfPairs):
+    """U7: asked the other way round, a pair has its normal turned round, and the same points and depths, to the bit."""
+
+    id, word, turn = "U7", "swap", 0
+
+    def ask(self, step: Step, pair: Pair) -> Answer:
+        """Ask it of one pair."""
+        if pair.same:
+            return None
+        margin = step.world.tolerances.speculative
+        one = collide(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b, margin)
+        two = collide(pair.shape_b, pair.pose_b, pair.shape_a, pair.pose_a, margin)
+        if len(one) != len(two):
+            return self.broken(step, pair.bodies, len(two), len(one), "another number of points, asked B before A")
+        off = max(abs(n + m) for n, m in zip(one.normal, two.normal, strict=True))
+        if off > 0.0:
+            return self.broken(step, pair.bodies, off, 0.0, "the normal is not turned round, asked B before A")
+        for name, first, second in (("points", one.points, two.points), ("depths", one.separations, two.separations)):
+            if len(first) and not np.array_equal(np.sort(first, axis=0), np.sort(second, axis=0)):
+                off = float(np.abs(np.sort(first, axis=0) - np.sort(second, axis=0)).max())
+                return self.broken(step, pair.bodies, off, 0.0, f"other {name}, asked B before A")
+        return None
+
+
+class Turn(OfPairs):
+    """U8: turned together by a quarter and shifted by whole pixels, two shapes are as far from each other as before.
+
+    To 4 ulp of the poses: of the coordinates, and of the angles at the reach of the shapes. What is drawn on the pixel
+    grid, or does not turn, is shifted only. That a mirrored scene mirrors, and stays the same for 60 steps, can only be
+    asked of a second world: tests do.
+    """
+
+    id, word, turn = "U8", "turn", 1
+
+    def ask(self, step: Step, pair: Pair) -> Answer:
+        """Ask it of one pair."""
+        quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
+        here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
+        there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
+        if math.isinf(here.distance) and math.isinf(there.distance):
+            return None
+        off, allowed = abs(here.distance - there.distance), ULPS * rounding(pair)
+        if off <= allowed:
+            return None
+        told = f"by {quarters} quarters and shifted" if quarters else "by nothing but shifted"
+        return self.broken(step, pair.bodies, off, allowed, f"another distance [px], turned {told}")
+
+
+def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
+    """A pose turned about the origin by quarters, and shifted."""
+    x, y, angle = pose
+    for _ in range(quarters):
+        x, y = -y, x
+    return x + SHIFT[0], y + SHIFT[1], angle + quarters * 0.5 * math.pi
+
+
+def rounding(pair: Pair) -> float:
+    """[px] an ulp of where things are, and of their angles at their reach."""
+    size = pair.size + max(map(abs, SHIFT))
+    angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
+    return math.ulp(size) + pair.size * math.ulp(angle)
+
+
+class Agree(OfPairs):
+    """U10: two shapes overlap, are no distance apart, have a depth and a contact, all of these or none.
+
+    Where a world only looks, its contacts are of those pairs as well; where it pushes, they are told of poses that the
+    solver has moved since, and begin a little before.
+    """
+
+    id, word, turn = "U10", "agree", 2
+
+    def ask(self, step: Step, pair: Pair) -> Answer:
+        """Ask it of one pair."""
+        found = disagreement(step.world, pair)
+        return None if found is None else self.broken(step, pair.bodies, *found)
+
+
+def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
+    """(value, allowed, sentence) where distance, depth, contact and what a world that only looks tells differ."""
+    gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
+    if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
+        return None
+    met = collide(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
+    depth = -float(met.separations.min()) if len(met) else 0.0
+    if (len(met) > 0) != (gap < 0.0):
+        return gap, 0.0, f"distance [px] and {len(met)} points of contact disagree"
+    if (depth > 0.0) != (gap < 0.0):
+        return depth, max(0.0, -gap), "depth [px] and distance disagree"
+    if not looks_only(world) or not tells_contacts(world, pair):
+        return None
+    rows = world.contacts
+    of_pair = (rows["shape_a"] == pair.shape_id_a) & (rows["shape_b"] == pair.shape_id_b)
+    told = bool((of_pair & (rows["separation"] <= 0.0)).any())
+    if told == (gap < 0.0):
+        return None
+    return gap, 0.0, f"the world tells {'a' if told else 'no'} contact at this distance [px]"
+
+
+def looks_only(world: World) -> bool:
+    """Whether nothing has moved since the world looked for contacts."""
+    effects = world.effects
+    return effects.narrowphase and not effects.response and not effects.continuous
+
+
+def tells_contacts(world: World, pair: Pair) -> bool:
+    """Whether a contact of the two would be told by their shapes: no sensor, no mask, which is told by its pixels."""
+    shapes = world.shapes
+    at = np.searchsorted(shapes["id"], (pair.shape_id_a, pair.shape_id_b))
+    masks = isinstance(pair.shape_a, PixelMask) or isinstance(pair.shape_b, PixelMask)
+    return not shapes["sensor"][at].any() and not masks

@@ -1,0 +1,106 @@
+"""A few of the pairs that a step looked at, others in every step, as shapes at poses to ask physics about."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from game.invariants.step import Step
+from physics import Capsule, Circle, PixelMask, Polygon, Segment, TileGrid, World
+from physics.shapes.kinds import Shape
+
+CONVEX = (Circle, Capsule, Polygon, Segment)
+PAIRS = 2  # asked about in a step; a concave one counts for both: it takes ten times as long and more
+TRIES = 8  # candidates looked at to find them
+LARGEST = 1 << 16  # pixels or tiles of a shape that is asked about: a moon of 4096 x 1024 px takes a second
+
+Pose = tuple[float, float, float]
+
+
+class Pair(NamedTuple):
+    """Two shapes that may touch. `size` [px]: how far from the origin and how large they are, for rounding."""
+
+    body_a: int
+    body_b: int
+    shape_id_a: int
+    shape_id_b: int
+    shape_a: Shape
+    pose_a: Pose
+    shape_b: Shape
+    pose_b: Pose
+    size: float
+
+    @property
+    def bodies(self) -> tuple[int, int]:
+        """Ids."""
+        return self.body_a, self.body_b
+
+    @property
+    def hulls(self) -> bool:
+        """Whether both are convex, and turn."""
+        return isinstance(self.shape_a, CONVEX) and isinstance(self.shape_b, CONVEX)
+
+    @property
+    def small(self) -> bool:
+        """Whether neither is a mask or a grid beyond LARGEST."""
+        return max(extent_of(self.shape_a), extent_of(self.shape_b)) <= LARGEST
+
+    @property
+    def same(self) -> bool:
+        """Whether nothing tells A from B: the same shape at the same place."""
+        return self.pose_a == self.pose_b and self.shape_a == self.shape_b
+
+
+def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
+    """PAIRS of the candidates of a step, by its number alone; `turn` counts the askings. concave: those too."""
+    world = step.world
+    rows = world.pairs.rows
+    if not len(rows):
+        return
+    room, seen = PAIRS, set()
+    for k in range(min(TRIES, len(rows))):
+        owners = world.shapes["owner"][rows[(turn * PAIRS + k) % len(rows)]]
+        ids = int(owners.min()), int(owners.max())
+        if ids in seen:
+            continue
+        seen.add(ids)
+        pair = pair_of(world, *ids)
+        if pair is None or not (pair.hulls or concave and pair.small):
+            continue
+        yield pair
+        room -= 1 if pair.hulls else PAIRS
+        if room <= 0:
+            return
+
+
+def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
+    """The pair of two shape ids; None where one is taken out, or is no number."""
+    found = [placed(world, each) for each in (shape_a, shape_b)]
+    if found[0] is None or found[1] is None:
+        return None
+    (body_a, one, pose_a, reach_a), (body_b, two, pose_b, reach_b) = found
+    if not np.isfinite((*pose_a, *pose_b)).all():
+        return None
+    size = max(map(abs, (*pose_a[:2], *pose_b[:2]))) + reach_a + reach_b
+    return Pair(body_a, body_b, shape_a, shape_b, one, pose_a, two, pose_b, size)
+
+
+def extent_of(shape: Shape) -> int:
+    """Pixels of a mask, tiles of a grid, with those that are clear."""
+    if isinstance(shape, PixelMask):
+        return shape.size[0] * shape.size[1]
+    return shape.solid.size if isinstance(shape, TileGrid) else 1
+
+
+def placed(world: World, shape_id: int):
+    """(body id, shape, pose, reach [px] from the pose) of a shape."""
+    shapes, bodies = world.shapes, world.bodies
+    at = int(np.searchsorted(shapes["id"], shape_id))
+    row = int(shapes["body_row"][at])
+    if bodies["quarantined"][row]:
+        return None
+    body = world.body(int(bodies["id"][row]))
+    shape = body.shapes[body.shape_ids.index(shape_id)]
+    pose = tuple(bodies[name].item(row) for name in ("x", "y", "angle"))
+    center = abs(bodies["local_center_x"].item(row)) + abs(bodies["local_center_y"].item(row))
+    return body.id, shape, pose, bodies["extent"].item(row) + center

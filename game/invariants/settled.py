@@ -1,0 +1,79 @@
+"""U6: what has settled overlaps by no more than a few slops."""
+
+import math
+
+import numpy as np
+
+from game.invariants.invariant import Answer, Invariant, NotAsked
+from game.invariants.step import Step
+from physics import STATIC
+from physics.settings import CONTACT_HERTZ, HERTZ_SHARE
+
+SLOPS, HEAVY_SLOPS = 2.0, 5.0  # allowed overlap; where the masses differ by more than …
+HEAVY = 100.0  # … this ratio (hard_cases U6)
+CALM_TIME = 0.5  # [s] for which nothing of a heap moves faster than what falls asleep, before it has settled
+
+
+class Settled(Invariant):
+    """U6: two slops at most, five where masses differ by more than 100 : 1, of what has been slow for half a second,
+    together with all it touches.
+
+    Where the number of substeps is given, contacts are springs of 60 Hz and not as stiff as their loads ask for: what
+    these let it sink comes on top. The twelve rows of lab/pyramid, hit by its ball, settle at 0.328 px under 4
+    substeps, of 0.320 that two slops are; one of their springs sinks by a tenth of a pixel.
+
+    Asked of worlds that stack: the other solvers push out what they meet in a step, and promise nothing of piles.
+    """
+
+    id, word = "U6", "overlap"
+
+    def __init__(self) -> None:
+        self.ids = np.zeros(0, np.int64)
+        self.calm = np.zeros(0)  # [s] for which each has been slow
+
+    def look(self, step: Step) -> Answer:
+        """Ask it of the step just made."""
+        world, now = step.world, step.now
+        self._count_calm(step)
+        if not world.stacks:
+            return NotAsked("nothing piles up: no stacking solver")
+        restless = step.spread(self.calm <= CALM_TIME, now.kind != STATIC)
+        a, b = step.sides
+        settled = ~restless[a] & ~restless[b]
+        if not settled.any():
+            return NotAsked("nothing that is touched has been slow for half a second")
+        masses = now.mass[now.mass > 0.0]
+        slops = HEAVY_SLOPS if masses.max() > HEAVY * masses.min() else SLOPS
+        allowed = slops * step.slop + sag(step, a, b)
+        depths = np.where(settled, -step.contacts["separation"], 0.0)
+        row = int(np.argmax(depths - allowed))
+        if depths[row] <= allowed[row]:
+            return None
+        bodies = now.ids[[a[row], b[row]]]
+        return self.broken(step, bodies, depths[row], allowed[row], "settled bodies overlap [px]")
+
+    def _count_calm(self, step):
+        now, limit = step.now, step.world.tolerances.sleep_speed
+        if not np.array_equal(now.ids, self.ids):
+            kept = dict(zip(self.ids.tolist(), self.calm.tolist(), strict=True))
+            self.calm = np.array([kept.get(identity, 0.0) for identity in now.ids.tolist()])
+            self.ids = now.ids
+        slow = np.maximum(step.pace, np.abs(now.turn) * step.world.bodies["extent"]) <= limit
+        slow &= ~step.changed & ~step.forced
+        slow |= now.kind == STATIC
+        self.calm = np.where(slow, self.calm + step.dt, 0.0)
+        self.calm[now.kind == STATIC] = np.inf
+
+
+def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """[px] that each contact sinks as a spring under the force of the step: F / (m ω²), m the mass that it moves; 0
+    where the substeps follow from the loads."""
+    world, rows, now = step.world, step.contacts, step.now
+    if world.substeps == "auto" or step.dt == 0.0 or not len(rows):
+        return np.zeros(len(rows))
+    inverse = np.zeros(len(rows))
+    for side in (a, b):
+        arm = (rows["point_x"] - now.cx[side]) * rows["normal_y"] - (rows["point_y"] - now.cy[side]) * rows["normal_x"]
+        inverse += world.bodies["inverse_mass"][side] + arm * arm * world.bodies["inverse_inertia"][side]
+    hertz = min(CONTACT_HERTZ, HERTZ_SHARE * world.substeps / step.dt)
+    return rows["normal_impulse"] / step.dt * inverse / (2.0 * math.pi * hertz) ** 2

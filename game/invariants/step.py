@@ -1,0 +1,89 @@
+"""A step that was made: the world after it, its bodies before and after, and whom anything from outside acted on."""
+
+from functools import cached_property
+
+import numpy as np
+
+from game.invariants.bodies import Bodies
+from physics import DYNAMIC, KINEMATIC, World
+
+
+class Step:
+    """`dt`: its length [s]; `edited`: somebody changed the world since the step before it. By row of the bodies before
+    it: `changed`, those that were changed; `forced`, those that forces had been applied to."""
+
+    def __init__(
+        self, world: World, before: Bodies, dt: float, edited: bool, changed: np.ndarray, forced: np.ndarray
+    ) -> None:
+        self.world, self.before, self.dt = world, before, dt
+        self.edited, self.changed, self.forced = edited, changed, forced
+        self.number = world.steps
+        self.now = Bodies(world)
+        self.contacts = world.contacts
+
+    @property
+    def slop(self) -> float:
+        """[px] the overlap in which a contact is kept."""
+        return self.world.tolerances.slop
+
+    @cached_property
+    def overlap(self) -> float:
+        """[px] of the deepest contact; 0 without one."""
+        depths = self.contacts["separation"]
+        return max(0.0, -float(depths.min())) if len(depths) else 0.0
+
+    @cached_property
+    def pace(self) -> np.ndarray:
+        """[px/s] how fast each body is or was moved, whichever is more: what overlaps is pushed out without speed."""
+        if self.dt == 0.0 or len(self.before) != len(self.now):
+            return self.now.speed
+        x, y = self.now.cx - self.before.cx, self.now.cy - self.before.cy
+        return np.maximum(self.now.speed, np.sqrt(x * x + y * y) / self.dt)
+
+    @cached_property
+    def sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """Rows of the two bodies of each contact."""
+        return (
+            np.searchsorted(self.now.ids, self.contacts["body_a"]),
+            np.searchsorted(self.now.ids, self.contacts["body_b"]),
+        )
+
+    def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
+        """Those flagged, and whom they touch, directly or by others; both bodies of a contact must be `through`."""
+        a, b = self.sides
+        open_ones = through[a] & through[b]
+        a, b, reached = a[open_ones], b[open_ones], rows.copy()
+        while (reached[a] != reached[b]).any():
+            reached[b[reached[a]]] = True
+            reached[a[reached[b]]] = True
+        return reached
+
+    @cached_property
+    def moved_by_hand(self) -> np.ndarray:
+        """Kinematic bodies that move."""
+        now = self.now
+        moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
+        moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)
+        return moves & (now.kind == KINEMATIC)
+
+    @cached_property
+    def outside(self) -> str:
+        """What may act on any body from outside in this step and stands in no table, "" where nothing does."""
+        world, effects = self.world, self.world.effects
+        if len(self.before) != len(self.now):
+            return "bodies came or went"
+        if effects.response and len(world.characters.rows):
+            return "a character walks and pushes"
+        if effects.wind and any(world.wind):
+            return "wind blows"
+        return ""
+
+    @cached_property
+    def alone(self) -> np.ndarray:
+        """The dynamic bodies that nothing but gravity acted on from outside: no force, and nothing that stands, sleeps
+        or is moved by hand touched them, or one that they touched."""
+        rows = self.world.bodies
+        still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
+        if self.world.effects.response and len(self.contacts):
+            still = self.spread(still, np.ones(len(self.now), bool))
+        return ~still

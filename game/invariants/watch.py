@@ -1,0 +1,93 @@
+"""Watching one world: all invariants after every step of it."""
+
+from time import perf_counter
+
+import numpy as np
+
+from game.invariants.bodies import Bodies
+from game.invariants.buffers import Caps
+from game.invariants.conserved import Energy, Momentum, Spin
+from game.invariants.invariant import Answer, Broken, Invariant
+from game.invariants.numbers import Finite, Unit
+from game.invariants.order import Order
+from game.invariants.pairs import Agree, Swap, Turn
+from game.invariants.settled import Settled
+from game.invariants.step import Step
+from physics import World
+
+
+def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
+    """U1 to U11, new. concave: pairs of masks, tiles and chains are asked about too, at ten times the cost."""
+    return (
+        Finite(),
+        Unit(),
+        Momentum(),
+        Spin(),
+        Energy(),
+        Settled(),
+        Swap(concave),
+        Turn(concave),
+        Order(),
+        Agree(concave),
+        Caps(),
+    )
+
+
+class Watch:
+    """before() and after() around each step of one world. `found`: the answers since the last collect(), by id.
+
+    Of several steps the first that broke an invariant counts. `seconds`: what watching took since then.
+    """
+
+    def __init__(self, concave: bool = True) -> None:
+        self.invariants = all_invariants(concave)
+        self.found: dict[str, Answer] = {}
+        self.seconds = 0.0
+        self.last: Bodies | None = None
+        self.shapes = np.zeros(0, np.int64)
+        self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
+
+    def before(self, world: World) -> None:
+        """To be called right before a step: what has been changed since the last one?"""
+        started = perf_counter()
+        rows, now = world.bodies, Bodies(world)
+        same = self.last is not None and now.same_as(self.last)
+        self.changed = np.zeros(len(now), bool) if same else now.differs_from(self.last)
+        self.edited = not same or not np.array_equal(world.shapes["id"], self.shapes)
+        self.forced = (rows["force_x"] != 0.0) | (rows["force_y"] != 0.0) | (rows["torque"] != 0.0)
+        self.last, self.time = now, world.time
+        self.seconds += perf_counter() - started
+
+    def after(self, world: World) -> None:
+        """To be called right after it."""
+        started = perf_counter()
+        if self.last is None:
+            raise ValueError("before() must be called before the step")
+        step = Step(world, self.last, world.time - self.time, self.edited, self.changed, self.forced)
+        for invariant in self.invariants:
+            answer = invariant.look(step)
+            if not isinstance(self.found.get(invariant.id), Broken):
+                self.found[invariant.id] = answer
+        self.last, self.shapes = step.now, world.shapes["id"].copy()
+        self.seconds += perf_counter() - started
+
+    def collect(self) -> tuple[dict[str, Answer], float]:
+        """(the answers since the last call, the seconds they took)."""
+        found, self.found = self.found, {}
+        seconds, self.seconds = self.seconds, 0.0
+        return found, seconds
+
+
+class WatchedWorld(World):
+    """A World that can be watched. `watch`: who looks at each of its steps; None: nobody, at no cost."""
+
+    watch: Watch | None = None
+
+    def step(self, dt: float | None = None) -> None:
+        """World.step, between two looks of its watch."""
+        watch = self.watch
+        if watch is None:
+            return super().step(dt)
+        watch.before(self)
+        super().step(dt)
+        watch.after(self)

@@ -1,0 +1,112 @@
+"""Invariants: eleven lights, U1 to U11, green, red or grey, and what the last broken one said."""
+
+from collections.abc import Iterator
+
+import pygame
+
+from game.drawing.canvas import SMALL, shorten
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SLATE, Color, faded
+from game.drawing.presenter import Frame
+from game.drawing.typical import Typical
+from game.invariants import lights as states
+from game.invariants.lights import Light, Lights
+from game.overlays.layer import Layer, LegendLine
+
+COLORS = {states.GREEN: GREEN, states.RED: RED, states.GREY: FOG}
+ROWS = (1, 2, 3, 4, 6, 11)  # ways to break the strip, the widest first
+LINE, LAMP, GAP, MARGIN = 8, 5, 5, 3  # [text px] of a row, a lamp, between two lights, inside the frame
+COUNTED = 999  # breaks beyond are not told one by one
+
+
+class Invariants(Layer):
+    """A lamp a light with its id, its word and how often it was broken; under them what the last broken one said, or
+    the one under the pointer."""
+
+    name, title, key, color = "invariants", "Invariants", "u", GREEN
+
+    def __init__(self) -> None:
+        self.lights = Lights()
+        self.cost = Typical()  # [s] of watching
+        self.places: list[tuple[pygame.Rect, Light]] = []  # of the last picture
+
+    def note(self, lights: Lights | None) -> None:
+        """To be told of every step: the scene's lights, None while nobody watches."""
+        if lights is not None:
+            self.cost.note(lights.seconds)
+
+    def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
+        """(width, height) [frame px] that the strip can have, the widest first."""
+        scale = frame.text_scale
+        for rows in ROWS:
+            columns = -(-len(self.lights.lights) // rows)
+            yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
+
+    def _width(self, frame):
+        """Of a light with its gap: as wide as the widest."""
+        scale = frame.text_scale
+        widest = max(frame.measure(label_of(light), SMALL, scale)[0] for light in self.lights.lights)
+        return widest + (LAMP + 2 + GAP) * scale
+
+    def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
+        """Paint into a frame rect of one of the sizes; `pointer`: where the mouse is."""
+        scale = frame.text_scale
+        frame.surface.fill(faded(NIGHT, 0.3), rect)
+        pygame.draw.rect(frame.surface, SLATE, rect, 1)
+        width = self._width(frame)
+        columns = max(1, (rect.width - 2 * MARGIN * scale) // width)
+        self.places = []
+        for number, light in enumerate(self.lights.lights):
+            left = rect.x + MARGIN * scale + number % columns * width
+            top = rect.y + (MARGIN + number // columns * LINE) * scale
+            self._draw_light(frame, light, left, top, scale)
+            self.places.append((pygame.Rect(left, top, width - GAP * scale, LINE * scale), light))
+        color, told = self.told(pointer)
+        line = shorten(told, rect.width - 2 * MARGIN * scale, SMALL, scale)
+        frame.text(line, rect.x + MARGIN * scale, rect.bottom - (MARGIN + LINE - 2) * scale, color, SMALL, scale)
+
+    def _draw_light(self, frame, light, left, top, scale):
+        lamp = pygame.Rect(left, top, LAMP * scale, LAMP * scale)
+        color = frame.tone(COLORS[light.state])
+        if light.state == states.GREY:
+            pygame.draw.rect(frame.surface, color, lamp, scale)  # hollow: told apart without its colour
+        else:
+            frame.surface.fill(color, lamp)
+        if light.state == states.RED:
+            frame.surface.fill(INK, lamp.inflate(-3 * scale, -3 * scale))
+        tone = {states.GREEN: PAPER, states.RED: color, states.GREY: FOG}[light.state]
+        frame.text(label_of(light), lamp.right + 2 * scale, top, tone, SMALL, scale)
+
+    def told(self, pointer: tuple[int, int]) -> tuple[Color, str]:
+        """The line under the lights: of the one under the pointer, else of the last that was broken, else of all."""
+        for place, light in self.places:
+            if place.collidepoint(pointer):
+                return COLORS[light.state], light.sentence
+        broken = max(
+            (light for light in self.lights.lights if light.last is not None),
+            key=lambda light: light.last_frame,
+            default=None,
+        )
+        if broken is not None:
+            return (RED if broken.state == states.RED else FOG), broken.last_told
+        return FOG, self.summary()
+
+    def summary(self) -> str:
+        """How many hold, are broken, are not asked, and what watching takes."""
+        count = [light.state for light in self.lights.lights].count
+        return (
+            f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
+            f"{self.cost.value * 1e6:.0f} us a frame"
+        )
+
+    def notes(self) -> list[LegendLine]:
+        """Which are not asked, by their reasons."""
+        reasons: dict[str, list[str]] = {}
+        for light in self.lights.lights:
+            if light.state == states.GREY:
+                reasons.setdefault(light.reason, []).append(light.id)
+        return [(FOG, f"{', '.join(ids)} not asked: {reason}") for reason, ids in reasons.items()]
+
+
+def label_of(light: Light) -> str:
+    """Its id and word, and how often it was broken."""
+    return f"{light.id} {light.word}" + (f" {min(light.breaks, COUNTED)}" if light.breaks else "")
