@@ -3,6 +3,7 @@
 import io
 import json
 import lzma
+import os
 import tokenize
 import zipfile
 import zlib
@@ -79,11 +80,17 @@ class Snapshot:
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write a versioned .npz."""
+        """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched."""
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
-        with open(path, "wb") as file:
-            np.savez_compressed(file, **named)
+        beside = f"{os.fspath(path)}.{os.getpid()}.part"
+        try:
+            with open(beside, "wb") as file:
+                np.savez_compressed(file, **named)
+            os.replace(beside, path)
+        finally:
+            if os.path.exists(beside):
+                os.remove(beside)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
