@@ -83,13 +83,16 @@ class Snapshot:
         """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched."""
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
-        beside = f"{os.fspath(path)}.{os.getpid()}.part"
+        there = os.fspath(path)
+        whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written to, not replaced
+        beside = f"{there}.{os.getpid()}.part" if whole else there
         try:
             with open(beside, "wb") as file:
                 np.savez_compressed(file, **named)
-            os.replace(beside, path)
+            if whole:
+                os.replace(beside, there)
         finally:
-            if os.path.exists(beside):
+            if whole and os.path.exists(beside):
                 os.remove(beside)
 
     @classmethod
