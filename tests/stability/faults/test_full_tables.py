@@ -131,18 +131,18 @@ def test_filters_of_more_than_32_bits_are_refused(bits):
 
 @needs_speed
 def test_impacts_that_go_on_and_on_are_counted():
-    """A row of fast bullets of which each stops the next: more rounds than there are, told in cap_hits."""
+    """A row of fast bullets of which each stops the next: more of them than rounds are looked at."""
     world = World(Effects.rigid_bodies(), gravity=(0, 0))
     count = 2 * IMPACT_ROUNDS
     for k in range(count):
-        world.add_body(Circle(2), position=(5.0 * k, 0), velocity=(-60000.0 * (k + 1) / count, 0), bullet=True)
+        world.add_body(Circle(2), position=(5.0 * k, 0), velocity=(-60000.0, 0), bullet=True)
     world.add_body(Polygon.box(10, 400), position=(-20, 0), kind="static")
     caps = 0
     for _ in range(5):
         world.step()
         caps += world.profile.counters["cap_hits"]
         assert np.isfinite(world.bodies["x"]).all() and (world.bodies["x"][:count] > -20.0).all(), "none gets through"
-    assert caps >= 0
+    assert caps > 0, "they are told"
 
 
 @pytest.mark.parametrize("solver", ["soft_step"])
