@@ -85,6 +85,10 @@ class App:
         try:
             while self.arcade.running:
                 self.turn()
+        except pygame.error as error:
+            if pygame.display.get_surface() is not None:
+                raise
+            raise UsageError(f"the display is gone ({error}); what was played and chosen is kept") from error
         finally:
             self._save_what_is_open()
         play = self.screens.played

@@ -20,7 +20,7 @@ from physics.reshaping import (
     shapes_for_tier,
 )
 from physics.settings import AUTO_SUBSTEPS
-from physics.shape_rows import MATERIAL, add_shapes
+from physics.shape_rows import MATERIAL, add_shapes, check_ids
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.material import Material
@@ -75,6 +75,7 @@ def add_rows(
     check_grid_stands(used, spin)
     check_own_values(world, used)
     check_weight(world, used, kind, own_mass)
+    check_ids(world, len(positions), used)
     mass = weigh(used, material.density, own_mass)
     n = len(positions)
     ids = np.arange(world._next_body, world._next_body + n, dtype=np.int64)

@@ -9,7 +9,7 @@ from physics.collision.kept_forces import KeptForces
 from physics.dynamics import sleep
 from physics.dynamics.integrate import refresh_centers
 from physics.mask_exchange import exchange_mask
-from physics.shape_rows import add_shapes
+from physics.shape_rows import add_shapes, check_ids
 from physics.shapes.approximate import fit
 from physics.shapes.kinds import Shape
 from physics.shapes.mask import PixelMask
@@ -65,6 +65,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
     forces. Masks that take the place of masks keep their ids. Raises TypeError, ValueError."""
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)
+    check_ids(world, 1, shapes)
     sleep.disturb(world, [identity])
     masks = [each for each in shapes if isinstance(each, PixelMask)]
     if len(before) == len(shapes) == len(masks) and all(isinstance(each, PixelMask) for each in before):
@@ -84,6 +85,7 @@ def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
+    check_ids(world, 1, (shape,))
     return int(_add(world, identity, together, (shape,))[0])
 
 

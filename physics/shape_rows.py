@@ -19,6 +19,17 @@ from physics.tables.shape import PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.world_state import WorldState
 
 MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
+LAST_SHAPE = 2**31 - 1  # of the ids: candidates are told in 32 bits
+
+
+def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
+    """Raises ValueError where a world has no ids left for these shapes of so many new bodies; none is given twice."""
+    room = LAST_SHAPE - world._next_shape
+    if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
+        raise ValueError(
+            f"shapes must be at most {LAST_SHAPE} in the life of a world, whose ids are never given twice "
+            f"(got {bodies} bodies with {len(shapes)} more each, after {world._next_shape}): make a new World"
+        )
 
 
 def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:

@@ -3,6 +3,7 @@
 import io
 import json
 import lzma
+import os
 import tokenize
 import zipfile
 import zlib
@@ -79,11 +80,20 @@ class Snapshot:
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write a versioned .npz."""
+        """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched."""
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
-        with open(path, "wb") as file:
-            np.savez_compressed(file, **named)
+        there = os.fspath(path)
+        whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written to, not replaced
+        beside = f"{there}.{os.getpid()}.part" if whole else there
+        try:
+            with open(beside, "wb") as file:
+                np.savez_compressed(file, **named)
+            if whole:
+                os.replace(beside, there)
+        finally:
+            if whole and os.path.exists(beside):
+                os.remove(beside)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":

@@ -17,7 +17,8 @@ from physics.collision.detect import detect_ended, detect_piles, sense
 from physics.collision.dispatch import NarrowPhase
 from physics.collision.final_poses import settle_contacts
 from physics.dynamics.awake import list_awake
-from physics.dynamics.integrate import integrate_positions, integrate_velocities, quarantine
+from physics.dynamics.integrate import integrate_positions, integrate_velocities
+from physics.dynamics.quarantine import quarantine, quarantine_solved
 from physics.dynamics.rest import IslandWorkspace, rest
 from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
@@ -65,6 +66,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage,
             (detect_piles, True),
             (wake_disturbed, e.sleeping),
             (STACKING[solver], True),
+            (quarantine_solved, True),
             (sweep_piles, e.continuous),
             (carry_characters, characters),
             (settle_contacts, True),

@@ -21,7 +21,7 @@ from physics.environment import Environment, checked_accuracy, checked_substeps
 from physics.events import Events, Pairs
 from physics.queries.index import QueryIndex
 from physics.questions import Questions
-from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
+from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, SHORTEST_STEP, STANDARD_GRAVITY, tolerances
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
@@ -107,11 +107,13 @@ class World(Environment, Questions):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance by dt [s] (None: world.dt). 0 moves nothing, and keeps forces and targets for the next step.
+        """Advance by dt [s] (None: world.dt). 0 moves nothing, and keeps forces and targets for the next step; so does
+        what is shorter than SHORTEST_STEP.
 
         Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
+        dt = 0.0 if dt < SHORTEST_STEP else dt
         self.profile.begin(self.stages)
         self._stepping = True
         try:

@@ -113,20 +113,34 @@ class Sounds:
         now = self.clock()
         if self.silent_because or loudness <= 0.0 or now - self.last_start.get(name, -SPACING) < SPACING:
             return False
-        sound = self._variant(name)
-        rank = RANKS.get(name, 1)
-        voice = self._voice_for(name, rank) if sound else None
-        if sound is None or voice is None:
+        try:
+            voice = self._start(name, pan(x), loudness)
+        except pygame.error as error:
+            self._lose(error)
             return False
-        left, right = pan(x)
-        voice.channel.play(sound)
-        voice.channel.set_volume(left * loudness, right * loudness)
+        if voice is None:
+            return False
         self.starts += 1
-        voice.name, voice.rank, voice.started = name, rank, self.starts
+        voice.name, voice.rank, voice.started = name, RANKS.get(name, 1), self.starts
         self.last_start[name] = now
         if name in DUCKING:
             self.player.duck_for(DUCK_SECONDS)
         return True
+
+    def _start(self, name, sides, loudness):
+        """The voice that a sound was started on; None where the file cannot be used or there is no room."""
+        sound = self._variant(name)
+        voice = self._voice_for(name, RANKS.get(name, 1)) if sound else None
+        if sound is None or voice is None:
+            return None
+        voice.channel.play(sound)
+        voice.channel.set_volume(sides[0] * loudness, sides[1] * loudness)
+        return voice
+
+    def _lose(self, error):
+        """The device went away while it played: from now on there is silence, and one line says so."""
+        self.silent_because = f"the sound device is gone ({error})"
+        self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
         """The voice to start on: a free one, the oldest of this sound, or of those that matter least; None: no room."""
@@ -191,8 +205,12 @@ class Sounds:
 
     def step(self, seconds: float) -> None:
         """Fades and ducking; `seconds` since the last call."""
-        if not self.silent_because:
+        if self.silent_because:
+            return
+        try:
             self.player.step(seconds, self.music * self.master)
+        except pygame.error as error:
+            self._lose(error)
 
 
 def pan(x: float | None) -> tuple[float, float]:

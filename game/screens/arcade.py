@@ -73,7 +73,10 @@ class Arcade:
         """Put changed settings to work."""
         if mode_of(self.settings) != self.mode:
             self.mode = mode_of(self.settings)
-            self.picture.presenter.frame.surface = set_mode(self.settings)
+            try:
+                self.picture.presenter.frame.surface = set_mode(self.settings)
+            except pygame.error as error:
+                say(f"the window stays as it is: {error}")
         self.devices.bind(self.settings.keys, self.settings.buttons)
         self.sounds.master, self.sounds.effects = self.settings.master, self.settings.effects
 

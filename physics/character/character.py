@@ -8,7 +8,7 @@ import numpy as np
 from physics import checks
 from physics.character.ground import STEEPEST_CLIMB
 from physics.character.walk import is_stopped, walk
-from physics.character.workspace import find_own_rows, walk_for
+from physics.character.workspace import can_walk, find_own_rows, walk_for
 from physics.checks import Pair
 from physics.dynamics.sleep import disturb
 from physics.shapes.bounds import Bounds
@@ -134,7 +134,7 @@ class Character:
         """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
 
         Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope. While its
-        body is quarantined it stays and touches nothing.
+        body is quarantined, or has a number for which the next step will quarantine it, it stays and touches nothing.
         """
         world = self.world
         world._unlocked()
@@ -142,7 +142,7 @@ class Character:
         drop = checks.flag("drop", drop)
         me = self._row
         rows = world.characters.rows
-        if self.body._row["quarantined"]:
+        if self.body._row["quarantined"] or not can_walk(me, rows):
             return Moved(0, 0, False, 0, 0.0, None, False)
         rows["drop"][me] = drop
         rows["previous_left"][me], rows["previous_top"][me] = rows["left"][me], rows["top"][me]

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.collision.manifold import POINTS
+from physics.dynamics.quarantine import is_sound_walk
 from physics.jit import kernel, subkernel
 from physics.tables.geometry import Geometry
 from physics.tables.rows import row_of
@@ -80,6 +81,12 @@ def character_of(characters, body):
         else:
             high = middle
     return low if low < len(characters) and characters[low].body == body else -1
+
+
+@kernel
+def can_walk(me, characters):
+    """Whether the numbers of a character are such as it can be moved with."""
+    return is_sound_walk(characters[me])
 
 
 @kernel

@@ -13,6 +13,8 @@ from physics.math2d import length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
 from physics.tables.shape import CIRCLE, MASK
 
+LARGEST_FORCE = 1e100  # beyond, and what is no number, is not what a contact bore: it begins at rest
+
 
 @subkernel
 def is_before(manifold, shape_a, shape_b):
@@ -132,6 +134,16 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout
     return slid, changed
 
 
+@subkernel
+def is_finite(manifold):
+    """Whether a manifold has numbers that are: what is finite is 0 less than itself."""
+    m = manifold
+    total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
+    if m.count == 2:
+        total += m.x_2 + m.y_2 + m.separation_2
+    return total - total == 0.0
+
+
 @kernel
 def recycle_manifolds(
     # read
@@ -200,7 +212,7 @@ def recycle_manifolds(
                 turn = 0.0
                 if a.kind != CIRCLE and b.kind != CIRCLE:
                     turn = abs((q.angle - anchors[last].angle_b) - (p.angle - anchors[last].angle_a)) * reach
-                fits = slid <= distance and turn <= distance and changed <= distance
+                fits = slid <= distance and turn <= distance and changed <= distance and is_finite(m)
             else:
                 fits = False
             found += 1
@@ -301,12 +313,15 @@ def carry_over(
         if m.previous >= 0:
             copy_anchor(previous_anchors[m.previous], c)
             c.color = -1
-            continue
-        rest_anchor(c)
-        anchor_manifold(geometry, bodies, shapes, m, c)
-        while j < len(previous) and is_before(previous[j], m.shape_a, m.shape_b):
-            j += 1
-        take_over(previous, previous_anchors, j, m, c)
+        else:
+            rest_anchor(c)
+            anchor_manifold(geometry, bodies, shapes, m, c)
+            while j < len(previous) and is_before(previous[j], m.shape_a, m.shape_b):
+                j += 1
+            take_over(previous, previous_anchors, j, m, c)
+        forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
+        if not forces + abs(c.rolling_force) < LARGEST_FORCE:
+            rest_anchor(c)
 
 
 @kernel

@@ -9,21 +9,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from physics.dynamics.sleep import disturb
-from physics.jit import kernel, subkernel
+from physics.jit import kernel
 from physics.math2d import turned
-from physics.settings import POSITION_LIMIT
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.contact import QUARANTINE
 from physics.tables.counters import BODIES_INTEGRATED
-from physics.tables.shape import TILES
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-NOT_FINITE = "position, angle or velocity is not finite or beyond what a double resolves"
-TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
@@ -127,89 +121,6 @@ def refresh_centers(rows, bodies_inout):
             b.settled_angle = b.angle
 
 
-@subkernel
-def put_aside(body_inout):
-    """Quarantine a body where it is: at rest, pulled by nothing."""
-    b = body_inout
-    b.previous_x = b.x
-    b.previous_y = b.y
-    b.previous_angle = b.angle
-    b.vx = 0.0
-    b.vy = 0.0
-    b.angular_velocity = 0.0
-    b.force_x = 0.0
-    b.force_y = 0.0
-    b.torque = 0.0
-    b.awake = False
-    b.quarantined = True
-
-
-@kernel
-def find_broken(
-    # read
-    rows,
-    speed_limit,
-    position_limit,
-    dt,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List the rows of bodies that are not finite, too fast [px/s] or too far out [px], and put them to rest.
-
-    Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (rows).
-    """
-    found = 0
-    for k in range(len(rows)):
-        b = bodies_inout[rows[k]]
-        if b.quarantined:
-            continue
-        there = abs(b.x) < position_limit and abs(b.y) < position_limit and abs(b.angle) < math.inf
-        finite = (
-            there
-            and abs(b.vx) < speed_limit
-            and abs(b.vy) < speed_limit
-            and abs(b.x + dt * b.vx) < position_limit
-            and abs(b.y + dt * b.vy) < position_limit
-            and abs(b.angle + dt * b.angular_velocity) < math.inf
-        )
-        if not finite:
-            broken_out[found] = rows[k]
-            found += 1
-            if not there:
-                b.x = b.settled_x
-                b.y = b.settled_y
-                b.angle = b.settled_angle
-            put_aside(b)
-    return found
-
-
-@kernel
-def find_turned_grids(
-    # read
-    rows,
-    shapes,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List the rows of bodies with TILES among these shape rows that turn or are turned, which only a table can make
-    them; set them upright and at rest, and mark them quarantined. Returns the number. O(rows)."""
-    found = 0
-    for k in range(len(rows)):
-        s = shapes[rows[k]]
-        if s.kind != TILES:
-            continue
-        b = bodies_inout[s.body_row]
-        if b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0):
-            continue
-        broken_out[found] = s.body_row
-        found += 1
-        b.angle = 0.0
-        put_aside(b)
-    return found
-
-
 # One compiled pass per combination of effects that it depends on; made here, compiled when first run.
 VELOCITIES = {
     (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
@@ -219,64 +130,6 @@ VELOCITIES = {
     for r in BOTH
 }
 POSITIONS = {r: make_position_pass(rotation=r) for r in BOTH}
-REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
-
-
-@stage(
-    "quarantine",
-    reads=(
-        "bodies",
-        "shapes",
-        "awake",
-        "sleepers",
-        "pairs",
-        "manifolds",
-        "anchors",
-        "touching",
-        "sensing",
-        "tolerances",
-        "library",
-        "dt",
-    ),
-    writes=(
-        "events",
-        "pairs",
-        "awake",
-        "sleepers",
-        "manifolds",
-        "anchors",
-        "touching",
-        "sensing",
-        "shapes.proxy",
-        "bodies.sleep_time",
-        "bodies.island",
-        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
-        *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-        *(f"bodies.{name}" for name in REST),
-    ),
-)
-def quarantine(state: StepState) -> None:
-    """Take what is no longer finite out of the simulation, and tell it;
-    its neighbours go on as if it had been removed."""
-    rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
-    found = np.empty(len(rows), np.int64)
-    broken = found[: find_broken(rows, state.tolerances.speed_limit, POSITION_LIMIT, state.dt, bodies, found)]
-    told = [(each, NOT_FINITE) for each in bodies["id"][broken].tolist()]
-    if state.library.grids.count:
-        turned = np.empty(len(state.awake.shapes), np.int64)
-        turned = np.unique(turned[: find_turned_grids(state.awake.shapes, shapes, bodies, turned)])
-        told += [(each, TURNED) for each in bodies["id"][turned].tolist()]
-        broken = np.concatenate([broken, turned])
-    if not told:
-        return
-    ids = np.sort(bodies["id"][broken])
-    state.events.quarantined = np.array(sorted(told), QUARANTINE)
-    own = np.isin(shapes["body"], ids)
-    state.pairs.free_proxies(shapes["proxy"][own])
-    shapes["proxy"][own] = -1
-    refresh_centers(broken, bodies)
-    disturb(state, ids)
-    state.awake.start_over()
 
 
 @stage(

@@ -6,19 +6,28 @@ Poses may be written straight into world.bodies, so they are compared with those
 that may have moved.
 """
 
+import math
 from typing import Any, Protocol
 
 import numpy as np
 
 from physics.broadphase.proxies import Box, Strategy
 from physics.checks import Pair
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.counters import COUNTERS, PAIRS_TESTED
 from physics.tables.world_tables import WorldTables
 
 ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
+
+
+@subkernel
+def is_somewhere(body):
+    """Whether a body can be met: it is in the simulation, and its pose is one. What is not will be quarantined by the
+    next step."""
+    b = body
+    return not b.quarantined and abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf
 
 
 @kernel
@@ -38,6 +47,8 @@ def find_moved(
     for n in range(len(rows)):
         k = rows[n]
         b = bodies[k]
+        if not is_somewhere(b):
+            continue
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
             poses_inout[k, 0] = b.x
             poses_inout[k, 1] = b.y
@@ -62,13 +73,15 @@ def find_loose(
     """List those of the shape rows that the structure may not find, and the row that each slot stands for (-1: none).
 
     A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
-    the number of loose rows; those of quarantined bodies are neither. O(rows).
+    the number of loose rows; those of bodies that are nowhere are neither. O(rows).
     """
     found = 0
     for n in range(len(rows)):
         row = rows[n]
         s = shapes[row]
-        if bodies[s.body_row].quarantined:
+        if not is_somewhere(bodies[s.body_row]):
+            if s.proxy >= 0:
+                row_of_slot_inout[s.proxy] = -1
             continue
         held = False
         if known == 1 and s.proxy >= 0:

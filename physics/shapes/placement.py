@@ -235,6 +235,8 @@ def missing_rasters(
             continue  # as it was added
         if rasters[raster_of[s.geometry, 0]].halo >= 0:
             continue  # tested at its exact pose, by how it was added
+        if not abs(b.angle + dt * b.angular_velocity) < math.inf:
+            continue  # it is nowhere
         for end in range(2):
             bucket = bucket_at(b.angle + end * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
@@ -303,6 +305,8 @@ def refresh_aabbs(
         row = rows[k]
         s = shapes_inout[row]
         b = bodies[s.body_row]
+        if not abs(b.angle) < math.inf:
+            continue  # it is nowhere, and the next step says so
         if s.kind == MASK:
             if s.role != PIXELS and s.snap:
                 place_mask(rasters, raster_of, b, s)

@@ -1,0 +1,265 @@
+"""Every fault, what it gets, and the test that says so. `section()` is the part "Faults" of docs/stability.md."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[3]
+HERE = "tests/stability/faults"
+INTRODUCTION = """\
+Each of these was done on purpose. *Put aside*: the body is taken out of the simulation at its last finite pose, at
+rest, told by id and reason in `world.events.quarantined`, until `body.restore()`; its neighbours go on to the bit as
+if it had been removed. *Refused*: ValueError or TypeError with the argument, its value and what is allowed; nothing has
+changed.
+"""
+
+
+class Fault(NamedTuple):
+    """A row: what is done, what it gets, and `file::function` of the test."""
+
+    fault: str
+    gets: str
+    test: str
+
+
+FAULTS: dict[str, tuple[Fault, ...]] = {
+    "Numbers": (
+        Fault("NaN, infinity or a wrong kind for any argument", "refused", "tests/physics/test_bad_input.py"),
+        Fault(
+            "NaN, ±inf, 1e308 into any column of `world.bodies` or `world.shapes` that a step reads",
+            "that body alone is put aside, in the same step",
+            f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
+        ),
+        Fault(
+            "into a column that is told or worked out anew: previous, settled and still poses, boxes, timers",
+            "written over",
+            f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
+        ),
+        Fault(
+            "into a character's row",
+            "the character stays where it is, `move` gives (0, 0), and the next step puts it aside",
+            f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
+        ),
+        Fault(
+            "into what contacts remember (manifolds, anchors) or the broad phase knows (rectangles)",
+            "found anew; forces that are no numbers, or beyond 1e100, are forgotten",
+            f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
+        ),
+        Fault(
+            "into the arrays that stages share",
+            "written before they are read (the stacking solvers read four columns of 0 weight: open)",
+            f"{HERE}/test_poison.py::test_what_stages_share_is_written_before_it_is_read",
+        ),
+        Fault(
+            "a question (ray, overlap, closest, `move`) between that and the next step",
+            "passes over what has no pose",
+            f"{HERE}/test_poison.py::test_questions_before_the_next_step_pass_over_it",
+        ),
+        Fault(
+            "a mass of 1e308 or 1e-308, friction, restitution or rolling of 1e308, given to a constructor",
+            "taken, and put aside in the first step: products of two would be no doubles",
+            f"{HERE}/test_poison.py::test_numbers_that_are_finite_and_of_no_use_reach_nobody",
+        ),
+        Fault(
+            "faster than 1e9 m/s, also by its spin, or beyond 2^52 px",
+            "put aside; a position given is refused",
+            f"{HERE}/test_full_tables.py::test_positions_and_speeds_that_a_double_does_not_resolve",
+        ),
+        Fault(
+            "a TileGrid that is turned by its column", "put aside, upright", "tests/regress/test_grids_do_not_turn.py"
+        ),
+    ),
+    "Teleports": (
+        Fault(
+            "into a box, disc, mask, wall, chain, the ground, a pile or the edge of tiles",
+            "out again within 10 s, no faster than 6 m/s besides its fall; overlap at most two slops",
+            f"{HERE}/test_teleports.py::test_it_comes_out_gently",
+        ),
+        Fault(
+            "into the middle of solid tiles",
+            "stays inside or leaves; calm, finite",
+            f"{HERE}/test_teleports.py::test_in_the_middle_of_solid_tiles_it_stays_or_leaves_and_is_finite",
+        ),
+        Fault(
+            "without stacking",
+            "projection: out within two seconds; blocking: it stays where it was put",
+            f"{HERE}/test_teleports.py::test_without_stacking_it_is_out_or_stuck_at_once",
+        ),
+        Fault(
+            "a hundred boxes at one point",
+            "apart within 10 s, the same every time",
+            "tests/stability/test_overlap_recovery.py::test_a_hundred_boxes_at_one_point",
+        ),
+        Fault(
+            "a crusher into a character",
+            "`squeezed` in every move while it is in it",
+            "tests/regress/test_squeezed_while_crushed.py::test_it_is_told_without_a_gap",
+        ),
+    ),
+    "Time": (
+        Fault(
+            "dt 0, or shorter than 1e-30 s",
+            "nothing moves; forces and targets wait for the next step",
+            "tests/regress/test_steps_shorter_than_any.py::test_nothing_moves_and_forces_wait",
+        ),
+        Fault(
+            "dt negative, NaN, infinite or no number",
+            "refused",
+            f"{HERE}/test_time_steps.py::test_what_is_no_length_is_refused_and_changes_nothing",
+        ),
+        Fault(
+            "dt that changes: by 1 %, by half, at random from 1/240 to 1/20 s, a stall of 1 s, 1e-9 s throughout",
+            "five boxes stand, overlap at most two slops",
+            f"{HERE}/test_time_steps.py::test_a_pile_stands_however_the_steps_change",
+        ),
+        Fault(
+            "dt of 1/30 and 1/240 by turns; of 1/60 and 1e-5 or 1e-9 s by turns",
+            "soft_step stands the first, sequential_impulse trembles at 14 px/s; the others blow piles up: **open**",
+            f"{HERE}/test_time_steps.py::test_a_pile_stands_where_long_and_short_steps_alternate",
+        ),
+        Fault(
+            "dt 1 s",
+            "finite and above the floor; piles sink into themselves, which soft_step counts in `cap_hits`",
+            f"{HERE}/test_time_steps.py::test_steps_of_a_second_are_finite_and_stay_above_the_floor",
+        ),
+        Fault(
+            "dt 1 s, and then 1/60",
+            "apart within 15 s",
+            f"{HERE}/test_time_steps.py::test_after_steps_of_a_second_ordinary_ones_bring_it_apart",
+        ),
+    ),
+    "Full": (
+        Fault(
+            "bodies, shapes, pairs, contacts, events: 0, 1, and across 16, 32, 64 and 128 rows",
+            "grown; no row lost, the same digest one by one, all at once and under every broad phase",
+            f"{HERE}/test_full_tables.py::test_no_row_is_lost_where_a_table_grows",
+        ),
+        Fault(
+            "more contacts of one body than the 62 colours",
+            "solved first, in order: it rests as on fewer",
+            f"{HERE}/test_full_tables.py::test_a_plank_on_more_boxes_than_there_are_colors_lies",
+        ),
+        Fault(
+            "a polygon of more than 16 corners",
+            "refused; `hull` keeps the 16 that count",
+            f"{HERE}/test_full_tables.py::test_polygons_have_as_many_corners_as_their_row",
+        ),
+        Fault(
+            "shape ids after 2^31",
+            "refused: make a new World",
+            "tests/regress/test_shape_ids_that_run_out.py::test_the_last_id_is_given_and_no_further_one",
+        ),
+        Fault(
+            "impacts that stop one another for more than 64 rounds",
+            "counted in `cap_hits`; none gets through",
+            f"{HERE}/test_full_tables.py::test_impacts_that_go_on_and_on_are_counted",
+        ),
+        Fault(
+            "loads that need more than 32 substeps",
+            "counted in `cap_hits`",
+            f"{HERE}/test_full_tables.py::test_loads_that_need_more_substeps_than_there_are_are_counted",
+        ),
+        Fault(
+            "a grid of 300 cells, a chain of 300 links, a mask of 1,200 px",
+            "the last row is met as the first",
+            f"{HERE}/test_full_tables.py::test_the_last_row_of_a_large_shape_is_met",
+        ),
+    ),
+    "Devices": (
+        Fault(
+            "no sound device",
+            "silence, with its reason in the settings",
+            "tests/game/test_sound.py::test_no_device_is_silence_with_a_reason",
+        ),
+        Fault(
+            "the sound device goes away while it plays",
+            'one line, "the sound device is gone (…); the game goes on in silence"',
+            f"{HERE}/test_devices.py::test_a_sound_device_that_goes_away_is_silence_and_one_line",
+        ),
+        Fault(
+            "a window of 1 x 1 px",
+            "drawn into; as large as before, all is there again",
+            f"{HERE}/test_devices.py::test_a_window_of_a_few_pixels_is_drawn_into",
+        ),
+        Fault(
+            "a window mode that the system refuses",
+            '"the window stays as it is: …"',
+            f"{HERE}/test_devices.py::test_a_window_that_cannot_be_changed_stays_as_it_is",
+        ),
+        Fault(
+            "the display goes away",
+            '"the display is gone (…); what was played and chosen is kept", exit 2',
+            f"{HERE}/test_devices.py::test_a_display_that_goes_away_ends_with_one_line_and_keeps_the_run",
+        ),
+        Fault("the controller goes away", "the game pauses", "tests/game/test_app.py::test_focus_and_pad_lost_pause"),
+    ),
+    "Files": (
+        Fault(
+            "a full disk while settings, records, a ghost or a level are saved",
+            "OSError; the old file is whole, no other is left",
+            f"{HERE}/test_full_disk.py::test_what_was_kept_before_stays_whole",
+        ),
+        Fault(
+            "a full disk in mid-game",
+            "one line each, with file and reason, for settings, screenshot and replay; the game goes on",
+            f"{HERE}/test_full_disk.py::test_a_game_goes_on_and_says_what_could_not_be_kept",
+        ),
+        Fault(
+            "a full disk under `--record` or `--screenshot`",
+            "one line, exit 2; yesterday's file is whole",
+            f"{HERE}/test_full_disk.py::test_an_output_that_does_not_fit_is_one_line_and_exit_2",
+        ),
+        Fault(
+            "a full disk under `Snapshot.save`",
+            "OSError; the old snapshot is whole",
+            f"{HERE}/test_full_disk.py::test_a_snapshot_that_does_not_fit_leaves_the_old_one",
+        ),
+        Fault(
+            "a full disk under the kernel cache",
+            "one warning; compiled, used, and compiled again at the next start",
+            f"{HERE}/test_full_disk.py::test_kernels_that_cannot_be_kept_run_all_the_same",
+        ),
+        Fault(
+            "a kernel cache with wrong bytes",
+            "one warning; compiled anew",
+            "tests/regress/test_kernel_caches_with_wrong_bytes.py::test_wrong_bytes_are_compiled_anew",
+        ),
+        Fault(
+            "a data folder out of reach",
+            "one line; defaults",
+            "tests/regress/test_data_folders_out_of_reach.py::test_everything_starts_empty",
+        ),
+        Fault(
+            "two windows of the game",
+            "both keep their high scores",
+            "tests/regress/test_two_windows.py::test_both_windows_keep_their_places",
+        ),
+        Fault(
+            "a replay cut off at any length",
+            "FileError with file, line and reason",
+            f"{HERE}/test_spoilt_replays.py::test_every_length_is_refused_but_the_whole",
+        ),
+        Fault(
+            "a replay with a turned bit",
+            "refused, or diverges at a named frame, or the bit was none of the run's",
+            f"{HERE}/test_spoilt_replays.py::test_a_turned_bit_is_refused_diverges_or_says_nothing_of_the_run",
+        ),
+        Fault(
+            "a snapshot cut off or with a turned bit",
+            "refused or whole",
+            "tests/physics/test_snapshot.py::test_cut_and_flipped_files_are_refused_or_whole",
+        ),
+    ),
+}
+
+
+def section() -> str:
+    """The Markdown of the section: a table for each kind of fault, with a link to each test from docs/."""
+    lines = ["## Faults", "", INTRODUCTION]
+    for kind, faults in FAULTS.items():
+        lines += [f"### {kind}", "", "| fault | what it gets | test |", "|---|---|---|"]
+        for each in faults:
+            path, _, function = each.test.partition("::")
+            name = function or Path(path).stem
+            lines.append(f"| {each.fault} | {each.gets} | [{name}](../{path}) |")
+        lines.append("")
+    return "\n".join(lines)
