@@ -70,6 +70,8 @@ def digest(world: WorldState) -> str:
         for mask in masks:
             if isinstance(mask, PixelMask) and mask.carved:
                 found.update(b"carved" + mask.fingerprint)
+    if world.stacks and world.span not in (0.0, world.dt):
+        found.update(b"span" + np.float64(world.span).tobytes())
     # What waits for the next step only; where nothing waits, nothing is added.
     targets = world._targets
     for identity in sorted(targets):

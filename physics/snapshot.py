@@ -30,7 +30,7 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.shape import PART, SHAPE
 from physics.world_state import WorldState
 
-VERSION = 10
+VERSION = 11
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # come back with a snapshot
 DAMAGE = (
     ValueError,
@@ -144,6 +144,7 @@ def take(world: WorldState) -> Snapshot:
         "next_shape": world._next_shape,
         "pixels_per_meter": world.tolerances.pixels_per_meter,
         "time": world.time,
+        "span": world.span,
         **{name: getattr(world, name) for name in SETTINGS},
         "tiers": tiers,
         "random": world.random.bit_generator.state,
@@ -172,7 +173,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     for name in SETTINGS:
         if getattr(world, name) != facts[name]:
             setattr(world, name, facts[name])
-    world.time = facts["time"]
+    world.time, world.span = facts["time"], facts["span"]
     world.library, world._shapes_of, world._sources, world.random = unpacked
     for table, name in (
         (world._bodies, "bodies"),
@@ -246,7 +247,7 @@ def _unpack(arrays, facts, geometry):
         raise ValueError("what is said of bodies is said of others")
     for name in ("gravity", "wind"):
         checks.vector(name, facts[name])
-    for name in ("drag", "time"):
+    for name in ("drag", "time", "span"):
         checks.number(name, facts[name], low=0.0)
     for name in ("dt", "pixels_per_meter", "accuracy"):
         checks.number(name, facts[name], above=0.0)

@@ -22,6 +22,7 @@ from physics.dynamics.quarantine import quarantine, quarantine_solved
 from physics.dynamics.rest import IslandWorkspace, rest
 from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
+from physics.settings import STALL
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import Motions
@@ -127,6 +128,14 @@ class Workspace:
         return self._rows
 
 
+def next_span(span: float, dt: float, usual: float) -> float:
+    """The time [s] that contacts have forces of after a step of dt [s]: its length; where the steps before were longer
+    it counts for as much as it lasts, and a stall for no more than a few of them, or of the usual ones."""
+    if dt >= span:
+        return min(dt, STALL * max(span, usual))
+    return span - (span - dt) * dt / span
+
+
 def begin(world: WorldState, dt: float) -> StepState:
     """What the first stage is given: the world's settings and tables, and what it remembers of the last step."""
     world.refresh_character_rows()
@@ -135,6 +144,7 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.effects, state.tolerances, state.workspace = world.effects, world.tolerances, world.workspace
     state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
     state.dt, state.broadphase, state.accuracy = dt, world.broadphase, world.accuracy
+    state.span = max(dt, world.span)
     state.substeps = 0 if world.substeps == "auto" else world.substeps
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
     state.queries, state.steps = world.queries, world.steps
@@ -168,3 +178,4 @@ def finish(world: WorldState, state: StepState) -> None:
             world.bodies[name][going_on] = state.kept_forces[name][going_on]
     world.steps += 1
     world.time += state.dt
+    world.span = next_span(world.span, state.dt, world.dt)

@@ -93,7 +93,7 @@ class World(Environment, Questions):
         self.touching, self.sensing = Pairs(), Pairs()
         # What the last step told.
         self.tell_contacts(self.manifolds)
-        self.queries, self.events, self.steps, self.time = QueryIndex(), Events(), 0, 0.0
+        self.queries, self.events, self.steps, self.time, self.span = QueryIndex(), Events(), 0, 0.0, 0.0
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
 

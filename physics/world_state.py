@@ -80,6 +80,7 @@ class WorldState:
     events: Events
     steps: int  # made so far
     time: float  # [s] that they took, all together
+    span: float  # [s] that what contacts remember of their forces is a mean of: a short step says little of them
     profile: Profile
     workspace: Any  # a Workspace of step.py, whose stages are given what stands here
     # Properties of Environment.

@@ -5,6 +5,7 @@ makes vector instructions of a loop over the lanes of a block that has no branch
 that joins nothing to nothing. Sums are those of one row after the other, to the bit. Source: Catto, SIMD Matters, 2024.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,7 @@ LANES = 8 if JIT else 1
     RESTS,
     BIAS_RATE,
     GIVE,
+    BLOW,
     COUPLE_1,
     COUPLE_2,
     SPLIT,
@@ -79,7 +81,7 @@ LANES = 8 if JIT else 1
     GAP_2,
     OUTCOME,
     SIZE,
-) = (line * LANES for line in range(61))
+) = (line * LANES for line in range(62))
 PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears nothing, and is let out of its overlap
 
 
@@ -110,6 +112,7 @@ def pack_row(r, a, b, pace, lane, c_out):
     c_out[RESTS + lane] = 1.0 if r.rests else 0.0
     c_out[BIAS_RATE + lane] = spring.bias_rate
     c_out[GIVE + lane] = 1.0 / (1.0 + firmness_of(r, pace) * spring.grip)
+    c_out[BLOW + lane] = pace.blow * (r.normal_impulse_1 + r.normal_impulse_2) if r.loaded and not r.still else math.inf
     c_out[COUPLE_1 + lane] = r.couple_1
     c_out[COUPLE_2 + lane] = r.couple_2
     c_out[SPLIT + lane] = r.split

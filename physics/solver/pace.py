@@ -10,6 +10,7 @@ from typing import NamedTuple
 from physics.jit import subkernel
 from physics.settings import (
     AUTO_SUBSTEPS,
+    BLOW,
     CONTACT_DAMPING,
     CONTACT_HERTZ,
     FIRM,
@@ -44,6 +45,7 @@ class Pace(NamedTuple):
     still_spring: Softness  # … and of one with what cannot be pushed
     firm: float  # how many times the grip of what bears a load is greater …
     firm_alone: float  # … and of what alone bears the one side on the other
+    blow: float  # how many times what it bore before the step is a blow, which it gives way to
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
@@ -66,13 +68,17 @@ def firmness_of(r, pace):
 
 
 @lru_cache(maxsize=64)
-def pace_of(substeps: int, asked: bool, dt: float, drag: float, push_speed: float, speculative: float) -> Pace:
-    """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads."""
+def pace_of(
+    substeps: int, asked: bool, dt: float, span: float, drag: float, push_speed: float, speculative: float
+) -> Pace:
+    """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads; span [s]: no less
+    than dt, the length that springs are made for: in a short step they push no faster than in those before."""
     h = dt / substeps
     # Where the substeps follow from the loads, springs are as stiff as they allow.
-    hertz = HERTZ_SHARE / h if asked else min(CONTACT_HERTZ, HERTZ_SHARE / h)
+    hertz = HERTZ_SHARE / (span / substeps)
+    hertz = hertz if asked else min(CONTACT_HERTZ, hertz)
     spring = softness(hertz, CONTACT_DAMPING, h)
-    slowest = dt / AUTO_SUBSTEPS[0]
+    slowest = span / AUTO_SUBSTEPS[0]
     return Pace(
         substeps=substeps,
         h=h,
@@ -80,11 +86,12 @@ def pace_of(substeps: int, asked: bool, dt: float, drag: float, push_speed: floa
         drag=drag,
         push_speed=push_speed,
         # More substeps let nothing out faster.
-        push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / dt,
+        push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
         deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
         shallow_speed=spring.bias_rate * speculative,
         spring=spring,
         still_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
         firm=FIRM if asked else 1.0,
         firm_alone=FIRM_ALONE if asked else 1.0,
+        blow=BLOW if asked else math.inf,
     )

@@ -29,16 +29,19 @@ class Pace(NamedTuple):
     passes: int
     dt: float  # [s]
     inverse_dt: float
+    inverse_span: (
+        float  # [1/s] of no shorter a time: overlaps come out no faster in a step that is shorter than those before
+    )
     drag: float  # [1/s]
     push_speed: float  # [px/s]
 
 
 @subkernel
-def push_wanted(separation, inverse_h, slop, baumgarte, push_speed):
+def push_wanted(separation, inverse_h, slop, rate, push_speed):
     """Speed [px/s] that a point has to let an overlap out with, or, negative, may still close a gap with."""
     if separation > 0.0:
         return -separation * inverse_h
-    return min(baumgarte * inverse_h * max(-separation - slop, 0.0), push_speed)
+    return min(rate * max(-separation - slop, 0.0), push_speed)
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
@@ -50,7 +53,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         inverse_h,
         slow,
         slop,
-        baumgarte,
+        rate,
         # write
         motions_inout,
         constraints_inout,
@@ -58,7 +61,8 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         """Solve every constraint once, friction first, in the order of the rows. O(constraints).
 
         What bears something lets its overlap out as in push_overlaps, as far as that takes a speed of no more than slow
-        [px/s]: through all passes, and with the memory of contacts, or columns would sink.
+        [px/s]: through all passes, and with the memory of contacts, or columns would sink. rate [1/s]: of an overlap
+        beyond the slop, that comes out.
         """
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -113,7 +117,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
             core = r.radius_a + r.radius_b
             gap = core + r.base_1 + (r.bx_1 - r.ax_1) * nx + (r.by_1 - r.ay_1) * ny
             most = slow if r.loaded else 0.0
-            wanted_1 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_1
+            wanted_1 = push_wanted(gap, inverse_h, slop, rate, most) - speed_1
             old_1 = r.normal_impulse_1
             old_2 = r.normal_impulse_2
             if r.count == 1:
@@ -121,7 +125,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
                 impulse_2 = old_2
             else:
                 gap = core + r.base_2 + (r.bx_2 - r.ax_2) * nx + (r.by_2 - r.ay_2) * ny
-                wanted_2 = push_wanted(gap, inverse_h, slop, baumgarte, most) - speed_2
+                wanted_2 = push_wanted(gap, inverse_h, slop, rate, most) - speed_2
                 change_1 = r.normal_mass_1 * wanted_1
                 change_2 = r.normal_mass_2 * wanted_2
                 impulse_1, impulse_2 = solve_two(change_1, change_2, r.couple_1, r.couple_2, r.split, old_1, old_2)
@@ -162,15 +166,15 @@ def make_push_pass(rotation: bool) -> Callable:
         inverse_h,
         push_speed,
         slop,
-        share,
+        rate,
         # write
         motions_inout,
         constraints_inout,
     ):
         """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(constraints).
 
-        Only where nothing was borne in the step before. slop [px]: overlap that is left in; share: of the rest, taken
-        out per step, at push_speed [px/s] at most. Impulses of these speeds add up apart from the contacts'.
+        Only where nothing was borne in the step before. slop [px]: overlap that is left in; rate [1/s]: of the rest,
+        that comes out, at push_speed [px/s] at most. Impulses of these speeds add up apart from the contacts'.
         """
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -198,7 +202,7 @@ def make_push_pass(rotation: bool) -> Callable:
                 speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
                 if rotation:
                     speed += b.angular_velocity * b_arm - a.angular_velocity * a_arm
-                wanted = push_wanted(gap, inverse_h, slop, share, push_speed) - speed - pushed
+                wanted = push_wanted(gap, inverse_h, slop, rate, push_speed) - speed - pushed
                 impulse = max(old + (r.normal_mass_1 if k == 0 else r.normal_mass_2) * wanted, 0.0)
                 change = impulse - old
                 if k == 0:
@@ -278,9 +282,16 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         velocities(members, pace.dt, pace.drag, motions_inout)
         warm_start(constraints_inout, motions_inout)
         for _ in range(pace.passes):
-            solve_all(pace.inverse_dt, slow, slop, BAUMGARTE, motions_inout, constraints_inout)
+            solve_all(pace.inverse_dt, slow, slop, BAUMGARTE * pace.inverse_span, motions_inout, constraints_inout)
         for _ in range(PUSH_PASSES):
-            push_out(pace.inverse_dt, pace.push_speed, 0.5 * slop, PUSH_SHARE, motions_inout, constraints_inout)
+            push_out(
+                pace.inverse_dt,
+                pace.push_speed,
+                0.5 * slop,
+                PUSH_SHARE * pace.inverse_span,
+                motions_inout,
+                constraints_inout,
+            )
         positions(members, pace.dt, pace.push_speed, motions_inout)
         move_driven(driven, pace.dt, motions_inout)
         stop_met(constraints_inout, motions_inout)
@@ -296,11 +307,12 @@ def solve(state: StepState, contacts: ContactSet) -> float:
     """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
-    slow = BAUMGARTE / dt * tolerances.speculative
+    slow = BAUMGARTE / state.span * tolerances.speculative
     run = PASSES[effects.drag, effects.rotation, effects.friction]
     for group in contacts.choose(state, motions, state.substeps or AUTO_SUBSTEPS[0]):
         rows = contacts.prepare(state, motions, group, dt)
-        pace = Pace(math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps), dt, 1.0 / dt, state.drag, tolerances.push_speed)
+        passes = math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps)
+        pace = Pace(passes, dt, 1.0 / dt, 1.0 / state.span, state.drag, tolerances.push_speed)
         run(group.members, motions.driven, pace, slow, tolerances.slop, motions.used, rows)
         contacts.store(state, motions, rows, dt)
     return dt

@@ -7,7 +7,7 @@ out of an overlap by speeds of its own is rare, and done lane by lane. Sources: 
 from collections.abc import Callable
 
 from physics.jit import inlined, subkernel
-from physics.settings import CALM_SHARE
+from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.lane_motions import gather_poses, gather_speeds, levers_of, measure_gaps, scatter_speeds
 from physics.solver.lanes import FREE, LANES, PRESSED, SIZE
@@ -240,6 +240,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                     calm = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
                     rate = c[at.BIAS_RATE + lane]
                     give = c[at.GIVE + lane]
+                    # A blow that is carried on whole from substep to substep comes back as a bounce.
+                    give = give + BLOW_GIVE if old_1 + old_2 > c[at.BLOW + lane] else give
                     most = most_of(c, lane, gap_1, gap_2, pace)
                     soft_1 = springing(speed_1, gap_1, mass_1, old_1, rate, give, most)
                     soft_2 = springing(speed_2, gap_2, mass_2, old_2, rate, give, most)

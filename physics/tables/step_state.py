@@ -20,6 +20,7 @@ STAGE_FIELDS = (
     "drag",  # [1/s]
     "wind",  # [px/s]
     "dt",  # [s]
+    "span",  # [s] that what contacts remember of their forces is a mean of; no less than dt
     "substeps",  # 0: as many as each island asks for, …
     "accuracy",  # [px] … so that no contact sinks further
     "broadphase",
@@ -65,6 +66,7 @@ class StepState:
     drag: float
     wind: tuple[float, float]
     dt: float
+    span: float
     substeps: int
     accuracy: float
     broadphase: Any  # broadphase.proxies.Strategy

@@ -8,6 +8,8 @@ import copy
 import numpy as np
 import pytest
 
+from game.invariants.bodies import BODY_NUMBERS
+from game.invariants.numbers import CONTACT_NUMBERS
 from physics import JIT, Circle, Effects, Material, Polygon, World
 from tests.stability.faults.poison import (
     KINDS,
@@ -21,7 +23,6 @@ from tests.stability.faults.poison import (
     same,
     table_of,
 )
-from tests.stability.invariants import BODY_NUMBERS, CONTACT_NUMBERS
 from tests.stability.piles import needs_speed
 
 STEPS = 4
@@ -115,18 +116,7 @@ def test_every_kind_of_body_can_be_poisoned(scenes, kind, target):
                 assert np.isfinite(scene.world.bodies["x"][scene.world.bodies["id"] != scene.sick]).all()
 
 
-@pytest.mark.parametrize(
-    "kind",
-    [
-        pytest.param(
-            kind,
-            marks=()
-            if kind == "projection"
-            else pytest.mark.xfail(strict=True, reason="arms of second points, 4 columns"),
-        )
-        for kind in (KINDS if JIT else ["projection"])
-    ],
-)
+@pytest.mark.parametrize("kind", KINDS if JIT else ["projection"])
 def test_what_stages_share_is_written_before_it_is_read(scenes, kind):
     """The workspace outlives no stage: full of NaN between steps, it changes nothing."""
     scene, _ = scenes(kind)
