@@ -31,8 +31,10 @@ class OfTheAlone(Invariant):
 
     def look(self, step: Step) -> Answer:
         """Ask it of the step just made."""
-        alone = None if step.outside else step.alone
-        why = step.outside or self.why_not(step, alone)
+        if step.outside:
+            return NotAsked(step.outside)
+        alone = step.alone
+        why = self.why_not(step, alone)
         if why:
             return NotAsked(why)
         gain, room, change = self.gain(step, alone)

@@ -75,10 +75,10 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
 
 def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
     """The pair of two shape ids; None where one is taken out, or is no number."""
-    found = [placed(world, each) for each in (shape_a, shape_b)]
-    if found[0] is None or found[1] is None:
+    found_a, found_b = placed(world, shape_a), placed(world, shape_b)
+    if found_a is None or found_b is None:
         return None
-    (body_a, one, pose_a, reach_a), (body_b, two, pose_b, reach_b) = found
+    (body_a, one, pose_a, reach_a), (body_b, two, pose_b, reach_b) = found_a, found_b
     if not np.isfinite((*pose_a, *pose_b)).all():
         return None
     size = max(map(abs, (*pose_a[:2], *pose_b[:2]))) + reach_a + reach_b

@@ -69,11 +69,12 @@ def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """[px] that each contact sinks as a spring under the force of the step: F / (m ω²), m the mass that it moves; 0
     where the substeps follow from the loads."""
     world, rows, now = step.world, step.contacts, step.now
-    if world.substeps == "auto" or step.dt == 0.0 or not len(rows):
+    substeps = world.substeps
+    if isinstance(substeps, str) or step.dt == 0.0 or not len(rows):  # "auto"
         return np.zeros(len(rows))
     inverse = np.zeros(len(rows))
     for side in (a, b):
         arm = (rows["point_x"] - now.cx[side]) * rows["normal_y"] - (rows["point_y"] - now.cy[side]) * rows["normal_x"]
         inverse += world.bodies["inverse_mass"][side] + arm * arm * world.bodies["inverse_inertia"][side]
-    hertz = min(CONTACT_HERTZ, HERTZ_SHARE * world.substeps / step.dt)
+    hertz = min(CONTACT_HERTZ, HERTZ_SHARE * substeps / step.dt)
     return rows["normal_impulse"] / step.dt * inverse / (2.0 * math.pi * hertz) ** 2

@@ -93,12 +93,12 @@ def test_sprites_come_to_rest_on_each_other(solver):
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("sprite", [blob, ragged])
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
-def test_two_hundred_sprites_sleep_within_six_seconds_of_the_last_landing(solver, sprite, seed):
+def test_two_hundred_sprites_sleep_within_eight_seconds_of_the_last_landing(solver, sprite, seed):
     """As soon as the last has rolled off the others, or ceased to rock in a hollow, which takes longest; and however
     some tremble where two parts of an outline meet."""
-    landed, asleep, bodies = heap(200, seed, solver, 8.0, sprite)
+    landed, asleep, bodies = heap(200, seed, solver, 14.0, sprite)
     assert all(-240.0 < body.position.x < 240.0 and body.position.y < 200.0 for body in bodies), "none got out"
-    assert asleep is not None and asleep - landed < 6.0
+    assert asleep is not None and asleep - landed < 8.0
 
 
 @pytest.mark.parametrize("depth", [2.0, 4.0])
