@@ -69,7 +69,7 @@ LARGE_MASK = 128  # [px] masks wider or higher than this are made of tiles: belo
 PROJECTION_PASSES = 4  # how often the push-out sees every contact; a crate between two walls needs two
 SPEED_LIMIT = 1e9  # [m/s] beyond, a double no longer resolves a slop per step: the body is quarantined
 SHORTEST_STEP = 1e-30  # [s] shorter ones are none: no double of a clock tells them, and powers of 1/dt overflow
-POSITION_LIMIT = 2.0**52  # [px] beyond, a double no longer resolves a pixel: bodies there are quarantined
+POSITION_LIMIT = 2.0**52  # [px], [rad] beyond, a double no longer resolves one: bodies there are quarantined
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from physics.character.climb import is_wedged, steep_below
 from physics.character.ground import BLOCKED, FREE, STEEP
 from physics.character.solids import blocked_at
 from physics.character.tiles import on_pixels
+from physics.dynamics.quarantine import LARGEST
 from physics.jit import subkernel
 from physics.tables.body import STATIC
 from physics.tables.geometry import SLOPE
@@ -85,7 +86,8 @@ def feel_ground(me, walk_inout):
         return
     c.slope = slope
     s = walk_inout.shapes[by]
-    c.belt = speed_under(walk_inout, by, c.left + 0.5 * c.width, float(c.top + c.height))
+    belt = speed_under(walk_inout, by, c.left + 0.5 * c.width, float(c.top + c.height))
+    c.belt = belt if abs(belt) < LARGEST else 0.0  # whose surface runs at no speed is put aside by the next step
     if s.kind == TILES and c.is_box:
         c.slope = slope_under_box(walk_inout, me, by)
     if walk_inout.bodies[s.body_row].kind != STATIC:

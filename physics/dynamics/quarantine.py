@@ -4,8 +4,6 @@ A number that is not finite spreads: through a contact to a neighbour, from ther
 reads of a body, a shape or a character is looked at before the first stage that reads it.
 """
 
-import math
-
 import numpy as np
 
 from physics.dynamics.integrate import refresh_centers
@@ -92,7 +90,7 @@ def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
         and abs(spin) * b.extent < speed_limit
         and abs(b.x + dt * vx) < POSITION_LIMIT
         and abs(b.y + dt * vy) < POSITION_LIMIT
-        and abs(b.angle + dt * spin) < math.inf
+        and abs(b.angle + dt * spin) < POSITION_LIMIT
         and abs(b.local_center_x) < POSITION_LIMIT
         and abs(b.local_center_y) < POSITION_LIMIT
         and abs(b.center_x) < 2.0 * POSITION_LIMIT
@@ -125,7 +123,7 @@ def find_broken(
         b = bodies_inout[rows[k]]
         if b.quarantined:
             continue
-        there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < math.inf
+        there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
         if not there or not is_sound(b, gravity_x, gravity_y, speed_limit, dt):
             broken_out[found] = rows[k]
             found += 1

@@ -6,7 +6,6 @@ Poses may be written straight into world.bodies, so they are compared with those
 that may have moved.
 """
 
-import math
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,6 +13,7 @@ import numpy as np
 from physics.broadphase.proxies import Box, Strategy
 from physics.checks import Pair
 from physics.jit import kernel, subkernel
+from physics.settings import POSITION_LIMIT
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.counters import COUNTERS, PAIRS_TESTED
@@ -27,7 +27,8 @@ def is_somewhere(body):
     """Whether a body can be met: it is in the simulation, and its pose is one. What is not will be quarantined by the
     next step."""
     b = body
-    return not b.quarantined and abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf
+    there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
+    return there and not b.quarantined
 
 
 @kernel

@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from tests.stability import found
+from tests.stability.faults import table as faults
 from tests.stability.rows import SECTIONS
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -60,11 +62,13 @@ def lines_of(row, figures):
     return lines
 
 
-def page(sections=SECTIONS, kept=None, before=()):
-    """The whole page; before: further (title, text) sections ahead of the tables."""
+def page(sections=SECTIONS, kept=None):
+    """The whole page: a table for each section, the faults, what was found."""
     kept = kept_figures() if kept is None else kept
-    parts = [TITLE, *(f"## {title}\n\n{text.strip()}\n" for title, text in before)]
+    parts = [TITLE]
     for section in sections:
         lines = [line for row in section.rows for line in lines_of(row, kept.get(row.id, {}))]
         parts.append("\n".join([f"## {section.letter}. {section.title}\n", HEADER, *lines]) + "\n")
+    parts.append(faults.section())
+    parts.append(f"## What the suite found\n\n{found.section()}\n")
     return "\n".join(parts)

@@ -39,8 +39,8 @@ WRITTEN_ANEW = {
     "manifolds": set(floats_of(MANIFOLD)),  # found anew; forces that are none are forgotten
     "anchors": set(floats_of(ANCHOR)),
 }
-# Large, and yet of use: an angle has a cosine, a mass that is told has its inverse beside it.
-QUIETLY = {("bodies", name, "1e308") for name in ("angle", "mass", "inertia", "smallest_half", "thin_half", "fraction")}
+# Large, and yet of use: a mass that is told has its inverse beside it.
+QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "smallest_half", "thin_half", "fraction")}
 MASK = PixelMask(np.ones((8, 10), bool))
 
 
