@@ -21,10 +21,11 @@ NODE = np.dtype(
         ("height", np.int64),  # 0 in a leaf, -1 in a free node
         ("slot", np.int64),  # of the proxy in a leaf, else -1
         ("still", np.bool_),
+        ("stale", np.bool_),  # is on the list of those whose four is to be written
     ],
     align=True,
 )
-FREE, USED, ROOT_MOVING, ROOT_STILL = 0, 1, 2, 3  # places in the state array
+FREE, USED, STALE, ROOT_MOVING, ROOT_STILL = range(5)  # places in the state array
 
 
 @subkernel
@@ -118,6 +119,7 @@ def swap_pays(upper, lower_parent, lower, nodes):
 @subkernel
 def improve(index, nodes_inout):
     """Swap a child with a grandchild on the other side where that shrinks the box between and keeps the balance.
+    Returns whether it did.
 
     Source: Catto, GDC 2019, after Kopta et al. 2012; the balance test is what keeps the tree an AVL tree.
     """
@@ -140,7 +142,7 @@ def improve(index, nodes_inout):
                 best_parent = parent
                 best_lower = lower
     if best_upper < 0:
-        return
+        return False
     q = nodes_inout[best_parent]
     if q.child_a == best_lower:
         q.child_a = best_upper
@@ -154,16 +156,34 @@ def improve(index, nodes_inout):
     nodes_inout[best_lower].parent = index
     refit(best_parent, nodes_inout)
     refit(index, nodes_inout)
+    return True
 
 
 @subkernel
-def repair_upward(index, root, nodes_inout, state_inout, work_inout):
-    """Balance and refit from a node up to the root. O(height)."""
+def note_stale(index, nodes_inout, stale_inout, state_inout):
+    """Put a node on the list of those whose four is to be written, once."""
+    n = nodes_inout[index]
+    if not n.stale:
+        n.stale = True
+        stale_inout[state_inout[STALE]] = index
+        state_inout[STALE] += 1
+
+
+@subkernel
+def repair_upward(index, root, nodes_inout, stale_inout, state_inout, work_inout):
+    """Balance and refit from a node up to the root; note whose fours are stale, where there are any. O(height)."""
     while index >= 0:
         work_inout[NODES_VISITED] += 1
         refit(index, nodes_inout)
-        index = rotate(index, root, nodes_inout, state_inout)
-        improve(index, nodes_inout)
+        top = rotate(index, root, nodes_inout, state_inout)
+        swapped = improve(top, nodes_inout)
+        if len(stale_inout) > 0:
+            note_stale(top, nodes_inout, stale_inout, state_inout)
+            if swapped or top != index:
+                # Whatever was turned or swapped here was this node or a child of it.
+                note_stale(nodes_inout[top].child_a, nodes_inout, stale_inout, state_inout)
+                note_stale(nodes_inout[top].child_b, nodes_inout, stale_inout, state_inout)
+        index = top
         index = nodes_inout[index].parent
 
 
@@ -180,7 +200,7 @@ def take_node(nodes_inout, state_inout):
 
 
 @subkernel
-def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
+def insert_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
     """Hang a leaf beside the sibling that costs the least outline. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
@@ -212,11 +232,11 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
     p.child_b = leaf
     nodes_inout[at].parent = parent
     nodes_inout[leaf].parent = parent
-    repair_upward(parent, root, nodes_inout, state_inout, work_inout)
+    repair_upward(parent, root, nodes_inout, stale_inout, state_inout, work_inout)
 
 
 @subkernel
-def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
+def remove_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
     """Unhang a leaf: its sibling takes the parent's place. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
@@ -230,4 +250,4 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
     p.height = -1
     p.parent = state_inout[FREE]
     state_inout[FREE] = parent
-    repair_upward(above, root, nodes_inout, state_inout, work_inout)
+    repair_upward(above, root, nodes_inout, stale_inout, state_inout, work_inout)

@@ -1,4 +1,4 @@
-"""The four strategies on four layouts, 100 to 50,000 bodies: µs per step with nothing, few and all moving, and growth.
+"""The strategies on four layouts, 100 to 50,000 bodies: µs per step with nothing, few and all moving, and growth.
 
 Boxes of 8 to 16 px, about one overlap per body when even. Brute force stops where a step takes seconds. The claims of
 the design (which strategy suits which layout) stand or fall by the last table.
@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from physics import BROADPHASES, Bounds, Circle, Effects, Polygon, SweepAndPrune, World
+from physics import BROADPHASES, Bounds, Circle, DynamicTree, Effects, Polygon, SweepAndPrune, World
 from tests.bench.timing import best_in_turns, table
 
 SIZES = (100, 1000, 10_000, 50_000)
@@ -113,7 +113,11 @@ def timed(strategies, layout, n, moving):
 def run(quick=False):
     """Print the tables; return {name: time over brute force's}."""
     sizes = SIZES[:3] if quick else SIZES
-    strategies = {**BROADPHASES, "sweep both axes": lambda: SweepAndPrune(axes="both")}
+    strategies = {
+        **BROADPHASES,
+        "sweep both axes": lambda: SweepAndPrune(axes="both"),
+        "tree of four": lambda: DynamicTree(width=4),
+    }
     findings = Findings()
     for label, moving in MOVING.items():
         rows = []

@@ -14,10 +14,11 @@ def limit(n):
     return 1.45 * math.log2(max(n, 2)) + 2
 
 
+@pytest.mark.parametrize("width", [2, 4])
 @pytest.mark.parametrize("seed", range(3))
-def test_bulk_changes_find_what_brute_force_finds_and_stay_balanced(seed):
+def test_bulk_changes_find_what_brute_force_finds_and_stay_balanced(seed, width):
     rng = np.random.default_rng(seed)
-    worlds = [World(Effects(), BruteForce()), World(Effects(), DynamicTree())]
+    worlds = [World(Effects(), BruteForce()), World(Effects(), DynamicTree(width=width))]
     places = rng.uniform(0, 400, (COUNT, 2))
     ids = [world.add_bodies(Circle(9), places) for world in worlds][0]
     for step in range(24):
@@ -41,6 +42,9 @@ def test_bulk_changes_find_what_brute_force_finds_and_stay_balanced(seed):
             world.step()
         assert np.array_equal(worlds[0].candidates, worlds[1].candidates), f"step {step}"
         assert worlds[1].broadphase.height <= limit(len(ids))
+        corner = rng.uniform(-50, 400, 2)
+        near = [sorted(body.id for body in world.query_aabb(corner, corner + 60.0)) for world in worlds]
+        assert near[0] == near[1], f"step {step}"
 
 
 def test_all_at_once_is_built_balanced():
