@@ -307,8 +307,9 @@ def tell(state: StepState) -> None:
         keep[order] = told.keep
     if effects.sensors:
         sensed = manifolds if state.sensed is None else state.sensed
-        found = state.sensing.compare(sensed, NOTHING, True, False, 0.0, np.inf)
-        events.sensor_begin, events.sensor_end = found.begin, found.end
+        if len(sensed) or state.sensing.count:
+            found = state.sensing.compare(sensed, NOTHING, True, False, 0.0, np.inf)
+            events.sensor_begin, events.sensor_end = found.begin, found.end
         if state.sensed is None:
             keep = keep & ~manifolds["sensor"]
     if keys is not None:
