@@ -213,9 +213,10 @@ def driven(step: Step) -> str:
         return "forces act"
     if not effects.response:
         return ""
-    if effects.conveyor and world.shapes["surface_speed"].any():
+    links = world.library.tables.links  # of chains, which may have materials of their own
+    if effects.conveyor and (world.shapes["surface_speed"].any() or np.nan_to_num(links["surface_speed"]).any()):
         return "a belt runs"
-    if effects.restitution and (world.shapes["restitution"] > 1.0).any():
+    if effects.restitution and ((world.shapes["restitution"] > 1.0).any() or (links["restitution"] > 1.0).any()):
         return "a surface gives more than it takes: restitution above 1"
     if step.moved_by_hand.any():
         a, b = step.sides

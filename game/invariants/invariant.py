@@ -1,5 +1,6 @@
 """What an invariant is, what it can answer, and how it is shown: held, broken, not asked."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from game.invariants.step import Step
@@ -50,7 +51,7 @@ class Invariant:
         """Ask it of the step just made."""
         raise TypeError(f"{type(self).__name__} must define look")
 
-    def broken(self, step: Step, bodies, value: float, allowed: float, sentence: str) -> Broken:
+    def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
         """What look() answers where it does not hold."""
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence

@@ -92,8 +92,8 @@ def extent_of(shape: Shape) -> int:
     return shape.solid.size if isinstance(shape, TileGrid) else 1
 
 
-def placed(world: World, shape_id: int):
-    """(body id, shape, pose, reach [px] from the pose) of a shape."""
+def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None:
+    """(body id, shape, pose, reach [px] from the pose) of a shape; None where its body is taken out."""
     shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))
     row = int(shapes["body_row"][at])

@@ -315,6 +315,7 @@ READS = (
     "drag",
     "wind",
     "dt",
+    "span",
     "substeps",
     "accuracy",
     "awake",

@@ -53,7 +53,7 @@ MUTANTS = (
     Mutant("integrate_velocities", "sign", ("test_free_fall_without_stacking_is_its_own_recurrence",), seed=4),
     Mutant("integrate_velocities", "factor", ("test_drag_and_wind_follow_the_implicit_recurrence",), seed=2),
     Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
-    Mutant("warm_lanes", "sign", ("test_pyramid_that_starts_a_quarter_inside_itself",)),
+    Mutant("warm_lanes", "sign", ("test_f9_pyramid_that_starts_a_quarter_inside_itself",)),
     Mutant("gather_motions", "factor", ("test_sliding_disc_rolls_after_two_thirds",)),
     Mutant("mixed", "factor", ("test_stopping_distance",)),
     Mutant("solve_soft", "sign", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
