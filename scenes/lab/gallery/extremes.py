@@ -118,7 +118,7 @@ PAGES = (
         fastest_move,
         "m/s at most",
         3.01,
-        40,
+        20,
         (0.0, 0.0, 200.0),
         alike=True,
         glance=2,
