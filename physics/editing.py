@@ -25,7 +25,8 @@ from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.material import Material
 from physics.shapes.rows import check_shapes, set_mass, weigh
-from physics.tables.body import AUTO, CONTINUOUS, KINDS, OFF, STATIC
+from physics.solver.unloading import forget_loads
+from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, OFF, STATIC
 from physics.world_state import WorldState
 
 
@@ -225,6 +226,8 @@ def move_to(world: WorldState, identity: int, position: Pair, angle: float | Non
         row["angle"] = angle
     world._targets.pop(identity, None)
     refresh_pose(world, identity)
+    if row["kind"] == DYNAMIC:
+        forget_loads(world, [identity])
 
 
 def touch(world: WorldState, ids: Any) -> None:

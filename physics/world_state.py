@@ -22,6 +22,7 @@ from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
+from physics.solver.unloading import forget_loads
 from physics.tables.body import STATIC
 from physics.tables.rows import rows_of
 from physics.tables.step_state import Stage
@@ -259,6 +260,7 @@ class WorldState:
         keep = np.ones(self._bodies.count, bool)
         keep[self.rows(ids)] = False
         sleep.disturb(self, ids)
+        forget_loads(self, ids)
         self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
         self._given.keep(keep)

@@ -16,6 +16,7 @@ FOUND = (
     "deep_parts_are_told_once",
     "devices_that_go_away",
     "discs_that_roll_round_a_corner",
+    "heavy_loads_taken_away",
     "heavy_loads_under_sequential_impulses",
     "islands_ease_together",
     "large_masks_that_turn",
