@@ -180,8 +180,13 @@ def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
 
 LABS = [name for name in SCENES if name not in LEDGER]
 LONGEST = {"lab/broadphases": 60}  # steps within which an effect must have shown, where 600 take too long
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="minutes")
+SLOW = [("lab/gallery", "sleeping")]  # shows on the last of its pages: nine minutes without compiled kernels
 DECLARED = [
-    (name, effect) for name in LABS for effect in EFFECTS if getattr(Registry(SCENES).scene_class(name).effects, effect)
+    pytest.param(name, effect, marks=needs_speed if (name, effect) in SLOW else ())
+    for name in LABS
+    for effect in EFFECTS
+    if getattr(Registry(SCENES).scene_class(name).effects, effect)
 ]
 
 

@@ -152,7 +152,7 @@ def test_loads_that_need_more_substeps_than_there_are_are_counted(solver):
     for k in range(3):
         world.add_body(Polygon.box(20, 20), position=(0, -10 - 20 * k))
     caps = 0
-    for _ in range(30 if JIT else 5):
+    for _ in range(30):  # an impact's first quarter of a second is not counted
         world.step()
         caps += world.profile.counters["cap_hits"]
     assert caps > 0
