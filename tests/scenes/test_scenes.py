@@ -13,7 +13,7 @@ from game.run.session import Session
 from scenes import SCENES
 from tests.lockstep import ChangingBot, PlainRun, Run, failures_of, first_difference, lockstep, make_scene, ways_to_run
 
-PLAIN_FRAMES = 40  # without compiled kernels
+PLAIN_FRAMES = 25  # without compiled kernels
 # The games' first minute, goals included; of the gallery what comes before its page of 499,500 pairs.
 FRAMES = {"shooter": 3600, "platformer": 3600, "lander": 3600, "lab/gallery": 470}
 LAB_FRAMES = 600
