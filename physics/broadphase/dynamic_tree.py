@@ -109,6 +109,7 @@ class DynamicTree:
     leaf outgrows its box, at most; None takes the setting for 32 px per metre. Raises TypeError, ValueError."""
 
     name = "tree"
+    incremental = True
 
     def __init__(self, width: int | None = None, margin: float | None = None) -> None:
         self.width = BEST_WIDTH if width is None else _checked_width(width)

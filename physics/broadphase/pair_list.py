@@ -174,8 +174,8 @@ class PairList:
         arena = self.arena
         arena.work = work
         freed = np.array(self.freed, np.int64)
-        if self.everything:
-            # The new strategy has never heard of the freed slots; no pair is kept.
+        if self.everything or not strategy.incremental:
+            # A new strategy has never heard of the freed slots; no pair is kept.
             arena.changed = np.flatnonzero(self.proxies["row"] >= 0)
             self.proxies["changed"][arena.changed] = True
             self.proxies["changed"][freed] = False

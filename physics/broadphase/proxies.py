@@ -105,6 +105,7 @@ class Strategy(Protocol):
     """A broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
 
     name: str
+    incremental: bool  # whether the pairs of what did not change are known from the step before
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""

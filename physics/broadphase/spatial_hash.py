@@ -23,6 +23,7 @@ class SpatialHashGrid:
     Raises ValueError for a cell below 2^-1000."""
 
     name = "hash"
+    incremental = True
 
     def __init__(self, cell: float | None = None) -> None:
         self.cell = None if cell is None else checks.number("cell", cell, low=SMALLEST_CELL)

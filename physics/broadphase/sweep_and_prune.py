@@ -337,6 +337,7 @@ class SweepAndPrune:
     """Sorts along x, y, or both. Raises ValueError for other axes than "auto" and "both"."""
 
     name = "sweep"
+    incremental = True
 
     def __init__(self, axes: str = "auto") -> None:
         self.axes = checks.choice("axes", axes, ("auto", "both"))

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from physics import BROADPHASES, Bounds, Circle, DynamicTree, Effects, Polygon, SweepAndPrune, World
+from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, Polygon, SweepAndPrune, World
 from tests.bench.timing import best_in_turns, table
 
 SIZES = (100, 1000, 10_000, 50_000)
@@ -106,7 +106,7 @@ def timed(strategies, layout, n, moving):
     return {
         name: partial(step_time, make_world(make(), layout, n, moving))
         for name, make in strategies.items()
-        if n <= BRUTE_LIMIT or name not in ("brute", "sweep both axes")
+        if n <= BRUTE_LIMIT or name not in ("brute", "every pair, every step", "sweep both axes")
     }
 
 
@@ -115,6 +115,7 @@ def run(quick=False):
     sizes = SIZES[:3] if quick else SIZES
     strategies = {
         **BROADPHASES,
+        "every pair, every step": lambda: BruteForce(incremental=False),
         "sweep both axes": lambda: SweepAndPrune(axes="both"),
         "tree of four": lambda: DynamicTree(width=4),
     }

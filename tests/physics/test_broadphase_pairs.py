@@ -8,6 +8,7 @@ from tests.oracles.boxes import touching_pairs
 
 STRATEGIES = {
     "brute": BruteForce(),
+    "all pairs": BruteForce(incremental=False),
     "sweep": SweepAndPrune(),
     "both": SweepAndPrune(axes="both"),
     "hash": SpatialHashGrid(),

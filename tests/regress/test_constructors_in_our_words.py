@@ -6,6 +6,7 @@ import pytest
 from physics import (
     Body,
     Bounds,
+    BruteForce,
     Capsule,
     Chain,
     Circle,
@@ -56,6 +57,7 @@ CONSTRUCTORS = {
     "axes": [SweepAndPrune],
     "cell": [SpatialHashGrid],
     "width": [DynamicTree],
+    "incremental": [BruteForce],
     "margin": [lambda v: DynamicTree(margin=v)],
     "effects": [World],
     "broadphase": [lambda v: World(broadphase=v)],

@@ -35,6 +35,7 @@ STRATEGIES = {
     "fine hash": lambda: SpatialHashGrid(0.37),
     "coarse hash": lambda: SpatialHashGrid(500.0),
     "tree": DynamicTree,
+    "all pairs": lambda: BruteForce(incremental=False),
     "tight tree": lambda: DynamicTree(margin=0.0),
 }
 every_strategy = pytest.mark.parametrize("strategy", STRATEGIES)
