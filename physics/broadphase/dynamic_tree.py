@@ -45,8 +45,9 @@ def place_changed(
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
 
     changed: slots; margin [px] and margin_fraction of the box: by the smaller a leaf outgrows it; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving, the
-    still tree are neither hung in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were
+    (slots): leaf or -1; stale_inout (nodes): whose four is to be written, empty where there are none; state_inout: free
+    list, used nodes, stale ones, two roots. loose, loose_still 1: leaves of the moving, the still tree are neither hung
+    in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were
     moved. O(moved · log n).
     """
     moved = 0

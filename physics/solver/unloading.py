@@ -25,25 +25,24 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
     manifolds, anchors, bodies = tables.manifolds, tables.anchors, tables.bodies
     if not len(manifolds) or len(anchors) != len(manifolds):
         return  # nothing is remembered
-    sides = rows_of(bodies, manifolds["body_a"]), rows_of(bodies, manifolds["body_b"])
-    going = np.zeros(len(bodies), bool)
-    going[rows_of(bodies, ids)] = True
-    lost = (going[sides[0]] != going[sides[1]]) & (sides[0] >= 0) & (sides[1] >= 0)
+    ids_a, ids_b = manifolds["body_a"], manifolds["body_b"]
+    going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
+    lost = going_a != going_b
     if not lost.any():
         return
-    left = np.where(going[sides[0]], sides[1], sides[0])[lost]
+    left = rows_of(bodies, np.where(going_a, ids_b, ids_a)[lost])
     force = (anchors["normal_force_1"] + np.where(manifolds["count"] == 2, anchors["normal_force_2"], 0.0))[lost]
     reached = np.zeros(len(bodies), bool)
     weight = math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
     reached[left[(force > 0.0) & (force * bodies["inverse_mass"][left] > BLOW * weight)]] = True
     if not reached.any():
         return
-    loose = (bodies["inverse_mass"] > 0.0) & ~going
-    inner = loose[sides[0]] & loose[sides[1]]
-    a, b = sides[0][inner], sides[1][inner]
+    row_a, row_b, loose = rows_of(bodies, ids_a), rows_of(bodies, ids_b), bodies["inverse_mass"] > 0.0
+    inner = loose[row_a] & loose[row_b] & ~(going_a | going_b)
+    a, b = row_a[inner], row_b[inner]
     while (reached[a] != reached[b]).any():
         reached[a[reached[b]]] = True
         reached[b[reached[a]]] = True
-    borne = reached[sides[0]] | reached[sides[1]]
+    borne = reached[row_a] | reached[row_b]
     for name in FORCES:
         anchors[name][borne] = 0.0

@@ -6,18 +6,14 @@ seven ended on the floor.
 
 import pytest
 
-from physics import Material, Polygon
-from tests.stability.piles import floor, metres, needs_speed, pyramid
+from tests.stability.piles import metres, needs_speed, pyramid_and_load
 
 
 @needs_speed
 @pytest.mark.parametrize(("density", "height"), [(50, 2.0), (100, 1.0), (100, 2.0), (200, 2.0), (250, 1.0)])
 def test_a_pyramid_stands_under_a_heavy_box_that_is_dropped_on_it(density, height):
     world = metres(substeps="auto")
-    floor(world)
-    pyramid(world, 10, spread=1.01)
-    world.remove_body(int(world.bodies["id"][-1]))
-    heavy = world.add_body(Polygon.box(1, 1), position=(0.0, -9.5 - height), material=Material(density=density))
+    _, heavy = pyramid_and_load(world, density, height)
     for _ in range(400):
         world.step()
     assert -heavy.position.y > 9.0

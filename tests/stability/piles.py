@@ -73,6 +73,15 @@ def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
     ]
 
 
+def pyramid_and_load(world, density, height):
+    """A pyramid of ten rows on a floor without its top, and a box of a density let go so high above that place. Returns
+    (ids by row, lowest first, the load)."""
+    floor(world)
+    rows = pyramid(world, 10, spread=1.01)
+    world.remove_body(int(rows.pop()[0]))
+    return rows, world.add_body(Polygon.box(1, 1), position=(0.0, -9.5 - height), material=Material(density=density))
+
+
 def tops(world, ids):
     """Heights of the centres above y = 0."""
     return -world.bodies["y"][world.rows(np.asarray(ids))]

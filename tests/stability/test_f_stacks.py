@@ -7,7 +7,18 @@ import pytest
 
 from physics import JIT, Circle, Material, Polygon
 from tests.stability.invariants import Watch, deepest, movers, rms_speed
-from tests.stability.piles import SLOP, SOLVERS, column, floor, metres, needs_speed, pile_effects, pyramid, tops
+from tests.stability.piles import (
+    SLOP,
+    SOLVERS,
+    column,
+    floor,
+    metres,
+    needs_speed,
+    pile_effects,
+    pyramid,
+    pyramid_and_load,
+    tops,
+)
 from tests.stability.rows import ROWS
 from tests.stability.study.structures import CARD_FRICTION, card_house
 
@@ -143,10 +154,7 @@ def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
     A soft contact sinks under a load F by F / (m w2), m the lighter side: 300 g at 30 Hz is 0.08 m.
     """
     world = metres(substeps=substeps)
-    floor(world)
-    rows = [row for row in pyramid(world, 10, spread=1.01)][:9]
-    world.remove_body(int(world.bodies["id"][-1]))
-    heavy = world.add_body(Polygon.box(1, 1), position=(0.0, -9.5 - 2.0), material=Material(density=density))
+    rows, heavy = pyramid_and_load(world, density, 2.0)
     watch = Watch(world, passive=True, capped=True).step(600)
     stands = -heavy.position[1] > 9.0 and tops(world, rows[8]).min() > 8.0 and watch.fastest < 30.0
     if substeps == 4:
