@@ -13,6 +13,7 @@ ALIGNED = PILE.with_(friction=False)  # one above the other: nothing slides
 FOUR = Way("four substeps", {"substeps": 4})
 AUTO = Way('substeps="auto"', {"substeps": "auto"})
 FORCES_KEPT = Way("forces kept", auto(5).world)
+FORCES_FORGOTTEN = Way("forces forgotten", FORCES_KEPT.world)
 CRATE = Polygon.box(METER, METER)
 CRATES, ASKEW = 80, 0.02 * METER
 HUGE = 16.0 * METER
@@ -182,7 +183,7 @@ PAGES = (
         "A thousand times its mass lay on the upper crate: left it jumps when that is gone.",
         "Contacts start from the forces of the step before; what bore a heavy load that is gone starts from none.",
         FORCES_KEPT,
-        auto(5),
+        FORCES_FORGOTTEN,
         ALIGNED,
         build_load,
         rise,
