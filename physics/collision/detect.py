@@ -15,6 +15,7 @@ from physics.tables.step_state import StepState, stage
 NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
 BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
+GRAZE = 1.5  # slops that who slides by a side may overlap it: what rests on the floor beside it may be in it by one
 
 
 def detect(state: StepState) -> np.ndarray:
@@ -90,7 +91,7 @@ def detect_piles(state: StepState) -> None:
         previous=previous,
         anchors=state.anchors,
         recycle=tolerances.recycle,
-        graze=tolerances.slop,
+        graze=GRAZE * tolerances.slop,
         ahead=state.dt,
     )
     anchors = state.workspace.anchors_for(len(manifolds))

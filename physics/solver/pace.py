@@ -38,7 +38,8 @@ class Pace(NamedTuple):
     inverse_h: float
     drag: float  # [1/s]
     push_speed: float  # [px/s]
-    push_rate: float  # [1/s] of an overlap that bears nothing
+    push_rate: float  # [1/s] of an overlap that bears nothing, beyond …
+    slop: float  # [px] … what may stay
     deep_rate: float  # [1/s] of one that is deep, 0: as fast as it can, beyond …
     shallow_speed: float  # [px/s] … what a shallow one may come out with
     spring: Softness  # of a contact between bodies …
@@ -69,7 +70,7 @@ def firmness_of(r, pace):
 
 @lru_cache(maxsize=64)
 def pace_of(
-    substeps: int, asked: bool, dt: float, span: float, drag: float, push_speed: float, speculative: float
+    substeps: int, asked: bool, dt: float, span: float, drag: float, push_speed: float, slop: float, speculative: float
 ) -> Pace:
     """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads; span [s]: no less
     than dt, the length that springs are made for: in a short step they push no faster than in those before."""
@@ -87,6 +88,7 @@ def pace_of(
         push_speed=push_speed,
         # More substeps let nothing out faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
+        slop=slop,
         deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
         shallow_speed=spring.bias_rate * speculative,
         spring=spring,

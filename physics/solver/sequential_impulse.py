@@ -17,6 +17,7 @@ from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, P
 from physics.solver.bounce import bounce_once, relative_speed
 from physics.solver.contacts import WARM_START, ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
+from physics.solver.overlaps import wanted_apart
 from physics.solver.two_points import solve_two
 from physics.tables.step_state import StepState, stage
 
@@ -173,8 +174,8 @@ def make_push_pass(rotation: bool) -> Callable:
     ):
         """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(constraints).
 
-        Only where nothing was borne in the step before. slop [px]: overlap that is left in; rate [1/s]: of the rest,
-        that comes out, at push_speed [px/s] at most. Impulses of these speeds add up apart from the contacts'.
+        Only where nothing was borne in the step before. slop [px], rate [1/s], push_speed [px/s]: see wanted_apart.
+        Impulses of these speeds add up apart from the contacts'.
         """
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -197,13 +198,14 @@ def make_push_pass(rotation: bool) -> Callable:
                 pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
                 if rotation:
                     pushed += b.push_w * b_arm - a.push_w * a_arm
-                if old == 0.0 and pushed >= 0.0 and gap >= -slop:
+                wanted = wanted_apart(gap, inverse_h, slop, rate, push_speed)
+                if old == 0.0 and pushed >= 0.0 and wanted <= 0.0:
                     continue
                 speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
                 if rotation:
                     speed += b.angular_velocity * b_arm - a.angular_velocity * a_arm
-                wanted = push_wanted(gap, inverse_h, slop, rate, push_speed) - speed - pushed
-                impulse = max(old + (r.normal_mass_1 if k == 0 else r.normal_mass_2) * wanted, 0.0)
+                mass = r.normal_mass_1 if k == 0 else r.normal_mass_2
+                impulse = max(old + mass * (wanted - speed - pushed), 0.0)
                 change = impulse - old
                 if k == 0:
                     r.push_impulse_1 = impulse
@@ -285,12 +287,7 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
             solve_all(pace.inverse_dt, slow, slop, BAUMGARTE * pace.inverse_span, motions_inout, constraints_inout)
         for _ in range(PUSH_PASSES):
             push_out(
-                pace.inverse_dt,
-                pace.push_speed,
-                0.5 * slop,
-                PUSH_SHARE * pace.inverse_span,
-                motions_inout,
-                constraints_inout,
+                pace.inverse_dt, pace.push_speed, slop, PUSH_SHARE * pace.inverse_span, motions_inout, constraints_inout
             )
         positions(members, pace.dt, pace.push_speed, motions_inout)
         move_driven(driven, pace.dt, motions_inout)

@@ -11,17 +11,10 @@ from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.lane_motions import gather_poses, gather_speeds, levers_of, measure_gaps, scatter_speeds
 from physics.solver.lanes import FREE, LANES, PRESSED, SIZE
+from physics.solver.overlaps import wanted_apart
 from physics.solver.two_points import solve_two
 
 BOTH = (False, True)
-
-
-@subkernel
-def let_out(speed, separation, mass, pace):
-    """Impulse that lets an overlap out: by a share of it per second, at the push speed at most."""
-    if separation > 0.0:
-        return max(-mass * (speed + separation * pace.inverse_h), 0.0)
-    return max(mass * (min(-separation * pace.push_rate, pace.push_speed) - speed), 0.0)
 
 
 @subkernel
@@ -46,11 +39,13 @@ def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
     total = speed_1 + pushed
     if rotation:
         total += b.push_w * b_1 - a.push_w * a_1
-    push_1 = let_out(total, c[at.GAP_1 + lane], c[at.MASS_1 + lane], pace)
+    wanted = wanted_apart(c[at.GAP_1 + lane], pace.inverse_h, pace.slop, pace.push_rate, pace.push_speed)
+    push_1 = max(c[at.MASS_1 + lane] * (wanted - total), 0.0)
     total = speed_2 + pushed + k_12 * push_1
     if rotation:
         total += b.push_w * b_2 - a.push_w * a_2
-    push_2 = let_out(total, c[at.GAP_2 + lane], c[at.MASS_2 + lane], pace)
+    wanted = wanted_apart(c[at.GAP_2 + lane], pace.inverse_h, pace.slop, pace.push_rate, pace.push_speed)
+    push_2 = max(c[at.MASS_2 + lane] * (wanted - total), 0.0)
     if push_1 + push_2 > 0.0:
         x = (push_1 + push_2) * nx
         y = (push_1 + push_2) * ny
@@ -249,6 +244,12 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                     change_2 = soft_2 if (calm | bears) & (gap_2 <= 0.0) else change_2
                     # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
                     free = calm & (not bears) & (c[at.CALM + lane] > 0.0)
+                else:
+                    # What has not touched is for the next substep to brake, if it arrives in it.
+                    borne = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]
+                    apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (borne == 0.0)
+                    change_1 = 0.0 if apart else change_1
+                    change_2 = 0.0 if apart else change_2
                 # Together, or the first would spin the body, and a box on its base would lean to one side.
                 impulse_1, impulse_2 = solve_two(
                     change_1, change_2, c[at.COUPLE_1 + lane], c[at.COUPLE_2 + lane], c[at.SPLIT + lane], old_1, old_2

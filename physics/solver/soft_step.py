@@ -69,7 +69,16 @@ def solve(state: StepState, contacts: ContactSet) -> float:
     run, h = SUBSTEPS[effects.drag, effects.rotation, effects.friction], dt
     asked = state.substeps == 0
     for group in contacts.choose(state, motions, state.substeps):
-        pace = pace_of(group.substeps, asked, dt, state.span, state.drag, tolerances.push_speed, tolerances.speculative)
+        pace = pace_of(
+            group.substeps,
+            asked,
+            dt,
+            state.span,
+            state.drag,
+            tolerances.push_speed,
+            tolerances.slop,
+            tolerances.speculative,
+        )
         h = pace.h
         rows = contacts.prepare(state, motions, group, h)
         run(group.members, motions.driven, group.starts, pace, motions.used, rows, contacts.blocks(group))
