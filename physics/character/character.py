@@ -8,6 +8,7 @@ import numpy as np
 from physics import checks
 from physics.character.ground import STEEPEST_CLIMB
 from physics.character.walk import is_stopped, walk
+from physics.character.way_out import lead_out
 from physics.character.workspace import can_walk, find_own_rows, walk_for
 from physics.checks import Pair
 from physics.dynamics.sleep import disturb
@@ -135,6 +136,7 @@ class Character:
 
         Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope. While its
         body is quarantined, or has a number for which the next step will quarantine it, it stays and touches nothing.
+        Who was put into a still solid is let out of it, by two pixels in a move, where within its own size it is free.
         """
         world = self.world
         world._unlocked()
@@ -150,7 +152,9 @@ class Character:
         way = self._walk(me, dx, dy)
         asleep = _asleep(world, way.near)
         before = world.bodies[asleep][GIVEN]
-        walk(me, dx, dy, way, world.workspace.walked)
+        if walk(me, dx, dy, way, world.workspace.walked):
+            reach = int(max(rows["width"][me], rows["height"][me]))
+            lead_out(me, reach, self._walk(me, reach, reach), world.workspace.walked)
         if len(asleep):
             # It was pushed from where the next pixel is: it may lie a hair away, where no touch would wake it.
             disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][GIVEN]]])

@@ -13,6 +13,7 @@ from physics.character.feel import feel
 from physics.character.ground import FREE, STEEP, STEEPEST_CLIMB
 from physics.character.push import knock, shove
 from physics.character.solids import blocked_at, gather
+from physics.character.way_out import is_inside
 from physics.character.workspace import character_of, settle
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC
@@ -154,7 +155,8 @@ def walk(
     walk_inout,
     moved_out,
 ):
-    """Move a character by (dx, dy) [px], x first, and write what it touches then.
+    """Move a character by (dx, dy) [px], x first, and write what it touches then. Returns whether it stands in a still
+    solid, see way_out.py.
 
     me: its row; walk_inout: a Walk; moved_out (4,): pixels moved along x and y, 1 where it was stopped along x, along
     y. O(pixels · solids near).
@@ -176,6 +178,7 @@ def walk(
         c.squeezed = is_crushed(me, True, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
+    return is_inside(me, walk_inout)
 
 
 @kernel
