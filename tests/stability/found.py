@@ -11,6 +11,7 @@ FOUND = (
     "blows_on_piles",
     "boxes_ask_as_shapes_do",
     "candidates_of_carved_masks",
+    "characters_put_into_solids",
     "contacts_of_masks_tell_all",
     "corners_where_three_parts_meet",
     "deep_parts_are_told_once",

@@ -13,7 +13,6 @@ from physics import JIT, Capsule, Circle, Material, Polygon, Segment, collide, d
 from tests.oracles.exact_gaps import gaps_on_a_lattice, sign_of_gap
 from tests.stability.invariants import Watch
 from tests.stability.piles import SLOP, metres, pile_effects
-from tests.stability.rows import ROWS
 
 STILL = (0.0, 0.0, 0.0)
 HAIR = 1e-12  # of the size
@@ -297,14 +296,7 @@ def test_b11_segments_are_as_far_apart_as_the_rationals_say(measured):
         assert abs(math.hypot(*found.normal) - 1.0) <= 1e-12
 
 
-@pytest.mark.parametrize(
-    "solver",
-    [
-        pytest.param("soft_step", marks=pytest.mark.xfail(strict=True, reason=ROWS["B12"].fault)),
-        "sequential_impulse",
-        "projection",
-    ],
-)
+@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse", "projection"])
 def test_b12_what_only_might_touch_is_not_touched(measured, solver):
     """Gaps up to twice the margin of 4 slops; the impulse that was not needed is none, to the bit."""
     aside = slowed = heard = 0.0

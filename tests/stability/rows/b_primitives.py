@@ -96,8 +96,6 @@ PRIMITIVES = Section(
                 exactly("sensors that hear what they do not touch", 0),
             ),
             "Jolt InsideSpeculative",
-            fault="soft_step slows what does not arrive: its relaxing pass looks a substep further than the step, so a "
-            "disc 17.5 mm above the floor that would sink by 15.7 mm leaves the step at 0.42 m/s in place of 0.945",
         ),
     ),
 )

@@ -29,8 +29,6 @@ GROUND = Section(
             ),
             "Jolt ActiveEdges",
             "1e-3 m, 2e-3 m/s",
-            fault="under sequential impulses a cube pushed out of boxes that are bodies of their own is turned by "
-            "2.4 mrad and feels two of their sides: 8.9e-3 m/s off; on tiles and links, and under soft_step, none",
         ),
         Row(
             "E4",
@@ -112,8 +110,6 @@ GROUND = Section(
                 at_least("character out of the box after 20 calls", -1e-3, "m"),
             ),
             "Rapier issue 485",
-            fault="a character that starts inside a still solid stays where it is, 10 px deep, also when it is told to "
-            "move out",
         ),
     ),
 )

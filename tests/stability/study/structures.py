@@ -36,7 +36,8 @@ def card_house(levels, half_thickness=0.02, half_height=1.0):
             solids.append(Solid(card, x - reach, -foot - rise, angle=LEAN, friction=CARD_FRICTION))
             solids.append(Solid(card, x + reach, -foot - rise, angle=-LEAN, friction=CARD_FRICTION))
         top = foot + 2 * rise
-        lying = (box(1.78, 2 * half_thickness),)
+        # Their ends lie within the edges that carry them: those of thin cards are near the middle of a pair.
+        lying = (box(apart - half_thickness, 2 * half_thickness),)
         solids += [
             Solid(lying, left + apart * (k + 0.5), -top - half_thickness, friction=CARD_FRICTION)
             for k in range(pairs - 1)
