@@ -28,11 +28,11 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Whether a character stands in a still solid. O(solids near)."""
+    """Whether a character stands in a still solid; walk_inout.found: what is near it, of which the still is kept.
+    O(solids near)."""
     c = walk_inout.characters[me]
-    gather(walk_inout, me, -1, 1.0, 1.0, 1.0, walk_inout.found_beside)
-    keep_still(walk_inout, walk_inout.found_beside)
-    what, by, slope = blocked_at(walk_inout, me, walk_inout.found_beside, c.left, c.top, 0, 0, 0.0)
+    keep_still(walk_inout, walk_inout.found)
+    what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
     return what != FREE
 
 

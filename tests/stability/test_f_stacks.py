@@ -19,6 +19,7 @@ from tests.stability.piles import (
     pyramid_and_load,
     tops,
 )
+from tests.stability.rows import ROWS
 from tests.stability.study.structures import CARD_FRICTION, card_house
 
 G = 10.0
@@ -165,12 +166,18 @@ def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
 
 
 @needs_speed
-@pytest.mark.parametrize("props, substeps", [("boxes", 8), ("triangles", 8), ("triangles", "auto")])
+@pytest.mark.parametrize(
+    "props, substeps",
+    [
+        ("boxes", 8),
+        ("triangles", "auto"),
+        pytest.param("triangles", 8, marks=pytest.mark.xfail(strict=True, reason=ROWS["F6"].fault)),
+    ],
+)
 def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
     """20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area a half (800 : 1).
 
-    They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each. Of half a square
-    metre that is 28 mm with eight substeps, which is what they do: within the limit where substeps follow the load.
+    They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each.
     """
     world = metres(substeps=substeps)
     floor(world, width=400.0)
@@ -188,10 +195,7 @@ def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
     assert -big.position[1] > 11.0 - 2 * sunk
     for prop, x in zip(small, (-9.0, 9.0), strict=True):
         measured("F6", "way of a prop aside", abs(prop.position[0] - x))
-    if props == "triangles" and substeps == 8:
-        assert deepest(world) == pytest.approx(sunk, rel=0.01)
-    else:
-        measured("F6", "overlap at the end", deepest(world))
+    measured("F6", "overlap at the end", deepest(world))
 
 
 @needs_speed
