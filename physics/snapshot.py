@@ -109,6 +109,9 @@ class Snapshot:
             for name, dtype in TABLES.items():
                 if arrays[name].dtype != dtype:
                     raise ValueError(f"it has other columns in {name} than this program")
+                # The type itself, not one that equals it: where a process meets the other first, each call of a kernel
+                # looks its types up anew, and a step of 79 boxes takes 8 ms in place of 0.2.
+                arrays[name] = arrays[name].view(dtype)
             geometry = unpack_geometry(arrays, facts)
             _unpack(arrays, facts, geometry)
         except DAMAGE as error:
