@@ -26,6 +26,7 @@ from game.invariants.watch import WatchedWorld
 from physics import BROADPHASES, SOLVERS, Effects
 
 STEP_SECONDS = 1.0 / 60.0
+SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # that a player may choose from
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input
 
 
@@ -144,6 +145,7 @@ class Scene:
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
+        self.substeps: int | str | None = None  # None: what each world was made with
         self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
         self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}
         self.accessibility = Accessibility()
@@ -196,6 +198,8 @@ class Scene:
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         strategy = BROADPHASES[broadphase or self.broadphase]()
         settings.setdefault("seed", self.seed + len(self.worlds))
+        if self.substeps is not None:
+            settings["substeps"] = self.substeps
         world = WatchedWorld(effects, strategy, solver or self.solver, **settings)
         if self.lights is not None:
             self.lights.take(world)
@@ -244,6 +248,8 @@ class Scene:
             self.set_broadphase(value)
         elif name == "solver" and value in self.solver_choices():
             self.set_solver(value)
+        elif name == "substeps" and self.effects.stacking and value in SUBSTEPS and not isinstance(value, bool):
+            self.set_substeps(value)
         elif name == "narrowphase" and isinstance(value, bool):
             self.set_narrowphase(value)
         elif name == "tier" and value in self.tiers:
@@ -260,6 +266,8 @@ class Scene:
         """Set a slider. A scene whose worlds depend on it overrides this and calls super first."""
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
+        if name == "substeps":
+            self.substeps = None  # the slider's from now on
 
     def set_broadphase(self, name: str) -> None:
         """Switch the broad phase of every world, mid-game."""
@@ -289,6 +297,15 @@ class Scene:
         self.solver = name
         for world in self.worlds:
             world.solver = name
+
+    def set_substeps(self, count: Any) -> None:
+        """Solve every world with so many substeps, "auto" for as many as its loads ask for, mid-game."""
+        self.substeps = count
+        for slider in self.sliders:
+            if slider.name == "substeps" and count != "auto" and slider.low <= count <= slider.high:
+                self.values["substeps"] = count
+        for world in self.worlds:
+            world.substeps = count
 
     def set_narrowphase(self, on: bool) -> None:
         """Stop at boxes, or do not, mid-game."""

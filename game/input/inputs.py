@@ -8,7 +8,7 @@ the frame too, since they change the simulation and a recording must hold them.
 from dataclasses import dataclass
 
 ACTIONS = ("left", "right", "up", "down", "fire", "focus", "jump", "bomb", "confirm", "cancel", "pause")
-CHANGES = ("broadphase", "solver", "tier", "narrowphase", "restart")  # and "slider:<name>", "assist:<name>"
+CHANGES = ("broadphase", "solver", "substeps", "tier", "narrowphase", "restart")  # and "slider:<name>", "assist:<name>"
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from pathlib import Path
 from game.errors import FileError
 from game.registry import Registry
 from game.run.replay import Replay, load_replay
-from game.scene import Scene
+from game.scene import SUBSTEPS, Scene
 from physics import BROADPHASES
 
 
@@ -61,6 +61,7 @@ def is_possible(scene_class: type[Scene], name: object, value: object) -> bool:
         "broadphase": value in BROADPHASES,
         "narrowphase": isinstance(value, bool),
         "restart": True,
+        "substeps": scene_class.effects.stacking and value in SUBSTEPS and not isinstance(value, bool),
         "solver": bool(switches) and value in scene_class.valid_solvers(),
         "tier": value in scene_class.tiers,
     }.get(name, False)

@@ -1,31 +1,32 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from time import perf_counter
 from typing import Any
 
 import pygame
 
 from game.audio.sound import Sounds
-from game.drawing.number_text import plain_name
 from game.drawing.presenter import Frame
 from game.files.records import table_of
 from game.files.settings import Settings
 from game.input.devices import DeviceSource
+from game.measure.setting import Setting
 from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
-from game.run.outcome import solver_name
 from game.run.picture import Picture
 from game.run.replay import KEPT_EVERY, Recorder, Replay
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import ASSISTS, Scene
+from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.first_hint import HintCard
+from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
+from game.screens.parts.switches import Switches
 from game.screens.screen import SceneScreen
-from physics import BROADPHASES
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
 RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0.8, 0.5, 300)}  # low, high 0..1, [ms]
@@ -37,7 +38,6 @@ PANEL_BUTTONS = {
     "a": pygame.K_RETURN,
 }
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
-TOLD_SECONDS = 2.5  # how long a line stays about what was switched
 KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
@@ -74,6 +74,9 @@ class Play(SceneScreen):
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
+        self.measuring = Measuring(scene, devices)
+        self.costs = CostPanel(lambda: self.measuring.surveyor, self.measuring.now, self.try_setting)
+        self.costs_open = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -81,7 +84,7 @@ class Play(SceneScreen):
         self.since_result = 0
         self.helped_since = 0  # the step from which the keys are shown
         self.now = 0.0  # [s] of the last turn
-        self.told: tuple[str, float] = ("", 0.0)  # what was switched, and when it is no longer told [s]
+        self.switches = Switches(scene, devices, lambda solver: self.prepare(solver))
         self.hint = HintCard() if self.person and settings is not None and not settings.hint_seen else None
         self.apply_settings()
 
@@ -91,17 +94,15 @@ class Play(SceneScreen):
         return self.scene.music
 
     @property
-    def open_panel(self) -> Panel | None:
-        """The panel while it is open, else None."""
-        return self.panel if self.panel_open else None
+    def open_panel(self) -> Panel | CostPanel | None:
+        """The panel that is open, else None."""
+        return self.costs if self.costs_open else self.panel if self.panel_open else None
 
     @property
     def shows_pointer(self) -> bool:
         """True while the mouse has something to do."""
-        scene = self.scene
-        return (
-            self.panel_open or scene.draggable or not scene.hides_pointer or self.clock.paused or self.hint is not None
-        )
+        working = self.open_panel is not None or self.clock.paused or self.hint is not None
+        return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
         """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
@@ -133,7 +134,7 @@ class Play(SceneScreen):
 
     def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s], up to the last one of the run."""
-        self.now = now
+        self.now = self.switches.now = now
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
@@ -216,49 +217,13 @@ class Play(SceneScreen):
             self.restart()
 
     def switch_solver(self, way: int) -> None:
-        """The next solver, or the one before; its kernels are compiled first, behind a bar."""
-        choices = self.scene.solver_choices()
-        if choices:
-            name = following(choices, solver_name(self.scene), way)
-            self.prepare(name)
-            self._switch("solver", "solver", name, solver_name(self.scene))
-        elif self.scene.effects.response:
-            self._tell("each world here has a solver of its own")
-        else:
-            self._tell("nothing is pushed here: there is no solver to switch")
-
-    def switch_broadphase(self, way: int) -> None:
-        """The next broad phase, or the one before."""
-        if self.scene.switches_broadphase:
-            name = following(tuple(BROADPHASES), self.scene.broadphase, way)
-            self._switch("broadphase", "broad phase", name, self.scene.broadphase)
-        else:
-            self._tell("each world here has a broad phase of its own")
-
-    def switch_tier(self, way: int) -> None:
-        """The shape that sprites are tested as: the next, or the one before."""
-        if self.scene.tiers:
-            self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
-        else:
-            self._tell("no sprites here that could be tested as another shape")
-
-    def switch_narrowphase(self) -> None:
-        """Stop at boxes, or do not."""
-        on = not self.scene.narrowphase
-        self.devices.change("narrowphase", on)
-        self._tell("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
-
-    def _switch(self, change, what, new, old):
-        self.devices.change(change, new)
-        self._tell(f"{what}: {plain_name(new)}, was {plain_name(old or 'none')}")
-
-    def _tell(self, line):
-        self.told = line, self.now + TOLD_SECONDS
+        """The next solver, or the one before."""
+        self.switches.solver(way)
 
     @property
     def news(self) -> str:
         """One line about what was just switched, "" when that is long ago."""
-        return self.told[0] if self.now < self.told[1] else ""
+        return self.switches.news
 
     def toggle_pause(self) -> None:
         """Stop or go on."""
@@ -282,21 +247,23 @@ class Play(SceneScreen):
         button = self.devices.pressed_button(event)
         if button is not None and self._button(button):
             return True
-        if self.panel_open and self.panel.feed(event):
+        panel = self.open_panel
+        if panel is not None and panel.feed(event):
             self.devices.release_all()
             return True
         return event.type == pygame.KEYDOWN and self._key(event.key)
 
     def _button(self, button):
         """A pad's button that does something besides playing."""
+        panel = self.open_panel
         if button == "start":
             self._stop()
         elif button == "back":
             self.toggle_pause()
-        elif button == "y" or (button == "b" and self.panel_open and self.panel.focused):
+        elif button == "y" or (button == "b" and panel is not None and panel.focused):
             self._toggle_panel()
-        elif self.panel_open and self.panel.focused and button in PANEL_BUTTONS:
-            self.panel.key(PANEL_BUTTONS[button])
+        elif panel is not None and panel.focused and button in PANEL_BUTTONS:
+            panel.key(PANEL_BUTTONS[button])
         else:
             return False
         return True
@@ -309,9 +276,35 @@ class Play(SceneScreen):
             self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
 
     def _toggle_panel(self):
-        self.panel_open = not self.panel_open
+        was_open = self.open_panel is not None
+        self.close_costs()
+        self.panel_open = not was_open
         self.panel.focused = True
         self.devices.release_all()
+
+    def toggle_costs(self) -> None:
+        """What accuracy costs here: the plot opens beside the game, in place of the panel, or closes."""
+        if self.costs_open:
+            self.close_costs()
+        else:
+            self.costs_open, self.panel_open, self.costs.focused = True, False, True
+        self.devices.release_all()
+
+    def close_costs(self) -> None:
+        """Nothing is measured any more; what was is kept for the next look."""
+        self.costs_open = False
+        self.measuring.close()
+
+    def try_setting(self, setting: Setting) -> None:
+        """Put a setting that was measured to work."""
+        if setting.solver is not None and setting.solver != self.measuring.now().solver:
+            self.prepare(setting.solver)
+        self.switches.tell(self.measuring.apply(setting))
+
+    def close(self) -> None:
+        """Called when the screen is left for good."""
+        super().close()
+        self.close_costs()
 
     def _key(self, key):
         if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
@@ -323,16 +316,18 @@ class Play(SceneScreen):
             self.overlays.toggle_all()
         elif key == pygame.K_TAB:
             self._toggle_panel()
+        elif key == pygame.K_m:
+            self.toggle_costs()
         elif key == pygame.K_ESCAPE:
             self._stop()
         elif key == pygame.K_b:
-            self.switch_broadphase(1)
+            self.switches.broadphase(1)
         elif key == pygame.K_v:
             self.switch_solver(1)
         elif key == pygame.K_t:
-            self.switch_tier(1)
+            self.switches.tier(1)
         elif key == pygame.K_n:
-            self.switch_narrowphase()
+            self.switches.narrowphase()
         elif key == pygame.K_r:
             self.wish_restart()
         elif key == pygame.K_p:
@@ -352,8 +347,10 @@ class Play(SceneScreen):
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
+        if self.costs_open:
+            self.measuring.turn(self.now)
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)
-        if self.hint is not None and not self.panel_open:
+        if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
         draw_status(frame, self)
         self.session.report.note_drawing(perf_counter() - started)
@@ -366,8 +363,3 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
     if scene.narrowphase != scene.effects.narrowphase:
         changes.append(("narrowphase", scene.narrowphase))
     return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]
-
-
-def following(names: Sequence[str], name: str | None, way: int) -> str:
-    """The name `way` places on, around the end; the first one where none is chosen yet."""
-    return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -246,6 +246,7 @@ class Screens:
     def _leave_play(self):
         if self.played is not None:
             self.played.end_run()
+            self.played.close()
             self.played = None
 
     def _game(self) -> Play:

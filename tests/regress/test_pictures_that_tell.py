@@ -18,7 +18,8 @@ from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.picture import Picture
 from game.screens.parts.panel import SLIDER
-from game.screens.play import TOLD_SECONDS, Play
+from game.screens.parts.switches import TOLD_SECONDS
+from game.screens.play import Play
 from physics import SOLVERS
 from scenes import SCENES
 

@@ -20,6 +20,13 @@ def play_rows(play: Played) -> list[Row]:
         *layer_rows(play.overlays),
         Row(HEAD, "Time"),
         *_time(play),
+        Row(
+            BUTTON,
+            "What accuracy costs",
+            key="M",
+            press=play.toggle_costs,
+            hint="every setting as a dot: its error against its time",
+        ),
         Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none")),
     ]
 
@@ -33,7 +40,7 @@ def _switches(play, scene):
                 "Broad phase",
                 scene.broadphase,
                 "B",
-                turn=play.switch_broadphase,
+                turn=play.switches.broadphase,
                 hint="how pairs that may touch are found",
             )
         )
@@ -44,13 +51,25 @@ def _switches(play, scene):
                 "Solver",
                 plain_name(solver_name(scene) or ""),
                 "V",
-                turn=play.switch_solver,
+                turn=play.switches.solver,
                 hint="how overlaps are resolved",
+            )
+        )
+    if scene.effects.stacking and not any(slider.name == "substeps" for slider in scene.sliders):
+        rows.append(
+            Row(
+                CHOICE,
+                "Substeps",
+                "by load" if (now := scene.worlds[0].substeps) == "auto" else str(now),
+                turn=play.switches.substeps,
+                hint="how often a step looks at its contacts",
             )
         )
     if scene.tiers:
         rows.append(
-            Row(CHOICE, "Tested as", scene.tier, "T", turn=play.switch_tier, hint="the shape that stands for a sprite")
+            Row(
+                CHOICE, "Tested as", scene.tier, "T", turn=play.switches.tier, hint="the shape that stands for a sprite"
+            )
         )
     rows.append(
         Row(
@@ -58,7 +77,7 @@ def _switches(play, scene):
             "Narrow phase",
             key="N",
             on=scene.narrowphase,
-            press=play.switch_narrowphase,
+            press=play.switches.narrowphase,
             hint="off: two boxes that meet are a hit",
         )
     )

@@ -9,6 +9,7 @@ from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
 from game.screens.parts.first_hint import HintCard
+from game.screens.parts.switches import Switches
 
 
 class Played(Protocol):
@@ -19,12 +20,17 @@ class Played(Protocol):
     devices: DeviceSource
     overlays: Overlays
     clock: FixedStep
+    switches: Switches
     settings: Settings | None
     hint: HintCard | None
     person: bool
-    panel_open: bool
     since_result: int
     helped_since: int  # the step from which the keys are shown
+
+    @property
+    def open_panel(self) -> object | None:
+        """The panel that is open, else None."""
+        ...
 
     @property
     def news(self) -> str:
@@ -43,18 +49,6 @@ class Played(Protocol):
         """Restart, if nothing is lost by it."""
         ...
 
-    def switch_solver(self, way: int) -> None:
-        """The next solver, or the one before."""
-        ...
-
-    def switch_broadphase(self, way: int) -> None:
-        """The next broad phase, or the one before."""
-        ...
-
-    def switch_tier(self, way: int) -> None:
-        """The next tier, or the one before."""
-        ...
-
-    def switch_narrowphase(self) -> None:
-        """Stop at boxes, or do not."""
+    def toggle_costs(self) -> None:
+        """Open or close the plot of what accuracy costs."""
         ...

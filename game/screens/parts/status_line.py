@@ -36,11 +36,11 @@ def status_of(play: Played) -> tuple[str, Color]:
         from_now = play.since_result > RESULT_WAIT
         return ("Space or A goes on" if from_now else ""), GOLD
     steps = play.session.report.steps - play.helped_since
-    if not play.panel_open and (steps < HELP_SECONDS * 60 or play.hint is not None or scene.offer):
+    if play.open_panel is None and (steps < HELP_SECONDS * 60 or play.hint is not None or scene.offer):
         pairs = scene.actions if play.settings is None else help_pairs(scene.actions, play.settings.keys)
         parts = [f"{key} {what}" for key, what in pairs] + ["mouse drag"] * scene.draggable
         offer = [f"R {scene.offer}"] if scene.offer else []
-        return GAP.join([*offer, *parts, "1-9 see", "Tab panel", "Esc menu"]), GOLD if offer else PAPER
+        return GAP.join([*offer, *parts, "1-9 see", "Tab panel", "M costs", "Esc menu"]), GOLD if offer else PAPER
     return "", PAPER
 
 

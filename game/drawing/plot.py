@@ -1,0 +1,93 @@
+"""A plot with two logarithmic axes at window resolution: decades, ticks, points; a line at the bottom for zero."""
+
+from collections.abc import Iterable
+from math import ceil, floor, log10
+
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, INK, SLATE, Color, faded
+from game.drawing.presenter import Frame
+
+STEPS = (1, 2, 5)  # of a decade
+LEAST_SPAN = 0.5  # [decades] an axis has at least
+PAD = 0.06  # [decades] beyond the outermost point
+GRID = (52, 46, 76)
+
+
+class Axis:
+    """Values from `low` to `high`, both above 0, widened to whole ticks' reach."""
+
+    def __init__(self, values: Iterable[float], unit: str) -> None:
+        found = [value for value in values if value > 0.0] or [1.0]
+        low, high = log10(min(found)) - PAD, log10(max(found)) + PAD
+        spare = max(0.0, LEAST_SPAN - (high - low)) / 2
+        self.low, self.high, self.unit = low - spare, high + spare, unit
+
+    def share(self, value: float) -> float:
+        """Where a value above 0 lies, 0..1."""
+        return (log10(value) - self.low) / (self.high - self.low)
+
+    def ticks(self, most: int) -> list[float]:
+        """Round values within, at most about so many."""
+        decades = range(floor(self.low), ceil(self.high) + 1)
+        for steps in (STEPS, (1,)):
+            found = [step * 10.0**decade for decade in decades for step in steps]
+            found = [value for value in found if self.low <= log10(value) <= self.high]
+            if len(found) <= most:
+                break
+        return found
+
+
+class LogPlot:
+    """x and y: the axes. zero: a strip under the plot stands for a y of 0, where one is."""
+
+    def __init__(self, rect: pygame.Rect, x: Axis, y: Axis, zero: bool, scale: int) -> None:
+        self.x, self.y, self.scale = x, y, scale
+        foot = 9 * scale
+        inner = pygame.Rect(rect.x + 24 * scale, rect.y + 2 * scale, rect.width - 28 * scale, rect.height - foot)
+        self.strip = pygame.Rect(inner.x, inner.bottom - 11 * scale, inner.width, 11 * scale) if zero else None
+        self.area = inner if not zero else pygame.Rect(inner.x, inner.y, inner.width, inner.height - 13 * scale)
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Frame position of a point; a y of 0 lies in the strip."""
+        left = self.area.x + self.x.share(x) * self.area.width
+        if y <= 0.0 and self.strip is not None:
+            return left, self.strip.centery
+        return left, self.area.bottom - self.y.share(y) * self.area.height
+
+    def draw_ground(self, frame: Frame, zero_name: str = "0") -> None:
+        """Ground, grid and the numbers of both axes."""
+        surface, scale, area = frame.surface, self.scale, self.area
+        bottom = self.strip.bottom if self.strip is not None else area.bottom
+        surface.fill(INK, area)
+        if self.strip is not None:
+            surface.fill(faded(SLATE, 0.75), self.strip)
+            frame.text(zero_name, self.strip.x - 2 * scale, self.strip.centery - 2 * scale, FOG, SMALL, scale, "right")
+        for value in self.x.ticks(max(2, area.width // (22 * scale))):
+            left = round(self.place(value, 1.0)[0])
+            pygame.draw.line(surface, GRID, (left, area.top), (left, bottom - 1))
+            frame.text_if_free(number(value), left, bottom + 2 * scale, FOG, SMALL, scale, "center")
+        for value in self.y.ticks(max(2, area.height // (9 * scale))):
+            top = round(self.place(1.0, value)[1]) if value > 0 else area.bottom
+            pygame.draw.line(surface, GRID, (area.left, top), (area.right - 1, top))
+            frame.text_if_free(number(value), area.x - 2 * scale, top - 2 * scale, FOG, SMALL, scale, "right")
+        pygame.draw.rect(surface, SLATE, area, 1)
+
+    def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
+        """A dashed line at a y, named; nothing where it lies outside."""
+        if not self.y.low <= log10(value) <= self.y.high:
+            return
+        top = round(self.place(1.0, value)[1])
+        for left in range(self.area.left, self.area.right - 2, 6 * self.scale):
+            pygame.draw.line(frame.surface, color, (left, top), (min(left + 3 * self.scale, self.area.right - 1), top))
+        frame.text_if_free(
+            name, self.area.right - 2 * self.scale, top - 7 * self.scale, color, SMALL, self.scale, "right"
+        )
+
+
+def number(value: float) -> str:
+    """A short number: 0.02, 1, 300, 20k."""
+    if value >= 1000.0:
+        return f"{value / 1000.0:g}k"
+    return f"{value:g}"

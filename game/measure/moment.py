@@ -1,0 +1,112 @@
+"""One moment of a world, to be stepped on under other settings: what a step costs there, and where it leads.
+
+The scene's own rules take no part: bodies go on with the velocities that they have, so that all settings do the same
+work, and what is timed is the physics and nothing else. Times and ways are never taken in one pass.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from game.measure.setting import SUBSTEPPED, Setting
+from game.measure.timing import clock, undisturbed
+from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
+
+STEPS = 60  # of a run: a second of play, five times 60 make the 300 that a cost is measured on
+
+
+class Moment:
+    """A snapshot, and the settings under which it was taken: `here`. broadphase: the name of the strategy there."""
+
+    def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
+        facts = snapshot.facts
+        self.snapshot = snapshot
+        self.effects = effects_of(facts["effects"])
+        self.tiered = tuple(identity for identity, _, _ in facts["tiers"])
+        tier = facts["tiers"][0][1] if facts["tiers"] else None
+        self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
+
+    def world(self, setting: Setting) -> World:
+        """The world of this moment under a setting."""
+        facts = self.snapshot.facts
+        strategy = BROADPHASES[setting.broadphase]()
+        world = World(self.effects, strategy, pixels_per_meter=facts["pixels_per_meter"])
+        world.restore(self.snapshot)
+        if setting.solver is not None:
+            world.solver = setting.solver
+        if setting.substeps is not None:
+            world.substeps = setting.substeps
+        if setting.tier is not None and setting.tier != self.here.tier:
+            for identity in self.tiered:
+                world.body(identity).tier = setting.tier
+        if setting.narrowphase != self.effects.narrowphase:
+            world.set_narrowphase(setting.narrowphase)
+        return world
+
+    def time_run(self, setting: Setting, steps: int = STEPS) -> float:
+        """Seconds a step of one run from this moment on. The first run of a setting also compiles: leave it out."""
+        world, spent = self.world(setting), 0.0
+        with undisturbed():
+            for _ in range(steps):
+                started = clock()
+                world.step()
+                spent += clock() - started
+        return spent / steps
+
+    def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
+        """Where the bodies go from this moment on; divided: each step is made in so many."""
+        world = self.world(setting)
+        return follow(world, steps, divided)
+
+
+class Way(NamedTuple):
+    """Where all bodies were after each step, and what was seen on the way."""
+
+    places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
+    moves: np.ndarray  # (bodies,) bool: dynamic
+    overlap: np.ndarray  # (steps,) the deepest that contacts tell [px]
+    failures: dict[str, int]  # cap hits, bodies put aside, steps without a finite place
+
+    def apart(self, other: "Way") -> np.ndarray:
+        """(steps,) root mean square over the moving bodies of how far this way is from another [px]."""
+        gaps = self.places[:, self.moves] - other.places[: len(self.places), self.moves]
+        if not gaps.size:
+            return np.zeros(len(self.places))
+        return np.sqrt((gaps * gaps).sum(axis=2).mean(axis=1))
+
+
+def follow(world: World, steps: int, divided: int = 1) -> Way:
+    """Step a world and note its way."""
+    places, overlap = [], []
+    failures = {"cap_hits": 0, "put_aside": 0, "not_finite": 0}
+    dt = world.dt / divided
+    for _ in range(steps):
+        for _ in range(divided):
+            world.step(dt)
+            failures["cap_hits"] += world.profile.counters["cap_hits"]
+            failures["put_aside"] += len(world.events.quarantined)
+        rows = world.bodies
+        order = np.argsort(rows["id"])
+        place = np.stack([rows["center_x"], rows["center_y"]], axis=1)[order]
+        failures["not_finite"] += not np.isfinite(place).all()
+        places.append(place)
+        separations = world.contacts["separation"]
+        overlap.append(max(0.0, -float(separations.min())) if len(separations) else 0.0)
+    moves = (world.bodies["kind"] == DYNAMIC)[np.argsort(world.bodies["id"])]
+    return Way(np.array(places), moves, np.array(overlap), failures)
+
+
+def here_of(world: World, tier: str | None) -> Setting:
+    """The setting under which a world runs; tier: of its sprites, None where they have none."""
+    return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
+
+
+def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
+    """A Setting without what the effects have no use for."""
+    used = solver if effects.response else None
+    return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)
+
+
+def effects_of(names: list[str]) -> Effects:
+    """The effects of a list of names, as Effects.names() gives it."""
+    return Effects(**{name: True for name in names}).with_(narrowphase="narrowphase" in names)

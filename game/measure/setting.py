@@ -1,0 +1,78 @@
+"""What of a world can be set, and what to try: one thing changed at a time."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from game.scene import SUBSTEPS
+from physics import BROADPHASES, SOLVERS, TIERS, Effects
+
+SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that substeps, or passes in their place, mean something to
+
+
+class Setting(NamedTuple):
+    """A world's settings that trade accuracy for time. None: it has no such thing."""
+
+    broadphase: str
+    narrowphase: bool
+    solver: str | None = None
+    substeps: int | str | None = None
+    tier: str | None = None
+
+    def differs(self, other: "Setting") -> tuple[str, ...]:
+        """Names of the fields that differ."""
+        return tuple(name for name in self._fields if getattr(self, name) != getattr(other, name))
+
+    def label(self, other: "Setting") -> str:
+        """What it does otherwise than another, in a few words; "as it is" where nothing."""
+        names = self.differs(other)
+        words = [_WORDS[name](value) for name in names if (value := getattr(self, name)) is not None]
+        if "solver" in names and self.substeps is not None:  # so many of it, said shortly
+            words = [word for name, word in zip(names, words, strict=False) if name != "substeps"]
+            words[-1] += f", {'by load' if self.substeps == 'auto' else self.substeps}"
+        return ", ".join(words) or "as it is"
+
+
+_WORDS = {
+    "broadphase": str,
+    "narrowphase": lambda on: "narrow phase" if on else "boxes only",
+    "solver": lambda name: str(name).replace("_", " "),
+    "substeps": lambda count: "substeps by load" if count == "auto" else f"{count} substep{'s' * (count != 1)}",
+    "tier": lambda name: f"as {name}",
+}
+
+
+def settings_around(here: Setting, effects: Effects) -> list[Setting]:
+    """`here`, then each with one thing changed, solvers with every number of substeps; what is cheap to tell first."""
+    rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
+    found = [here]
+    while any(rows):
+        for row in rows:
+            if row:
+                found.append(row.pop(0))
+    return list(dict.fromkeys(found))
+
+
+def _broadphases(here) -> Iterator[Setting]:
+    for name in BROADPHASES:
+        yield here._replace(broadphase=name)
+
+
+def _narrow(here) -> Iterator[Setting]:
+    yield here._replace(narrowphase=not here.narrowphase)
+
+
+def _tiers(here) -> Iterator[Setting]:
+    for name in TIERS if here.tier is not None and here.narrowphase else ():
+        yield here._replace(tier=name)
+
+
+def _solvers(here, effects) -> Iterator[Setting]:
+    if here.solver is None:
+        return
+    for solver in reversed(SOLVERS) if effects.stacking else ("projection", "blocking"):
+        if solver in SUBSTEPPED:
+            for substeps in SUBSTEPS:
+                if solver == "soft_step" or substeps != "auto":
+                    yield here._replace(solver=solver, substeps=substeps)
+        else:
+            yield here._replace(solver=solver, substeps=None)

@@ -1,0 +1,135 @@
+"""What is known of a scene's settings: a dot of cost and error each, gathered run by run and moment by moment."""
+
+from dataclasses import dataclass, field
+from statistics import median
+
+from game.measure.errors import VISIBLE, Error
+from game.measure.front import TIE, cheaper, pareto
+from game.measure.rates import Rate
+from game.measure.setting import Setting
+from game.measure.timing import RUNS, Cost
+
+
+@dataclass
+class Dot:
+    """One setting. spent: seconds a step, by moment and run; errors: by moment."""
+
+    setting: Setting
+    spent: dict[int, list[float]] = field(default_factory=dict)
+    errors: dict[int, dict[str, Error]] = field(default_factory=dict)
+    steps: int = 0  # of one run
+
+    @property
+    def cost(self) -> Cost | None:
+        """Seconds a step: the mean over the moments of what each took; None before the first run."""
+        costs = [Cost.of(runs, self.steps) for runs in self.spent.values() if runs]
+        if not costs:
+            return None
+        n = len(costs)
+        least, middle, upper = (sum(each[place] for each in costs) / n for place in range(3))
+        return Cost(least, middle, upper, sum(cost.runs for cost in costs), self.steps)
+
+    @property
+    def sure(self) -> bool:
+        """Whether every moment was run often enough."""
+        return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
+
+    def error(self, kind: str) -> Error | None:
+        """The error over all moments; None before the first."""
+        found = [errors[kind] for errors in self.errors.values() if kind in errors]
+        if not found:
+            return None
+        wrong, missed = _pooled(found, "wrong"), _pooled(found, "missed")
+        if wrong is not None and missed is not None:
+            weights = [_decided(each) for each in found]
+            total = sum(weights)
+            value = sum(e.value * w for e, w in zip(found, weights, strict=True)) / total if total else 0.0
+        else:
+            value = sum(each.value for each in found) / len(found)
+        failures: dict[str, int] = {}
+        for each in found:
+            for name, count in each.failures.items():
+                failures[name] = failures.get(name, 0) + count
+        floor, steps = max(each.floor for each in found), min(each.steps for each in found)
+        return Error(value, floor, steps, failures, wrong, missed)
+
+
+def _pooled(errors, name):
+    rates = [getattr(each, name) for each in errors]
+    if any(rate is None for rate in rates):
+        return None
+    return Rate(sum(rate.count for rate in rates), sum(rate.total for rate in rates))
+
+
+def _decided(error):
+    return (error.wrong.total if error.wrong else 0) + (error.missed.count if error.missed else 0)
+
+
+class Survey:
+    """The dots of one scene, in the order in which they came, and what follows from them."""
+
+    def __init__(self) -> None:
+        self.dots: dict[Setting, Dot] = {}
+        self.kinds: tuple[str, ...] = ()
+        self.moments = 0
+        self.planned = 0  # settings that are being measured
+
+    def dot(self, setting: Setting) -> Dot:
+        """The dot of a setting, a new one where there is none."""
+        return self.dots.setdefault(setting, Dot(setting))
+
+    def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
+        """The settings whose cost and error are known."""
+        found = {}
+        for setting, dot in self.dots.items():
+            cost, error = dot.cost, dot.error(kind)
+            if cost is not None and error is not None:
+                found[setting] = cost, error
+        return found
+
+    def front(self, kind: str) -> list[Setting]:
+        """The settings that none beats in cost and error, the cheapest first. What cannot be told from none is none."""
+        return pareto({s: (cost.median, told(error)) for s, (cost, error) in self.known(kind).items()})
+
+    def finding(self, kind: str, here: Setting) -> str:
+        """One sentence about the present setting, from what is measured; "" while too little is."""
+        known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
+        if here not in known or len(known) < 2:
+            return ""
+        cost, error = known[here]
+        as_good = {s: c for s, (c, e) in known.items() if told(e) <= (1.0 + TIE) * told(error) and _sound(e)}
+        best = min(as_good, key=lambda s: as_good[s].median, default=here)
+        if best != here and cheaper(as_good[best][:2], cost[:2]):
+            share = as_good[best].median / cost.median
+            return f"{best.label(here)}: as exact in {share:.2f} x the time"
+        exacter = {s: (c, e) for s, (c, e) in known.items() if told(e) < (1.0 - TIE) * told(error) and _sound(e)}
+        better = {s: e for s, (c, e) in exacter.items() if not cheaper(cost[:2], c[:2])}
+        if better:
+            best = min(better, key=lambda s: told(better[s]))
+            return f"{best.label(here)}: {shown(better[best])} instead of {shown(error)}, and no dearer"
+        if exacter and told(error) > VISIBLE:
+            best = min(exacter, key=lambda s: exacter[s][0].median)
+            price = exacter[best][0].median / cost.median
+            return f"wrong by {shown(error)}; {best.label(here)} has {shown(known[best][1])} for {price:.2f} x the time"
+        return f"nothing measured here is as exact ({shown(error)}) for less time"
+
+
+def told(error: Error) -> float:
+    """The error as far as the reference can tell: 0 below its floor."""
+    return error.value if error.told else 0.0
+
+
+def shown(error: Error) -> str:
+    """The error in words."""
+    if error.told:
+        return f"{error.value:.2g} px"
+    return f"less than {error.floor:.2g} px" if error.floor else "0 px"
+
+
+def _sound(error):
+    return not any(error.failures.values())
+
+
+def typical_noise(survey: Survey) -> float:
+    """The median noise of all costs, as a share."""
+    return median([dot.cost.noise for dot in survey.dots.values() if dot.cost is not None] or [0.0])

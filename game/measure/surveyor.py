@@ -1,0 +1,133 @@
+"""The process that measures, seen from the game: it is handed moments and fills a Survey."""
+
+import contextlib
+import json
+import os
+import queue
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from typing import Any
+
+from game.measure.errors import Error
+from game.measure.rates import Rate
+from game.measure.setting import Setting
+from game.measure.survey import Survey
+from game.measure.worker import setting_of
+from physics import Snapshot
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Surveyor:
+    """measure() hands on a moment, turn() takes what was found since into `survey`. `trouble`: why nothing is."""
+
+    def __init__(self, survey: Survey | None = None) -> None:
+        self.survey = survey or Survey()
+        self.here: Setting | None = None  # under which the last moment was taken
+        self.busy = False
+        self.trouble = ""
+        self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+        self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
+        self.process: subprocess.Popen[str] | None = None
+
+    def measure(self, snapshot: Snapshot, broadphase: str) -> None:
+        """Measure this moment too, instead of the one before if that is not done."""
+        if self.process is None and not self._start():
+            return
+        self.survey.moments += 1
+        self.busy = True
+        number = self.survey.moments
+        # Packing the pixels of a level takes longer than a frame.
+        threading.Thread(target=self._hand_on, args=(snapshot, broadphase, number), daemon=True).start()
+
+    def _start(self):
+        path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+        options: dict[str, Any] = {"start_new_session": True}
+        if sys.platform == "win32":
+            options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
+        try:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "game.measure.worker"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                text=True,
+                env={**os.environ, "PYTHONPATH": path},
+                **options,
+            )
+        except (OSError, ValueError) as error:
+            self.trouble = f"the process that measures could not be started: {error}"
+            return False
+        threading.Thread(target=self._listen, args=(self.process,), daemon=True).start()
+        return True
+
+    def _hand_on(self, snapshot, broadphase, number):
+        path = Path(self.folder.name) / f"{number}.npz"
+        order = {"moment": number, "snapshot": str(path), "broadphase": broadphase}
+        try:
+            snapshot.save(path)
+            assert self.process is not None and self.process.stdin is not None
+            self.process.stdin.write(json.dumps(order) + "\n")
+            self.process.stdin.flush()
+        except (OSError, ValueError) as error:
+            self.found.put({"moment": number, "failed": str(error)})
+
+    def _listen(self, process):
+        for line in process.stdout:
+            with contextlib.suppress(ValueError):
+                self.found.put(json.loads(line))
+        self.found.put({"moment": None, "failed": "the process that measures has ended"})
+
+    def turn(self) -> None:
+        """Take what was found since the last turn; once per picture."""
+        with contextlib.suppress(queue.Empty):
+            while True:
+                self._take(self.found.get_nowait())
+
+    def wait(self, seconds: float) -> None:
+        """Take what is found until the moment is done, for so long at most."""
+        with contextlib.suppress(queue.Empty):
+            while self.busy:
+                self._take(self.found.get(timeout=seconds))
+
+    def _take(self, found):
+        survey = self.survey
+        if "failed" in found:
+            self.trouble, self.busy = found["failed"], False
+            if found["moment"] is None:
+                self.process = None
+        elif "settings" in found:
+            self.trouble = ""
+            survey.planned, survey.kinds = found["settings"], tuple(found["kinds"])
+            self.here = setting_of(found["here"])
+        elif "done" in found:
+            self.busy = self.busy and found["moment"] != survey.moments
+        else:
+            dot = survey.dot(setting_of(found["setting"]))
+            if "errors" in found:
+                dot.errors[found["moment"]] = {kind: error_of(each) for kind, each in found["errors"].items()}
+            else:
+                dot.steps = found["steps"]
+                dot.spent.setdefault(found["moment"], []).append(found["spent"])
+
+    def stop(self) -> None:
+        """End the process; what was found stays."""
+        process, self.process = self.process, None
+        self.busy = False
+        if process is not None:
+            process.kill()
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                with contextlib.suppress(OSError):
+                    if pipe is not None:
+                        pipe.close()
+        self.folder.cleanup()
+
+
+def error_of(values: dict[str, Any]) -> Error:
+    """An Error from what JSON made of it."""
+    wrong, missed = (None if values[name] is None else Rate(*values[name]) for name in ("wrong", "missed"))
+    return Error(values["value"], values["floor"], values["steps"], values["failures"], wrong, missed)

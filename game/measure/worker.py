@@ -1,0 +1,105 @@
+"""`python -m game.measure.worker`: measures moments, off the frame of whoever plays.
+
+A line of JSON on standard input is a moment to measure, in place of the one before; lines of JSON on standard output
+are what was found. The process ends with its standard input, so that it never outlives the program that started it.
+"""
+
+import contextlib
+import json
+import os
+import sys
+import threading
+from collections.abc import Callable
+from functools import partial
+from random import Random
+from typing import Any
+
+from game.measure.errors import Error, References
+from game.measure.moment import STEPS, Moment
+from game.measure.setting import Setting, settings_around
+from game.measure.timing import RUNS
+from physics import Snapshot
+
+NICE = 19  # of the system's 0 to 19: whoever plays goes first
+
+
+class Orders:
+    """The moment that is to be measured now."""
+
+    def __init__(self) -> None:
+        self.latest: dict[str, Any] | None = None
+        self.changed = threading.Condition()
+
+    def listen(self) -> None:
+        """Take orders until there is nobody left to give them; then end the process, whatever it is at."""
+        for line in sys.stdin:
+            with self.changed:
+                self.latest = json.loads(line)
+                self.changed.notify_all()
+        os._exit(0)
+
+    def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
+        """The first order after another one; waits for it."""
+        with self.changed:
+            self.changed.wait_for(lambda: self.latest is not after)
+            assert self.latest is not None
+            return self.latest
+
+    def holds(self, order: dict[str, Any]) -> bool:
+        """Whether nothing else was asked for meanwhile."""
+        return self.latest is order
+
+
+def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Measure a moment: the errors of every setting and a first run, then run by run in shuffled turns."""
+    number = order["moment"]
+    moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
+    settings = settings_around(moment.here, moment.effects)
+    references = References(moment)
+
+    def say(**found):
+        tell(json.dumps({"moment": number, **found}))
+
+    say(settings=len(settings), kinds=references.kinds, here=moment.here)
+    for setting in settings:
+        if not goes_on():
+            return
+        moment.time_run(setting, 2)  # compiles what is missing
+        say(setting=setting, errors={kind: as_json(error) for kind, error in references.errors(setting).items()})
+        say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
+    chance = Random(number)
+    for _ in range(RUNS - 1):
+        chance.shuffle(settings)
+        for setting in settings:
+            if not goes_on():
+                return
+            say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
+    say(done=True)
+
+
+def as_json(error: Error) -> dict[str, Any]:
+    """An Error as JSON holds it."""
+    return {**vars(error), "wrong": error.wrong, "missed": error.missed}
+
+
+def setting_of(values: list[Any]) -> Setting:
+    """A Setting from what JSON made of it."""
+    return Setting(*values)
+
+
+def main() -> None:
+    """Measure for as long as there is somebody to tell."""
+    with contextlib.suppress(OSError, AttributeError):
+        os.nice(NICE)
+    orders, order = Orders(), None
+    threading.Thread(target=orders.listen, daemon=True).start()
+    while True:
+        order = orders.next(order)
+        try:
+            measure(order, partial(print, flush=True), partial(orders.holds, order))
+        except (ValueError, OSError) as error:  # a moment that cannot be measured is told, and the next awaited
+            print(json.dumps({"moment": order["moment"], "failed": str(error)}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,325 @@
+"""What accuracy costs in the running scene: every setting as a dot of error against time, beside the game."""
+
+from collections.abc import Callable
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, shorten, wrap
+from game.drawing.colors import DUSK, FOG, GOLD, GREEN, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, Color, faded
+from game.drawing.plot import Axis, LogPlot, number
+from game.drawing.presenter import Frame
+from game.measure.errors import VISIBLE, Error
+from game.measure.setting import Setting
+from game.measure.survey import Survey, shown, told
+from game.measure.surveyor import Surveyor
+from game.measure.timing import RUNS, Cost
+from game.screens.parts.switches import following
+
+TITLES = {
+    "verdict": "hits told wrong: by how much, on average",
+    "overlap": "bodies in each other: the deepest place",
+    "way": "bodies astray from a reference run",
+}
+# What is changed -> colour and form: told apart without colour too.
+LOOKS: dict[str, tuple[Color, str]] = {
+    "tier": (SKY, "square"),
+    "broadphase": (GREEN, "diamond"),
+    "substeps": (ORANGE, "circle"),
+    "solver": (YELLOW, "triangle"),
+    "narrowphase": (RED, "cross"),
+}
+NAMES = {
+    "tier": "tier",
+    "broadphase": "broad phase",
+    "substeps": "substeps",
+    "solver": "solver",
+    "narrowphase": "narrow phase",
+}
+NEAR = 7  # [text px] from a dot that still names it
+FEET = (
+    "click or Enter: play with it   \u2191 \u2193 choose   \u2190 \u2192 other error   M closes",
+    "click: play with it   \u2190 \u2192 other error   M closes",
+    "click: play with it   M closes",
+    "M closes",
+)
+TRAIL = 12  # settings that were tried, joined by a line
+ROW = 8  # [text px]
+
+
+class CostPanel:
+    """source(): who measures; now(): the setting that runs; apply(setting) puts one to work in the scene, or tells
+    why it cannot."""
+
+    def __init__(
+        self, source: Callable[[], Surveyor], now: Callable[[], Setting], apply: Callable[[Setting], None]
+    ) -> None:
+        self.source, self.now, self.apply = source, now, apply
+        self.kind: str | None = None  # of error; None: the first there is
+        self.trail: list[Setting] = []
+        self.places: list[tuple[tuple[float, float], Setting]] = []  # of the last picture's dots
+        self.rows: list[tuple[pygame.Rect, Setting]] = []
+        self.hovered: Setting | None = None
+        self.chosen = 0  # of the list, for the keyboard
+        self.focused = True
+        self.rect = self.head = pygame.Rect(0, 0, 0, 0)
+
+    @property
+    def surveyor(self) -> Surveyor:
+        """Who measures."""
+        return self.source()
+
+    @property
+    def survey(self) -> Survey:
+        """What is measured so far."""
+        return self.surveyor.survey
+
+    def shown_kind(self) -> str:
+        """The error that is plotted, "" before anything is known."""
+        kinds = self.survey.kinds
+        return self.kind if self.kind in kinds else kinds[0] if kinds else ""
+
+    def ranking(self) -> list[Setting]:
+        """The settings with cost and error, the cheapest first."""
+        known = self.survey.known(self.shown_kind())
+        return sorted(known, key=lambda setting: known[setting][0].median)
+
+    def feed(self, event: pygame.event.Event) -> bool:
+        """Take an event; True if it is used up."""
+        if event.type == pygame.KEYDOWN and self.focused:
+            return self.key(event.key)
+        if event.type == pygame.MOUSEMOTION:
+            self.hovered = self._under(event.pos)
+            return self.rect.collidepoint(event.pos)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            self.focused = self.rect.collidepoint(event.pos)
+            if self.head.collidepoint(event.pos):
+                self.turn_kind(1)
+            elif (setting := self._under(event.pos)) is not None:
+                self.apply(setting)
+            return self.focused
+        return False
+
+    def key(self, key: int) -> bool:
+        """Up and down choose a setting, Enter applies it, left and right turn to another error."""
+        ranking = self.ranking()
+        if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
+            way = 1 if key == pygame.K_DOWN else -1
+            self.hovered = following(ranking, self.hovered, way)
+        elif key in (pygame.K_LEFT, pygame.K_RIGHT):
+            self.turn_kind(1 if key == pygame.K_RIGHT else -1)
+        elif key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.hovered is not None:
+            self.apply(self.hovered)
+        else:
+            return False
+        return True
+
+    def turn_kind(self, way: int) -> None:
+        """Plot another error, where there are several."""
+        kinds = self.survey.kinds
+        if kinds:
+            self.kind = kinds[(kinds.index(self.shown_kind()) + way) % len(kinds)]
+
+    def _under(self, position):
+        for rect, setting in self.rows:
+            if rect.collidepoint(position):
+                return setting
+        reach = NEAR * max(1, self.rect.width // 240)
+        near = [(pygame.Vector2(place).distance_to(position), setting) for place, setting in self.places]
+        distance, setting = min(near, key=lambda each: each[0], default=(reach, None))
+        return setting if distance < reach else None
+
+    def draw(self, frame: Frame, rect: pygame.Rect) -> None:
+        """Paint into a frame rect: heading, plot, what the forms stand for, the finding, the list."""
+        self.rect, scale, now = rect, frame.text_scale, self.now()
+        if not self.trail or self.trail[-1] != now:
+            self.trail = [*self.trail, now][-TRAIL:]
+        frame.surface.fill(faded(NIGHT, 0.2), rect)
+        pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
+        left, width = rect.x + 5 * scale, rect.width - 10 * scale
+        y = self._draw_head(frame, left, rect.y + 4 * scale, width, scale)
+        known = self.survey.known(self.shown_kind())
+        self.places, self.rows = [], []
+        if known:
+            plot = pygame.Rect(left, y, width, max(60 * scale, rect.height * 2 // 5))
+            self._draw_plot(frame, plot, known, now, scale)
+            y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
+            y = self._draw_finding(frame, left, y, width, now, scale)
+            self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - 10 * scale - y), known, now, scale)
+        foot = next((line for line in FEET if frame.measure(line, SMALL, scale)[0] <= width), FEET[-1])
+        frame.text(foot, left, rect.bottom - 8 * scale, FOG, SMALL, scale)
+        frame.reserve(rect)
+
+    def _draw_head(self, frame, left, y, width, scale):
+        frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
+        y += 10 * scale
+        lines = wrap(self._state(), width, SMALL, scale)
+        if kind := self.shown_kind():
+            more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
+            lines = [*wrap(f"up: {TITLES[kind]} [px]{more}; right: time of a step [us]", width, SMALL, scale), *lines]
+        self.head = pygame.Rect(left, y, width, len(lines) * 7 * scale)
+        for number_, line in enumerate(lines):
+            frame.text(line, left, y + number_ * 7 * scale, FOG, SMALL, scale)
+        return self.head.bottom + 2 * scale
+
+    def _state(self):
+        survey = self.survey
+        if self.surveyor.trouble:
+            return self.surveyor.trouble
+        if not survey.dots:
+            return "taking this moment of the game ..."
+        sure = sum(dot.sure for dot in survey.dots.values())
+        moments = f"{survey.moments} moment{'s' * (survey.moments != 1)} of 60 steps"
+        return f"{sure} of {max(survey.planned, len(survey.dots))} settings measured, {RUNS} runs each, {moments}"
+
+    def _draw_plot(self, frame, rect, known, now, scale):
+        x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)], "us")
+        errors = [told(error) for _, error in known.values()]
+        plot = LogPlot(rect, x, Axis([*errors, VISIBLE], "px"), any(error <= 0.0 for error in errors), scale)
+        plot.draw_ground(frame)
+        plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
+        places = {s: plot.place(1e6 * cost.median, told(error)) for s, (cost, error) in known.items()}
+        front = [places[setting] for setting in self.survey.front(self.shown_kind())]
+        if len(front) > 1:
+            pygame.draw.lines(frame.surface, faded(GOLD, 0.25), False, _stairs(front), scale)
+        trail = [places[setting] for setting in self.trail if setting in places]
+        if len(trail) > 1:
+            pygame.draw.lines(frame.surface, faded(PAPER, 0.5), False, trail, 1)
+        for setting, (cost, error) in known.items():
+            self._draw_dot(frame, plot, places[setting], setting, cost, error, now, scale)
+        self.places = [(place, setting) for setting, place in places.items()]
+        self._draw_name(frame, rect, places, known, now, scale)
+        frame.fix(rect)
+
+    def _draw_dot(self, frame, plot, place, setting, cost, error, now, scale):
+        color, form = look_of(setting, self.surveyor.here or now)
+        color = frame.tone(color)
+        low, high = (plot.place(1e6 * value, 1.0)[0] for value in (cost.least, cost.upper))
+        if high - low > 2:
+            pygame.draw.line(frame.surface, faded(color, 0.4), (low, place[1]), (high, place[1]), 1)
+        draw_form(frame.surface, form, place, 2.2 * scale, color, error.told or not error.floor)
+        if setting == now:
+            pygame.draw.circle(frame.surface, GOLD, place, 5 * scale, max(1, scale // 2))
+        if setting == self.hovered:
+            pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
+
+    def _draw_name(self, frame, rect, places, known, now, scale):
+        """The hovered dot's name at it, else that of the present setting."""
+        setting = self.hovered if self.hovered in places else now if now in places else None
+        if setting is None:
+            return
+        cost, error = known[setting]
+        base = self.surveyor.here or now
+        text = f"{setting.label(base)}: {1e6 * cost.median:.0f} us, {shown(error)}"
+        width = frame.measure(text, SMALL, scale)[0]
+        x, y = places[setting]
+        left = min(max(rect.x + 26 * scale, x - width / 2), rect.right - width - 5 * scale)
+        top = y - 13 * scale if y - 13 * scale > rect.y else y + 8 * scale
+        box = pygame.Rect(round(left) - 2 * scale, round(top) - scale, width + 4 * scale, 7 * scale)
+        frame.surface.fill(NIGHT, box)
+        frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, SMALL, scale)
+
+    def _draw_forms(self, frame, left, y, width, known, now, scale):
+        """What the forms stand for, those that are there, in as many lines as they need."""
+        base = self.surveyor.here or now
+        names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
+        x = left
+        for name in names:
+            color, form = LOOKS[name]
+            wide = frame.measure(NAMES[name], SMALL, scale)[0] + 14 * scale
+            if x + wide > left + width and x > left:
+                x, y = left, y + ROW * scale
+            draw_form(frame.surface, form, (x + 3 * scale, y + 3 * scale), 2 * scale, frame.tone(color), True)
+            frame.text(NAMES[name], x + 7 * scale, y, FOG, SMALL, scale)
+            x += wide
+        return y + (ROW + 2) * scale
+
+    def _draw_finding(self, frame, left, y, width, now, scale):
+        finding = self.survey.finding(self.shown_kind(), now)
+        for line in wrap(finding or "the finding comes when enough is measured", width, TEXT, scale):
+            frame.text(line, left, y, PAPER if finding else FOG, TEXT, scale)
+            y += 9 * scale
+        return y + 2 * scale
+
+    def _draw_list(self, frame, rect, known, now, scale):
+        """The settings by cost; those that do not fit are counted."""
+        base, front = self.surveyor.here or now, set(self.survey.front(self.shown_kind()))
+        ranking = self.ranking()
+        frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
+        rect = pygame.Rect(rect.x, rect.y + ROW * scale, rect.width, rect.height - ROW * scale)
+        room = max(0, rect.height // (ROW * scale) - 1)
+        # What is looked at stays in sight.
+        places = {setting: place for place, setting in enumerate(ranking)}
+        here = self.hovered if self.focused and self.hovered is not None else now
+        sought = places.get(here, places.get(now, 0))
+        first = max(0, sought - room + 1)
+        for place, setting in enumerate(ranking[first : first + room]):
+            cost, error = known[setting]
+            row = pygame.Rect(rect.x, rect.y + place * ROW * scale, rect.width, ROW * scale)
+            if setting in (now, self.hovered):
+                frame.surface.fill(DUSK, row)
+            color, form = look_of(setting, base)
+            draw_form(frame.surface, form, (row.x + 3 * scale, row.y + 3 * scale), 2 * scale, frame.tone(color), True)
+            ink = GOLD if setting == now else PAPER if setting in front else FOG
+            values = f"{_short(cost)}  {shown(error)}{_failed(error)}"
+            right = frame.text(values, row.right - 2 * scale, row.y + scale, ink, SMALL, scale, "right").left
+            name = shorten(setting.label(base), right - row.x - 12 * scale, SMALL, scale)
+            frame.text(name, row.x + 8 * scale, row.y + scale, ink, SMALL, scale)
+            self.rows.append((row, setting))
+        more = len(ranking) - first - room
+        if more > 0 or first:
+            y = rect.y + room * ROW * scale
+            less = f"{first} that cost less above" if first else ""
+            line = ", ".join(filter(None, (less, f"{more} that cost more" if more > 0 else "")))
+            frame.text(line, rect.x, y + scale, FOG, SMALL, scale)
+
+
+def kind_of(setting: Setting, base: Setting) -> str:
+    """What of a setting is other than in another: the first of LOOKS that is."""
+    differs = setting.differs(base)
+    if "solver" in differs:
+        return "solver"
+    return next((name for name in LOOKS if name in differs), "substeps" if setting.substeps else "broadphase")
+
+
+def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
+    """Colour and form of a dot; white for the setting in which the moment was taken."""
+    return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)]
+
+
+def draw_form(
+    surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
+) -> None:
+    """A small form; hollow where its value is only a bound."""
+    x, y = place
+    width = 0 if full else 1
+    if form == "circle":
+        pygame.draw.circle(surface, color, place, size, width)
+    elif form == "square":
+        pygame.draw.rect(surface, color, (x - size, y - size, 2 * size, 2 * size), width)
+    elif form == "diamond":
+        r = 1.3 * size
+        pygame.draw.polygon(surface, color, [(x, y - r), (x + r, y), (x, y + r), (x - r, y)], width)
+    elif form == "triangle":
+        r = 1.2 * size
+        pygame.draw.polygon(surface, color, [(x, y - r), (x + r, y + size), (x - r, y + size)], width)
+    else:
+        thick = max(1, round(size / 2))
+        pygame.draw.line(surface, color, (x - size, y - size), (x + size, y + size), thick)
+        pygame.draw.line(surface, color, (x - size, y + size), (x + size, y - size), thick)
+
+
+def _stairs(front):
+    """The border of what is beaten: right along each point's error, then down to the next."""
+    points = []
+    for (x, y), (next_x, _) in zip(front, front[1:], strict=False):
+        points += [(x, y), (next_x, y)]
+    return [*points, front[-1]]
+
+
+def _short(cost: Cost) -> str:
+    return f"{number(float(f'{1e6 * cost.median:.3g}'))} us +{100 * cost.noise:.0f}%"
+
+
+def _failed(error: Error) -> str:
+    """Failures, told beside the error and never in it."""
+    return "".join(f", {count} {name.replace('_', ' ')}" for name, count in error.failures.items())

@@ -1,0 +1,78 @@
+"""Joins a played scene to what measures it: which world, when a moment is taken, what a setting changes there."""
+
+from game.drawing.number_text import plain_name
+from game.input.devices import DeviceSource
+from game.measure.moment import here_of
+from game.measure.setting import Setting
+from game.measure.surveyor import Surveyor
+from game.scene import SUBSTEPS, Scene
+from physics import World
+
+EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
+
+
+class Measuring:
+    """Of one scene that is played. It measures between open() and close()."""
+
+    def __init__(self, scene: Scene, devices: DeviceSource) -> None:
+        self.scene, self.devices = scene, devices
+        self.surveyor = Surveyor()
+        self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
+
+    @property
+    def world(self) -> World:
+        """The world that is measured: that of the first picture, which the overlays look into."""
+        return self.scene.views()[0][0]
+
+    def now(self) -> Setting:
+        """The setting that runs."""
+        return here_of(self.world, self.scene.tier)
+
+    def turn(self, now: float) -> None:
+        """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done."""
+        self.surveyor.turn()
+        frame = self.scene.frame
+        if self.taken_at is not None:
+            waits = self.surveyor.busy or now - self.taken_at[0] < EVERY or frame == self.taken_at[1]
+            if waits or self.surveyor.trouble:
+                return
+        self.taken_at = now, frame
+        self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
+
+    def close(self) -> None:
+        """End the process; what was measured stays, and more is added when it is opened again."""
+        if self.surveyor.process is not None:
+            found = self.surveyor.survey
+            self.surveyor.stop()
+            self.surveyor = Surveyor(found)
+        self.taken_at = None
+
+    def apply(self, setting: Setting) -> str:
+        """Put a setting to work in the scene, as input that a recording holds. Returns a line about it."""
+        scene, now = self.scene, self.now()
+        changes = []
+        for name in setting.differs(now):
+            change = self._change(scene, name, getattr(setting, name))
+            if isinstance(change, str):
+                return change
+            changes += change
+        for name, value in changes:
+            self.devices.change(name, value)
+        return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
+
+    def _change(self, scene, name, value):
+        """[(change, value)], or a sentence about why it cannot be made here."""
+        if value is None:
+            return []
+        if name == "broadphase" and not scene.switches_broadphase:
+            return "each world here has a broad phase of its own"
+        if name == "solver" and value not in scene.solver_choices():
+            slider = next((each for each in scene.sliders if each.name == "solver" and value in each.choices), None)
+            if slider is None:
+                return f"each world here has a solver of its own: {plain_name(value)} is only measured"
+            return [("slider:solver", slider.low + slider.choices.index(value))]
+        if name == "tier" and value not in scene.tiers:
+            return f"this scene does not play with the tier {value}: it is only measured"
+        if name == "substeps" and value not in SUBSTEPS:
+            return f"{value} substeps are those that the scene began with: restart it"
+        return [(name, value)]
