@@ -25,7 +25,7 @@ APART = {"physics": set(), "assets": set(), "game": {"physics"}, "scenes": {"phy
 # Within game/, from the inside out: input knows no screens, screens know no command line.
 GAME = (
     "errors", "places", "startup", "input", "files", "drawing", "audio", "invariants", "scene", "overlays", "registry",
-    "run", "measure", "parts", "screens", "app", "command_line",
+    "measure", "run", "parts", "screens", "app", "command_line",
 )  # fmt: skip
 LIMIT = 400
 BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "base", "misc"}

@@ -11,12 +11,16 @@ import threading
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from game.measure.errors import Error
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.survey import Survey
+from game.measure.tiers import TierFigures
+from game.measure.timing import Cost
 from game.measure.worker import setting_of
-from physics import Snapshot
+from physics import PixelMask, Snapshot
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -29,6 +33,7 @@ class Surveyor:
         self.here: Setting | None = None  # under which the last moment was taken
         self.busy = False
         self.trouble = ""
+        self.tiers: dict[str, TierFigures] = {}  # of the sprites that were asked for, as far as they are known
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
         self.process: subprocess.Popen[str] | None = None
@@ -42,6 +47,20 @@ class Surveyor:
         number = self.survey.moments
         # Packing the pixels of a level takes longer than a frame.
         threading.Thread(target=self._hand_on, args=(snapshot, broadphase, number), daemon=True).start()
+
+    def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
+        """Measure every tier of two sprites: `tiers`."""
+        if self.process is None and not self._start():
+            return
+        self.tiers, self.busy = {}, True
+        path = Path(self.folder.name) / "sprites.npz"
+        arrays: dict[str, Any] = {f"solid_{k}": mask.solid for k, mask in enumerate((first, second))}
+        arrays |= {f"origin_{k}": np.array(tuple(mask.origin)) for k, mask in enumerate((first, second))}
+        try:
+            np.savez(path, **arrays)
+            self._say({"moment": None, "sprites": str(path)})
+        except (OSError, ValueError) as error:
+            self.trouble, self.busy = str(error), False
 
     def _start(self):
         path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
@@ -69,17 +88,22 @@ class Surveyor:
         order = {"moment": number, "snapshot": str(path), "broadphase": broadphase}
         try:
             snapshot.save(path)
-            assert self.process is not None and self.process.stdin is not None
-            self.process.stdin.write(json.dumps(order) + "\n")
-            self.process.stdin.flush()
+            self._say(order)
         except (OSError, ValueError) as error:
             self.found.put({"moment": number, "failed": str(error)})
+
+    def _say(self, order):
+        process = self.process
+        if process is None or process.stdin is None:
+            raise OSError("the process that measures has ended")
+        process.stdin.write(json.dumps(order) + "\n")
+        process.stdin.flush()
 
     def _listen(self, process):
         for line in process.stdout:
             with contextlib.suppress(ValueError):
                 self.found.put(json.loads(line))
-        self.found.put({"moment": None, "failed": "the process that measures has ended"})
+        self.found.put({"ended": True, "failed": "the process that measures has ended"})
 
     def turn(self) -> None:
         """Take what was found since the last turn; once per picture."""
@@ -97,14 +121,17 @@ class Surveyor:
         survey = self.survey
         if "failed" in found:
             self.trouble, self.busy = found["failed"], False
-            if found["moment"] is None:
+            if "ended" in found:
                 self.process = None
         elif "settings" in found:
             self.trouble = ""
             survey.planned, survey.kinds = found["settings"], tuple(found["kinds"])
             self.here = setting_of(found["here"])
+        elif "tier" in found:
+            figures = figures_of(found["tier"])
+            self.tiers[figures.tier] = figures
         elif "done" in found:
-            self.busy = self.busy and found["moment"] != survey.moments
+            self.busy = self.busy and found["moment"] not in (survey.moments, None)
         else:
             dot = survey.dot(setting_of(found["setting"]))
             if "errors" in found:
@@ -125,6 +152,12 @@ class Surveyor:
                     if pipe is not None:
                         pipe.close()
         self.folder.cleanup()
+
+
+def figures_of(values: list[Any]) -> TierFigures:
+    """A TierFigures from what JSON made of it."""
+    tier, shapes, hit, miss, wrong, missed = values
+    return TierFigures(tier, shapes, Cost(*hit), Cost(*miss), Rate(*wrong), Rate(*missed))
 
 
 def error_of(values: dict[str, Any]) -> Error:

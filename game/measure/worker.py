@@ -1,6 +1,6 @@
-"""`python -m game.measure.worker`: measures moments, off the frame of whoever plays.
+"""`python -m game.measure.worker`: measures moments and sprites, off the frame of whoever plays.
 
-A line of JSON on standard input is a moment to measure, in place of the one before; lines of JSON on standard output
+A line of JSON on standard input is what to measure, in place of what was before; lines of JSON on standard output
 are what was found. The process ends with its standard input, so that it never outlives the program that started it.
 """
 
@@ -14,11 +14,14 @@ from functools import partial
 from random import Random
 from typing import Any
 
+import numpy as np
+
 from game.measure.errors import Error, References
 from game.measure.moment import STEPS, Moment
 from game.measure.setting import Setting, settings_around
+from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
-from physics import Snapshot
+from physics import PixelMask, Snapshot
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
 
@@ -77,6 +80,14 @@ def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Calla
     say(done=True)
 
 
+def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> None:
+    """Measure every tier of two sprites, which lie in an .npz: solid_0, origin_0, solid_1, origin_1."""
+    with np.load(order["sprites"], allow_pickle=False) as stored:
+        masks = [PixelMask(stored[f"solid_{k}"], tuple(stored[f"origin_{k}"].tolist())) for k in (0, 1)]
+    measure_tiers(masks[0], masks[1], lambda figures: tell(json.dumps({"moment": order["moment"], "tier": figures})))
+    tell(json.dumps({"moment": order["moment"], "done": True}))
+
+
 def as_json(error: Error) -> dict[str, Any]:
     """An Error as JSON holds it."""
     return {**vars(error), "wrong": error.wrong, "missed": error.missed}
@@ -96,7 +107,10 @@ def main() -> None:
     while True:
         order = orders.next(order)
         try:
-            measure(order, partial(print, flush=True), partial(orders.holds, order))
+            if "sprites" in order:
+                measure_sprites(order, partial(print, flush=True))
+            else:
+                measure(order, partial(print, flush=True), partial(orders.holds, order))
         except (ValueError, OSError) as error:  # a moment that cannot be measured is told, and the next awaited
             print(json.dumps({"moment": order["moment"], "failed": str(error)}), flush=True)
 

@@ -9,6 +9,7 @@ from time import perf_counter
 import pygame
 
 from game.errors import StrictFailure, UsageError
+from game.measure.tiers import know_tiers
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
@@ -50,7 +51,10 @@ def run_headless(options: Options, registry: Registry) -> int:
         for frame in range(frames):
             session.step()
             overlays.note(scene)
-            if draws or (options.screenshot and frame == frames - 1):
+            kept = options.screenshot and frame == frames - 1
+            if kept:
+                know_tiers(scene)
+            if draws or kept:
                 started = perf_counter()
                 picture.draw_scene(scene, overlays)
                 session.report.note_drawing(perf_counter() - started)

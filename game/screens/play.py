@@ -305,6 +305,7 @@ class Play(SceneScreen):
         """Called when the screen is left for good."""
         super().close()
         self.close_costs()
+        self.measuring.leave()
 
     def _key(self, key):
         if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
@@ -347,6 +348,7 @@ class Play(SceneScreen):
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
+        self.measuring.measure_sprites()
         if self.costs_open:
             self.measuring.turn(self.now)
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)

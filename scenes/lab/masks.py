@@ -1,7 +1,8 @@
-"""Two planes, four verdicts: circle, box, turned box and pixels. Which of them lie, and what does the truth cost?
+"""Two planes, nine verdicts, from circle to exact pixels. Which of them lie, how often, and what does the truth cost?
 
-What to see: drag one plane along the other. The three cheap shapes say HIT while there is sky between the
-planes; the pixels say HIT when a pixel is shared. Beside each verdict stands what the test took.
+What to see: it opens where the box lies. Drag one plane along the other: the cheap shapes say HIT while there is sky
+between the planes; the pixels say HIT when a pixel is shared. Beside each verdict stands how many of its hits are none
+and how many true hits it misses, over thousands of poses, and what one test takes, of a hit and of a miss.
 """
 
 from math import hypot
@@ -10,43 +11,54 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, RED, SKY, SLATE, WHITE, YELLOW, faded
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
-from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measure.tiers import REPEATS
+from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
-from physics import Effects, collide, debug
+from physics import TIERS, Effects, World, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
 
 SPRITES = ("large_plane_a", "large_plane_b")
 ARENA = pygame.Rect(0, 16, 316, 254)
-START = ((90.0, 150.0, 0.0), (226.0, 150.0, 0.6))
+START = ((124.0, 166.0, 0.0), (190.0, 120.0, 0.6))  # five simple shapes say hit, and no pixel is shared
 MARGIN = 20  # [px] that a plane's middle keeps from the arena's edge
-COPIES = 24  # pairs off screen per tier: one pair alone would measure the call, not the test
-SPREAD = 1000.0  # [px] between copies: far beyond the reach of a plane
-COLORS = {"circle": ORANGE, "aabb": GREEN, "obb": SKY, "pixels": YELLOW}
-NAMES = {"circle": "circle", "aabb": "box", "obb": "turned box", "pixels": "pixels"}
-ROWS = ("circle", "aabb", "obb", "pixels")
-TABLE_X, TABLE_Y, ROW_HEIGHT, BAR_WIDTH = 324, 34, 40, 148
-WORDS = ("Drag a plane, turn it with the wheel.", "Cheap shapes say hit where sky", "is all that meets.")
-WORDS_Y = 240
+COLORS = {
+    "circle": ORANGE,
+    "aabb": GREEN,
+    "obb": SKY,
+    "capsule": PINK,
+    "hull": BLUE,
+    "parts": PAPER,
+    "outline": FOG,
+    "pixels": YELLOW,
+    "mask": WHITE,
+}
+NAMES = {"aabb": "box", "obb": "turned box", "mask": "exact"}
+DRAWN = ("circle", "aabb", "obb", "capsule", "hull")
+LIARS = ("circle", "aabb", "obb")  # caught by the bot
+TABLE_X, TABLE_Y, ROW_HEIGHT = 324, 42, 22
+HEADS = ("wrong", "missed", "hit", "miss")
+COLUMNS = (376, 408, 442, 474)  # right ends of the figures
+NOTE_Y = 246
 BOT_PATH = ((90, 150), (90, 60), (150, 84), (226, 150), (150, 216), (90, 150))
 BOT_LEG = 50  # steps per leg of the bot's path
 
 
 class Masks(Scene):
-    """One world per tier with the two planes in it, and one per tier with copies, for the clock."""
+    """One world per tier with the two planes in it; what a test costs is measured beside the game."""
 
     name = "lab/masks"
     title = "Masks"
-    about = "Drag and turn two planes: circle, box, turned box and pixels give their verdicts side by side."
+    about = "Drag and turn two planes: nine tiers, from circle to exact pixels, give their verdicts side by side."
     effects = Effects()  # who meets whom; nobody is pushed, and how deep they are is asked of collide()
     pieces = ("masks", "boxes", "circles", "contacts")
     features = (
-        "pixel masks by bitwise AND, as drawn, at any angle",
-        "bounds, circle and turned box beside them",
-        "what each verdict costs",
+        "pixel masks by bitwise AND, as drawn, and exactly, at any angle",
+        "eight simpler shapes beside them",
+        "how often each verdict is wrong, and what it costs",
     )
     actions = (
         ("mouse", "drag"),
@@ -57,41 +69,41 @@ class Masks(Scene):
     )
     overlays = ("masks", "contacts")
     head = HEAD
-    legend_at = (324, 196)
+    legend_at = (4, 246)
     hides_pointer = False
 
     def build(self):
-        """Eight worlds: four to look at, four to time."""
+        """A world per tier."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
-        self.sprites = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
+        self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
         self.sky = load_backdrop("sky_dusk")
         self.hands = Hands(START, 0, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
-        self.shown, self.timed = {}, {}
-        for tier in ROWS:
-            self.shown[tier] = self._world(tier, 1)
-            self.timed[tier] = self._world(tier, COPIES)
-        self.cost = {tier: Typical() for tier in ROWS}  # [us] of one test
-        self.verdicts = dict.fromkeys(ROWS, False)
-        self.lies = dict.fromkeys(ROWS, 0)  # steps in which a tier said hit and the pixels did not
+        self.shown: dict[str, World] = {tier: self._world(tier) for tier in TIERS}
+        self.verdicts: dict[str, bool] = dict.fromkeys(TIERS, False)
+        self.lies: dict[str, int] = dict.fromkeys(TIERS, 0)  # steps in which a tier said hit and the pixels did not
         self.wrong = self.steps = self.apart = self.hits = 0
 
-    def _world(self, tier, pairs):
+    def measured_sprites(self):
+        """The two planes."""
+        return self.masks[0], self.masks[1]
+
+    def _world(self, tier):
         world = self.add_world()
-        for _ in range(pairs):
-            for mask in self.masks:
-                world.add_body(mask, kind="kinematic", tier=tier)
+        for mask in self.masks:
+            world.add_body(mask, kind="kinematic", tier=tier)
         return world
 
     def update(self, inputs):
-        """Move the planes, put them into every world, and ask all four tiers."""
+        """Move the planes, put them into every world, and ask all tiers."""
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)
-        for worlds, pairs in ((self.shown, 1), (self.timed, COPIES)):
-            for world in worlds.values():
-                self._place(world, pairs)
-                world.step()
+        for world in self.shown.values():
+            for which, (x, y, angle) in enumerate(self.hands.poses):
+                bodies = world.bodies
+                bodies["x"][which], bodies["y"][which], bodies["angle"][which] = x, y, angle
+            world.step()
         self._judge()
 
     def _press(self, x, y):
@@ -100,29 +112,16 @@ class Masks(Scene):
         if near[which] < reach(self.masks[which]):
             self.hands.take(which, x, y)
 
-    def _place(self, world, pairs):
-        bodies = world.bodies
-        shift = np.arange(pairs) * SPREAD
-        for which, (x, y, angle) in enumerate(self.hands.poses):
-            bodies["x"][which::2] = x + shift
-            bodies["y"][which::2] = y
-            bodies["angle"][which::2] = angle
-
     def _judge(self):
         self.steps += 1
         for tier, world in self.shown.items():
             self.verdicts[tier] = len(world.contacts) > 0
         truth = self.verdicts["pixels"]
         self.wrong += truth != share_a_pixel(self.masks, self.hands.poses)
-        for tier in ROWS:
+        for tier in TIERS:
             self.lies[tier] += self.verdicts[tier] and not truth
         self.hits += truth
         self.apart += not any(self.verdicts.values())
-
-    def observe(self):
-        """The clock: one pair's share of what the copies took."""
-        for tier, world in self.timed.items():
-            self.cost[tier].note(world.profile.stages["narrow_phase"] / COPIES * 1e6)
 
     def views(self):
         """The overlays show the world of the pixels."""
@@ -131,64 +130,67 @@ class Masks(Scene):
     def draw(self, canvas, alpha):
         """The sky, the planes, and the table of verdicts."""
         canvas.surface.blit(self.sky, (0, 0))
-        for sprite, (x, y, angle) in zip(self.sprites, self.hands.poses, strict=True):
-            sprite.draw(canvas, self.camera, x, y, angle)
+        for plane, (x, y, angle) in zip(self.planes, self.hands.poses, strict=True):
+            plane.draw(canvas, self.camera, x, y, angle)
         canvas.surface.fill(INK, (ARENA.right, 0, 480 - ARENA.right, 270))
         canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
         canvas.text("MASKS", 4, 4, GOLD)
-        canvas.text("four verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
-        canvas.text("verdict", TABLE_X, TABLE_Y - 14, FOG, SMALL)
-        canvas.text("one test", 474, TABLE_Y - 14, FOG, SMALL, align="right")
-        for row, tier in enumerate(ROWS):
+        canvas.text("nine verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
+        canvas.text("of told", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
+        canvas.text("of true", COLUMNS[1], TABLE_Y - 20, FOG, SMALL, align="right")
+        canvas.text("one test [ns]", COLUMNS[3], TABLE_Y - 20, FOG, SMALL, align="right")
+        for name, right in zip(HEADS, COLUMNS, strict=True):
+            canvas.text(name, right, TABLE_Y - 12, FOG, SMALL, align="right")
+        for row, tier in enumerate(TIERS):
             self._draw_row(canvas, tier, TABLE_Y + row * ROW_HEIGHT)
-        for number, line in enumerate(WORDS):
-            canvas.text(line, TABLE_X, WORDS_Y + number * 8, FOG, SMALL)
+        for number, line in enumerate(self._notes()):
+            canvas.text(line, TABLE_X, NOTE_Y + number * 8, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
         verdict, color = self.verdicts[tier], COLORS[tier]
-        box = pygame.Rect(TABLE_X - 4, y - 4, 480 - TABLE_X, ROW_HEIGHT - 4)
+        lies = verdict and not self.verdicts["pixels"]
+        box = pygame.Rect(TABLE_X - 4, y - 3, 480 - TABLE_X, ROW_HEIGHT - 2)
         canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
         canvas.fix(box)
         canvas.surface.fill(color, (box.x, box.y, 2, box.height))
-        canvas.text(NAMES[tier], TABLE_X + 2, y, color)
-        canvas.text(
-            "HIT" if verdict else "no", TABLE_X + 96, y, RED if verdict else FOG, align="center", outline=verdict
+        canvas.text(NAMES.get(tier, tier), TABLE_X + 2, y - 1, color)
+        word = "HIT, and it is none" if lies else "HIT" if verdict else "no"
+        canvas.text(word, 474, y, RED if lies else PAPER if verdict else FOG, SMALL, align="right")
+        figures = self.tier_figures.get(tier)
+        if figures is None:
+            canvas.text("measuring", 474, y + 9, FOG, SMALL, align="right")
+            return
+        texts = (
+            f"{100 * figures.wrong.share:.1f} %",
+            f"{100 * figures.missed.share:.1f} %",
+            f"{1e9 * figures.hit.median:,.0f}",
+            f"{1e9 * figures.miss.median:,.0f}",
         )
-        cost, dearest = self.cost[tier].value, max(each.value for each in self.cost.values()) or 1.0
-        canvas.text(f"{cost:.2f} us" if cost < 100 else f"{cost:,.0f} us", 474, y, PAPER, align="right")
-        canvas.text(self._remark(tier), TABLE_X + 2, y + 13, PAPER, SMALL)
-        canvas.surface.fill(INK, (TABLE_X + 2, y + 24, BAR_WIDTH, 3))
-        canvas.surface.fill(color, (TABLE_X + 2, y + 24, max(1, round(BAR_WIDTH * cost / dearest)), 3))
+        for text, right in zip(texts, COLUMNS, strict=True):
+            canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
-    def _remark(self, tier):
-        if not self.verdicts[tier]:
-            return "apart"
-        if tier == "pixels":
-            found = collide(self.masks[0], tuple(self.hands.poses[0]), self.masks[1], tuple(self.hands.poses[1]))
-            depth = max(0.0, -min(found.separations.tolist(), default=0.0))
-            return f"{int(found.area)} pixels shared, {depth:.1f} px deep"
-        depth = max(0.0, -float(self.shown[tier].contacts["separation"].min()))
-        says = "and so do the pixels" if self.verdicts["pixels"] else "but no pixel is shared"
-        return f"{depth:.0f} px deep, {says}"
+    def _notes(self):
+        """How deep the planes are in each other, and on what the figures were measured."""
+        poses = [tuple(pose) for pose in self.hands.poses]
+        found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
+        depth = max(0.0, -min(found.separations.tolist(), default=0.0))
+        shared = f"{int(found.area)} pixels shared, {depth:.1f} px deep" if len(found) else "no pixel is shared"
+        figures = self.tier_figures.get("mask")
+        if figures is None:
+            return shared, "poses are being tested beside the game"
+        total = figures.hit.pieces // REPEATS, figures.miss.pieces // REPEATS
+        return shared, f"{total[0]:,} hits, {total[1]:,} misses, {figures.hit.runs} runs"
 
     def draw_on_frame(self, frame):
-        """The three simple shapes as thin lines: bright where they say hit."""
+        """The simple shapes as thin lines: bright where they say hit."""
         lens = frame.lens(self.camera)
         frame.surface.set_clip(frame.from_canvas(ARENA))
         width = max(1, frame.scale - 1)
-        for tier in ("circle", "aabb", "obb"):
+        for tier in DRAWN:
             color = COLORS[tier] if self.verdicts[tier] else faded(COLORS[tier], 0.45)
             for outline in debug.outlines(self.shown[tier]):
-                self._draw_outline(frame.surface, lens, outline, color, width)
+                draw_outline(frame.surface, lens, outline, color, width, frame.scale)
         frame.surface.set_clip(None)
-
-    def _draw_outline(self, surface, lens, outline, color, width):
-        if outline[0] == "circle":
-            _, x, y, radius = outline
-            pygame.draw.circle(surface, color, lens.points(x, y), radius * lens.scale, width)
-        elif outline[0] == "polygon":
-            x, y = lens.points(outline[1][:, 0], outline[1][:, 1])
-            pygame.draw.lines(surface, color, True, np.column_stack((x, y)).tolist(), width)
 
     def check(self):
         """The pixels are right in every step, and each cheap shape was caught lying."""
@@ -203,12 +205,12 @@ class Masks(Scene):
             Goal("planes seen hitting", 240, self.hits > 0, f"{self.hits} steps"),
             *(
                 Goal(
-                    f"the {NAMES[tier]} says hit where no pixel is shared",
+                    f"the {NAMES.get(tier, tier)} says hit where no pixel is shared",
                     300,
                     self.lies[tier] > 0,
                     f"{self.lies[tier]} steps",
                 )
-                for tier in ("circle", "aabb", "obb")
+                for tier in LIARS
             ),
         ]
 

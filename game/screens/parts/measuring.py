@@ -6,7 +6,7 @@ from game.measure.moment import here_of
 from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
 from game.scene import SUBSTEPS, Scene
-from physics import World
+from physics import TIERS, World
 
 EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
@@ -17,6 +17,7 @@ class Measuring:
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
         self.surveyor = Surveyor()
+        self.bench = Surveyor()  # of the scene's sprites
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
 
     @property
@@ -27,6 +28,18 @@ class Measuring:
     def now(self) -> Setting:
         """The setting that runs."""
         return here_of(self.world, self.scene.tier)
+
+    def measure_sprites(self) -> None:
+        """Once per picture: what the scene wants to know of the tiers of its sprites is measured, once."""
+        sprites = self.scene.measured_sprites()
+        if sprites is None or len(self.scene.tier_figures) == len(TIERS) or self.bench.trouble:
+            return
+        if not self.bench.busy:
+            self.bench.measure_sprites(*sprites)
+        self.bench.turn()
+        self.scene.tier_figures = self.bench.tiers
+        if len(self.bench.tiers) == len(TIERS):
+            self.bench.stop()
 
     def turn(self, now: float) -> None:
         """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done."""
@@ -46,6 +59,11 @@ class Measuring:
             self.surveyor.stop()
             self.surveyor = Surveyor(found)
         self.taken_at = None
+
+    def leave(self) -> None:
+        """End all that is being measured: the scene is left."""
+        self.close()
+        self.bench.stop()
 
     def apply(self, setting: Setting) -> str:
         """Put a setting to work in the scene, as input that a recording holds. Returns a line about it."""

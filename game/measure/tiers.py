@@ -1,0 +1,117 @@
+"""What every tier of two sprites costs and how often it is wrong, over poses around each other.
+
+The poses are drawn evenly from a disc of offsets and all angles, the disc so large that about half of them are hits:
+rates mean nothing without the share of hits in what they were counted on (hard_cases.md, section 3.2, chart 1). The
+truth is the exact test of pixel squares; hits and misses are timed apart, each on its own batch of real pairs.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from game.measure.rates import Rate
+from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
+from game.scene import Scene
+from physics import TIERS, PixelMask, fit
+from physics.queries.pair_batch import PairBatch
+
+POSES = 4000
+WANTED = 0.5  # of the poses are hits
+HALVINGS = 12  # of the interval in which the disc's radius is sought
+REPEATS = 3  # of a batch in a run: 40 us alone would be short for a clock
+
+
+class TierFigures(NamedTuple):
+    """One tier beside the exact mask. Costs are seconds a pair."""
+
+    tier: str
+    shapes: int  # that stand for the first sprite
+    hit: Cost
+    miss: Cost
+    wrong: Rate  # hits that are none, of all that it calls hits
+    missed: Rate  # true hits that it calls none, of all true hits
+
+
+class Poses(NamedTuple):
+    """(n, 3) poses of two sprites, and which of them truly meet."""
+
+    first: np.ndarray
+    second: np.ndarray
+    met: np.ndarray
+
+
+def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
+    """Poses of which about half are hits. Raises ValueError for a sprite without pixels, which never meets anything."""
+    exact = [fit(mask, "mask") for mask in (first, second)]
+    for name, mask in (("first", first), ("second", second)):
+        if not mask.area:
+            raise ValueError(f"{name} must have a solid pixel (got {mask})")
+    chance = np.random.default_rng(seed)
+    share, way = np.sqrt(chance.random(count)), chance.uniform(0.0, 2.0 * np.pi, count)
+    turns = chance.uniform(0.0, 2.0 * np.pi, (2, count))
+    base = chance.uniform(-500.0, 500.0, (count, 2))
+
+    def at(radius):
+        offset = radius * share[:, None] * np.stack([np.cos(way), np.sin(way)], axis=1)
+        poses = [np.column_stack([base, turns[0]]), np.column_stack([base + offset, turns[1]])]
+        batch = PairBatch(exact[0], poses[0], exact[1], poses[1])
+        batch.test()
+        return Poses(poses[0], poses[1], batch.met())
+
+    low, high = 0.0, 2.0 * (_reach(first) + _reach(second))  # where three quarters and more are misses
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if at(middle).met.mean() > WANTED:
+            low = middle
+        else:
+            high = middle
+    return at(high)
+
+
+def _reach(mask):
+    left, top, right, bottom = mask.bounds
+    return float(np.hypot(max(-left, right), max(-top, bottom)))
+
+
+def measure_tiers(
+    first: PixelMask,
+    second: PixelMask,
+    tell: Callable[[TierFigures], object],
+    tiers: Sequence[str] = TIERS,
+    seed: int = 0,
+) -> None:
+    """Measure the tiers in shuffled turns and tell each. Raises ValueError for a sprite without pixels."""
+    poses = poses_around(first, second, seed=seed)
+    shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
+    verdicts, batches = {}, {}
+    for tier, (a, b) in shapes.items():
+        all_of_them = PairBatch(a, poses.first, b, poses.second, seed)
+        all_of_them.test()
+        verdicts[tier] = all_of_them.met()
+        for kind, chosen in (("hit", poses.met), ("miss", ~poses.met)):
+            which = np.resize(np.flatnonzero(chosen), max(LEAST_PAIRS, int(chosen.sum())))
+            batches[f"{tier} {kind}"] = PairBatch(a, poses.first[which], b, poses.second[which], seed)
+    # A batch is tested so often that a run takes as long as a clock needs to be exact.
+    works = {name: partial(_test, batch) for name, batch in batches.items()}
+    costs = timed_in_turns(works, {name: REPEATS * len(batch) for name, batch in batches.items()}, seed=seed)
+    for tier in tiers:
+        says, is_so = verdicts[tier], poses.met
+        wrong = Rate(int((says & ~is_so).sum()), int(says.sum()))
+        missed = Rate(int((is_so & ~says).sum()), int(is_so.sum()))
+        tell(TierFigures(tier, len(shapes[tier][0]), costs[f"{tier} hit"], costs[f"{tier} miss"], wrong, missed))
+
+
+def know_tiers(scene: Scene) -> None:
+    """Measure here and now what a scene wants to know of its sprites; where nobody plays, there is time for it."""
+    sprites = scene.measured_sprites()
+    if sprites is not None and not scene.tier_figures:
+        found: list[TierFigures] = []
+        measure_tiers(*sprites, found.append)
+        scene.tier_figures = {figures.tier: figures for figures in found}
+
+
+def _test(batch):
+    for _ in range(REPEATS):
+        batch.test()
