@@ -33,6 +33,7 @@ class Surveyor:
         self.here: Setting | None = None  # under which the last moment was taken
         self.busy = False
         self.trouble = ""
+        self.revision = 0  # counts what was found
         self.tiers: dict[str, TierFigures] = {}  # of the sprites that were asked for, as far as they are known
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
@@ -119,6 +120,7 @@ class Surveyor:
 
     def _take(self, found):
         survey = self.survey
+        self.revision += 1
         if "failed" in found:
             self.trouble, self.busy = found["failed"], False
             if "ended" in found:

@@ -42,6 +42,7 @@ FEET = (
     "click: play with it   M closes",
     "M closes",
 )
+LASTS = 15  # pictures that a painted panel is shown, whatever is found meanwhile
 TRAIL = 12  # settings that were tried, joined by a line
 ROW = 8  # [text px]
 
@@ -61,6 +62,10 @@ class CostPanel:
         self.hovered: Setting | None = None
         self.chosen = 0  # of the list, for the keyboard
         self.focused = True
+        self.sheet: pygame.Surface | None = None  # as it was painted last, …
+        self.texts: list[tuple[pygame.Rect, str]] = []  # … with what is written on it
+        self.asked: tuple = ()
+        self.age = self.seen = 0
         self.rect = self.head = pygame.Rect(0, 0, 0, 0)
 
     @property
@@ -129,10 +134,24 @@ class CostPanel:
         return setting if distance < reach else None
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint into a frame rect: heading, plot, what the forms stand for, the finding, the list."""
-        self.rect, scale, now = rect, frame.text_scale, self.now()
+        """Paint into a frame rect. What is new in the survey waits a moment: to paint all takes a tenth of a frame."""
+        now = self.now()
         if not self.trail or self.trail[-1] != now:
             self.trail = [*self.trail, now][-TRAIL:]
+        asked = (tuple(rect), now, self.hovered, self.shown_kind(), self.focused, frame.palette, self.surveyor.trouble)
+        self.age += 1
+        if self.sheet is None or asked != self.asked or (self.age >= LASTS and self.seen != self.surveyor.revision):
+            self.asked, self.age, self.seen, before = asked, 0, self.surveyor.revision, len(frame.boxes)
+            self._paint(frame, rect, now)
+            self.sheet, self.texts = frame.surface.subsurface(rect).copy(), frame.boxes[before:]
+        else:
+            frame.surface.blit(self.sheet, rect)
+            frame.boxes.extend(self.texts)
+        frame.fix(rect)
+
+    def _paint(self, frame, rect, now):
+        """Heading, plot, what the forms stand for, the finding, the list."""
+        self.rect, scale = rect, frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
         left, width = rect.x + 5 * scale, rect.width - 10 * scale
@@ -147,7 +166,6 @@ class CostPanel:
             self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - 10 * scale - y), known, now, scale)
         foot = next((line for line in FEET if frame.measure(line, SMALL, scale)[0] <= width), FEET[-1])
         frame.text(foot, left, rect.bottom - 8 * scale, FOG, SMALL, scale)
-        frame.reserve(rect)
 
     def _draw_head(self, frame, left, y, width, scale):
         frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
@@ -188,7 +206,6 @@ class CostPanel:
             self._draw_dot(frame, plot, places[setting], setting, cost, error, now, scale)
         self.places = [(place, setting) for setting, place in places.items()]
         self._draw_name(frame, rect, places, known, now, scale)
-        frame.fix(rect)
 
     def _draw_dot(self, frame, plot, place, setting, cost, error, now, scale):
         color, form = look_of(setting, self.surveyor.here or now)
