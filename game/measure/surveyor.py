@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.measure.worker import setting_of
-from physics import PixelMask, Snapshot
+from physics import Fit, PixelMask, Snapshot
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -81,7 +82,9 @@ class Surveyor:
         except (OSError, ValueError) as error:
             self.trouble = f"the process that measures could not be started: {error}"
             return False
-        threading.Thread(target=self._listen, args=(self.process,), daemon=True).start()
+        # Neither holds the surveyor: whoever forgets to stop it leaves no process behind.
+        threading.Thread(target=_listen, args=(self.process, self.found), daemon=True).start()
+        weakref.finalize(self, self.process.kill)
         return True
 
     def _hand_on(self, snapshot, broadphase, number):
@@ -99,12 +102,6 @@ class Surveyor:
             raise OSError("the process that measures has ended")
         process.stdin.write(json.dumps(order) + "\n")
         process.stdin.flush()
-
-    def _listen(self, process):
-        for line in process.stdout:
-            with contextlib.suppress(ValueError):
-                self.found.put(json.loads(line))
-        self.found.put({"ended": True, "failed": "the process that measures has ended"})
 
     def turn(self) -> None:
         """Take what was found since the last turn; once per picture."""
@@ -156,10 +153,18 @@ class Surveyor:
         self.folder.cleanup()
 
 
+def _listen(process, found):
+    for line in process.stdout:
+        with contextlib.suppress(ValueError):
+            found.put(json.loads(line))
+    found.put({"ended": True, "failed": "the process that measures has ended"})
+
+
 def figures_of(values: list[Any]) -> TierFigures:
     """A TierFigures from what JSON made of it."""
-    tier, shapes, hit, miss, wrong, missed = values
-    return TierFigures(tier, shapes, Cost(*hit), Cost(*miss), Rate(*wrong), Rate(*missed))
+    tier, shapes, hit, miss, wrong, missed, build, fit = values
+    costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
+    return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))
 
 
 def error_of(values: dict[str, Any]) -> Error:

@@ -1,5 +1,6 @@
 """What is measured of a world: settings, ways, errors; told through a process and without one."""
 
+import gc
 import json
 
 import numpy as np
@@ -185,3 +186,13 @@ def test_a_survey_without_runs_says_nothing():
     here = Setting("hash", True)
     survey.dot(here)
     assert survey.known("verdict") == {} and survey.finding("verdict", here) == "" and survey.front("verdict") == []
+
+
+def test_a_surveyor_that_is_forgotten_leaves_no_process():
+    surveyor = Surveyor()
+    surveyor.measure(sprites().snapshot(), "sweep")
+    surveyor.wait(120.0)
+    process = surveyor.process
+    del surveyor
+    gc.collect()
+    assert process is not None and process.wait(10.0) != 0
