@@ -18,6 +18,7 @@ import pygame
 
 from assets.craft import png
 from game.drawing.presenter import SCREENSHOT_SCALE
+from game.measure.tiers import know_tiers
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.headless import start_dummy_display
@@ -58,7 +59,6 @@ SHOTS = {
     "lab/sleeping": Shot(330, 40, 118, 1),
     "lab/broadphases": Shot(60, 3, 158, 1, layers=("structure",)),
     "lab/masks": Shot(480, 0, 72),
-    "lab/ladder": Shot(3, zoom=3),
     "lab/shapes": Shot(120, 24, 50, 1),
     "lab/filters": Shot(240, 66, 24),
     "lab/sensors": Shot(240, 96, 56, 1),
@@ -94,6 +94,7 @@ class Film:
 
     def take(self):
         """The picture now."""
+        know_tiers(self.scene)
         self.picture.draw_scene(self.scene, self.overlays)
         return pygame.surfarray.array3d(self.picture.presenter.frame.surface).transpose(1, 0, 2)
 

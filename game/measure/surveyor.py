@@ -21,7 +21,7 @@ from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.measure.worker import setting_of
-from physics import Fit, PixelMask, Snapshot
+from physics import PixelMask, Snapshot
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -162,9 +162,8 @@ def _listen(process, found):
 
 def figures_of(values: list[Any]) -> TierFigures:
     """A TierFigures from what JSON made of it."""
-    tier, shapes, hit, miss, wrong, missed, build, fit = values
-    costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
-    return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))
+    tier, shapes, hit, miss, wrong, missed = values
+    return TierFigures(tier, shapes, Cost(*hit), Cost(*miss), Rate(*wrong), Rate(*missed))
 
 
 def error_of(values: dict[str, Any]) -> Error:

@@ -11,7 +11,7 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, RED, SKY, SLATE, WHITE, YELLOW, faded
+from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, SKY, SLATE, WHITE, YELLOW, faded
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measure.tiers import REPEATS
@@ -43,7 +43,7 @@ TABLE_X, TABLE_Y, ROW_HEIGHT = 324, 42, 22
 HEADS = ("wrong", "missed", "hit", "miss")
 COLUMNS = (376, 408, 442, 474)  # right ends of the figures
 NOTE_Y = 246
-BOT_PATH = ((90, 150), (90, 60), (150, 84), (226, 150), (150, 216), (90, 150))
+BOT_PATH = ((124, 166), (60, 215), (60, 90), (150, 84), (190, 120), (150, 216), (124, 166))
 BOT_LEG = 50  # steps per leg of the bot's path
 
 
@@ -150,15 +150,15 @@ class Masks(Scene):
         verdict, color = self.verdicts[tier], COLORS[tier]
         lies = verdict and not self.verdicts["pixels"]
         box = pygame.Rect(TABLE_X - 4, y - 3, 480 - TABLE_X, ROW_HEIGHT - 2)
-        canvas.surface.fill(faded(color, 0.75) if verdict else faded(SLATE, 0.8), box)
+        canvas.surface.fill(faded(SLATE, 0.8), box)
         canvas.fix(box)
-        canvas.surface.fill(color, (box.x, box.y, 2, box.height))
-        canvas.text(NAMES.get(tier, tier), TABLE_X + 2, y - 1, color)
+        canvas.surface.fill(color, (box.x, box.y, 3 if verdict else 1, box.height))
+        canvas.text(NAMES.get(tier, tier), TABLE_X + 2, y - 1, PAPER)
         word = "HIT, and it is none" if lies else "HIT" if verdict else "no"
-        canvas.text(word, 474, y, RED if lies else PAPER if verdict else FOG, SMALL, align="right")
+        canvas.text(word, 474, y, GOLD if lies else PAPER, SMALL, align="right")
         figures = self.tier_figures.get(tier)
         if figures is None:
-            canvas.text("measuring", 474, y + 9, FOG, SMALL, align="right")
+            canvas.text("measuring", 474, y + 9, PAPER, SMALL, align="right")
             return
         texts = (
             f"{100 * figures.wrong.share:.1f} %",
