@@ -364,4 +364,6 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
     changes = [(f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start]
     if scene.narrowphase != scene.effects.narrowphase:
         changes.append(("narrowphase", scene.narrowphase))
+    if scene.substeps is not None:
+        changes.append(("substeps", scene.substeps))
     return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]
