@@ -9,11 +9,12 @@ it to a tenth of a pixel, and tells nothing below what both, or a third with the
 chaos has no reference.
 """
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from game.measure.moment import STEPS, Moment, Way
+from game.measure.moment import STEPS, Moment, Way, failures_of
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from physics import World, distance
@@ -83,21 +84,21 @@ class References:
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
         fine, way = self.fine(), self.moment.way(setting)
-        failures = {name: count for name, count in way.failures.items() if count}
         last = int(self.horizon)
         return {
-            "overlap": Error(float(np.median(way.overlap)), 0.0, STEPS, failures),
-            "way": Error(float(way.apart(fine)[last - 1]), self.floor, last, failures),
+            "overlap": Error(float(np.median(way.overlap)), 0.0, STEPS, way.failures),
+            "way": Error(float(way.apart(fine)[last - 1]), self.floor, last, way.failures),
         }
 
     def _verdict(self, setting) -> Error:
         """Both worlds go the same way, as nobody is pushed; in some steps it is asked who meets whom."""
         told, true = self.moment.world(setting), self.moment.world(self.truth)
         wrong = missed = hits = said = 0
-        pixels = 0.0
+        pixels, failures = 0.0, Counter()
         for step in range(STEPS):
             told.step()
             true.step()
+            failures += failures_of(told)
             if step % (STEPS // LOOKS):
                 continue
             says, is_so = pairs_of(told), pairs_of(true)
@@ -105,7 +106,6 @@ class References:
             said, hits = said + len(says), hits + len(is_so)
             pixels += sum(abs(gap(true, *pair)) for pair in says ^ is_so)
         decided = said + missed
-        failures = {"cap_hits": count} if (count := told.profile.counters["cap_hits"]) else {}
         value = pixels / decided if decided else 0.0
         return Error(value, 0.0, STEPS, failures, Rate(wrong, said), Rate(missed, hits))
 

@@ -4,6 +4,7 @@ The scene's own rules take no part: bodies go on with the velocities that they h
 work, and what is timed is the physics and nothing else. Times and ways are never taken in one pass.
 """
 
+from collections import Counter
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +66,7 @@ class Way(NamedTuple):
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic
     overlap: np.ndarray  # (steps,) the deepest that contacts tell [px]
-    failures: dict[str, int]  # cap hits, bodies put aside, steps without a finite place
+    failures: dict[str, int]  # cap hits, bodies put aside, steps with a place that is not finite
 
     def apart(self, other: "Way") -> np.ndarray:
         """(steps,) root mean square over the moving bodies of how far this way is from another [px]."""
@@ -78,22 +79,27 @@ class Way(NamedTuple):
 def follow(world: World, steps: int, divided: int = 1) -> Way:
     """Step a world and note its way."""
     places, overlap = [], []
-    failures = {"cap_hits": 0, "put_aside": 0, "not_finite": 0}
+    failures = Counter()
     dt = world.dt / divided
     for _ in range(steps):
         for _ in range(divided):
             world.step(dt)
-            failures["cap_hits"] += world.profile.counters["cap_hits"]
-            failures["put_aside"] += len(world.events.quarantined)
+            failures += failures_of(world)
         rows = world.bodies
         order = np.argsort(rows["id"])
         place = np.stack([rows["center_x"], rows["center_y"]], axis=1)[order]
-        failures["not_finite"] += not np.isfinite(place).all()
+        if not np.isfinite(place).all():
+            failures["not_finite"] += 1
         places.append(place)
         separations = world.contacts["separation"]
         overlap.append(max(0.0, -float(separations.min())) if len(separations) else 0.0)
     moves = (world.bodies["kind"] == DYNAMIC)[np.argsort(world.bodies["id"])]
     return Way(np.array(places), moves, np.array(overlap), failures)
+
+
+def failures_of(world: World) -> Counter[str]:
+    """What went wrong in the last step, by how often; what did not is not there."""
+    return +Counter(cap_hits=world.profile.counters["cap_hits"], put_aside=len(world.events.quarantined))
 
 
 def here_of(world: World, tier: str | None) -> Setting:

@@ -1,5 +1,6 @@
 """What is known of a scene's settings: a dot of cost and error each, gathered run by run and moment by moment."""
 
+from collections import Counter
 from dataclasses import dataclass, field
 from statistics import median
 
@@ -46,10 +47,7 @@ class Dot:
             value = sum(e.value * w for e, w in zip(found, weights, strict=True)) / total if total else 0.0
         else:
             value = sum(each.value for each in found) / len(found)
-        failures: dict[str, int] = {}
-        for each in found:
-            for name, count in each.failures.items():
-                failures[name] = failures.get(name, 0) + count
+        failures = sum((Counter(each.failures) for each in found), Counter())
         floor, steps = max(each.floor for each in found), min(each.steps for each in found)
         return Error(value, floor, steps, failures, wrong, missed)
 
