@@ -1,5 +1,6 @@
 """What a scene asks the physics for: the stages that no effect needs do not exist in its world."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 
 from physics import checks
@@ -61,6 +62,12 @@ class Effects:
             sleeping=True,
             sensors=True,
         )
+
+    @classmethod
+    def named(cls, names: Iterable[str]) -> "Effects":
+        """Exactly the effects that names() lists, narrowphase too only where it is named. Raises TypeError for one
+        that there is not, ValueError for one without what it needs."""
+        return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
         """A copy with some effects changed."""

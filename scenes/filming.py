@@ -18,7 +18,6 @@ import pygame
 
 from assets.craft import png
 from game.drawing.presenter import SCREENSHOT_SCALE
-from game.measure.tiers import know_tiers
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.headless import start_dummy_display
@@ -94,7 +93,6 @@ class Film:
 
     def take(self):
         """The picture now."""
-        know_tiers(self.scene)
         self.picture.draw_scene(self.scene, self.overlays)
         return pygame.surfarray.array3d(self.picture.presenter.frame.surface).transpose(1, 0, 2)
 

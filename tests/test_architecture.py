@@ -24,8 +24,8 @@ ORDER = ("assets", "physics", "game", "scenes", "main")
 APART = {"physics": set(), "assets": set(), "game": {"physics"}, "scenes": {"physics", "game", "assets"}}
 # Within game/, from the inside out: input knows no screens, screens know no command line.
 GAME = (
-    "errors", "places", "startup", "input", "files", "drawing", "audio", "invariants", "scene", "overlays", "registry",
-    "measure", "run", "parts", "screens", "app", "command_line",
+    "errors", "places", "processes", "startup", "input", "files", "drawing", "audio", "invariants", "scene",
+    "overlays", "registry", "measure", "run", "parts", "screens", "app", "command_line",
 )  # fmt: skip
 LIMIT = 400
 BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "base", "misc"}

@@ -18,11 +18,11 @@ GRID = (52, 46, 76)
 class Axis:
     """Values from `low` to `high`, both above 0, widened to whole ticks' reach."""
 
-    def __init__(self, values: Iterable[float], unit: str) -> None:
+    def __init__(self, values: Iterable[float]) -> None:
         found = [value for value in values if value > 0.0] or [1.0]
         low, high = log10(min(found)) - PAD, log10(max(found)) + PAD
         spare = max(0.0, LEAST_SPAN - (high - low)) / 2
-        self.low, self.high, self.unit = low - spare, high + spare, unit
+        self.low, self.high = low - spare, high + spare
 
     def share(self, value: float) -> float:
         """Where a value above 0 lies, 0..1."""
@@ -56,20 +56,20 @@ class LogPlot:
             return left, self.strip.centery
         return left, self.area.bottom - self.y.share(y) * self.area.height
 
-    def draw_ground(self, frame: Frame, zero_name: str = "0") -> None:
+    def draw_ground(self, frame: Frame) -> None:
         """Ground, grid and the numbers of both axes."""
         surface, scale, area = frame.surface, self.scale, self.area
         bottom = self.strip.bottom if self.strip is not None else area.bottom
         surface.fill(INK, area)
         if self.strip is not None:
             surface.fill(faded(SLATE, 0.75), self.strip)
-            frame.text(zero_name, self.strip.x - 2 * scale, self.strip.centery - 2 * scale, FOG, SMALL, scale, "right")
+            frame.text("0", self.strip.x - 2 * scale, self.strip.centery - 2 * scale, FOG, SMALL, scale, "right")
         for value in self.x.ticks(max(2, area.width // (22 * scale))):
             left = round(self.place(value, 1.0)[0])
             pygame.draw.line(surface, GRID, (left, area.top), (left, bottom - 1))
             frame.text_if_free(number(value), left, bottom + 2 * scale, FOG, SMALL, scale, "center")
         for value in self.y.ticks(max(2, area.height // (9 * scale))):
-            top = round(self.place(1.0, value)[1]) if value > 0 else area.bottom
+            top = round(self.place(1.0, value)[1])
             pygame.draw.line(surface, GRID, (area.left, top), (area.right - 1, top))
             frame.text_if_free(number(value), area.x - 2 * scale, top - 2 * scale, FOG, SMALL, scale, "right")
         pygame.draw.rect(surface, SLATE, area, 1)

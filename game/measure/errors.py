@@ -11,6 +11,8 @@ chaos has no reference.
 
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -44,8 +46,16 @@ class Error:
         return self.value > self.floor
 
 
+class Reference(NamedTuple):
+    """A way that others are compared with."""
+
+    way: Way
+    horizon: int  # steps that it can be asked for
+    floor: float  # [px] below it nothing can be told
+
+
 class References:
-    """The reference runs of a moment, made when they are first needed; all() has the errors that it can tell."""
+    """What the settings of a moment are compared with; made when it is first needed."""
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -54,40 +64,35 @@ class References:
             self.truth = self.truth._replace(tier="mask")
         if moment.effects.stacking:
             self.truth = self.truth._replace(solver="soft_step", substeps=FINE * PLAIN)
-        self._fine: Way | None = None
-        self.horizon = self.floor = 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
         """The errors that this moment has; the first is the one to look at first."""
         return ("overlap", "way") if self.moment.effects.response else ("verdict",)
 
-    def fine(self) -> Way:
-        """The finest run; sets how long it can be asked (horizon, in steps) and what it cannot tell (floor)."""
-        if self._fine is None:
-            if self.moment.effects.stacking:
-                self._fine = self.moment.way(self.truth)
-                coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
-                stiff = self.moment.way(self.truth._replace(substeps="auto"))
-            else:
-                self._fine = self.moment.way(self.truth, divided=FINE)
-                coarse, stiff = self.moment.way(self.truth, divided=COARSE), self._fine
-            unsure, softness = coarse.apart(self._fine), stiff.apart(self._fine)
-            sure = unsure <= AGREED * VISIBLE
-            last = len(sure) if sure.all() else max(1, int(np.argmin(sure)))
-            self.horizon = last
-            self.floor = float(max(unsure[last - 1] / AGREED, softness[last - 1]))
-        return self._fine
+    @cached_property
+    def reference(self) -> Reference:
+        """The finest run, and what can be asked of it."""
+        if self.moment.effects.stacking:
+            fine = self.moment.way(self.truth)
+            coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
+            stiff = self.moment.way(self.truth._replace(substeps="auto"))
+        else:
+            fine = stiff = self.moment.way(self.truth, divided=FINE)
+            coarse = self.moment.way(self.truth, divided=COARSE)
+        unsure, softness = coarse.apart(fine), stiff.apart(fine)
+        sure = unsure <= AGREED * VISIBLE
+        last = len(sure) if sure.all() else max(1, int(np.argmin(sure)))
+        return Reference(fine, last, float(max(unsure[last - 1] / AGREED, softness[last - 1])))
 
     def errors(self, setting: Setting) -> dict[str, Error]:
         """{kind: Error} of a setting."""
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
-        fine, way = self.fine(), self.moment.way(setting)
-        last = int(self.horizon)
+        (fine, last, floor), way = self.reference, self.moment.way(setting)
         return {
             "overlap": Error(float(np.median(way.overlap)), 0.0, STEPS, way.failures),
-            "way": Error(float(way.apart(fine)[last - 1]), self.floor, last, way.failures),
+            "way": Error(float(way.apart(fine)[last - 1]), floor, last, way.failures),
         }
 
     def _verdict(self, setting) -> Error:

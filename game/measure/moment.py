@@ -22,7 +22,7 @@ class Moment:
     def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
         facts = snapshot.facts
         self.snapshot = snapshot
-        self.effects = effects_of(facts["effects"])
+        self.effects = Effects.named(facts["effects"])
         self.tiered = tuple(identity for identity, _, _ in facts["tiers"])
         tier = facts["tiers"][0][1] if facts["tiers"] else None
         self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
@@ -111,8 +111,3 @@ def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | s
     """A Setting without what the effects have no use for."""
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)
-
-
-def effects_of(names: list[str]) -> Effects:
-    """The effects of a list of names, as Effects.names() gives it."""
-    return Effects(**{name: True for name in names}).with_(narrowphase="narrowphase" in names)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from game.drawing.number_text import count_text, plain_name
 from game.scene import SUBSTEPS
 from physics import BROADPHASES, SOLVERS, TIERS, Effects
 
@@ -35,8 +36,8 @@ class Setting(NamedTuple):
 _WORDS = {
     "broadphase": str,
     "narrowphase": lambda on: "narrow phase" if on else "boxes only",
-    "solver": lambda name: str(name).replace("_", " "),
-    "substeps": lambda count: "substeps by load" if count == "auto" else f"{count} substep{'s' * (count != 1)}",
+    "solver": plain_name,
+    "substeps": lambda count: "substeps by load" if count == "auto" else count_text(count, "substep"),
     "tier": lambda name: f"as {name}",
 }
 

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
-from statistics import median
 
 from game.measure.errors import VISIBLE, Error
 from game.measure.front import TIE, cheaper, pareto
@@ -126,8 +125,3 @@ def shown(error: Error) -> str:
 
 def _sound(error):
     return not any(error.failures.values())
-
-
-def typical_noise(survey: Survey) -> float:
-    """The median noise of all costs, as a share."""
-    return median([dot.cost.noise for dot in survey.dots.values() if dot.cost is not None] or [0.0])

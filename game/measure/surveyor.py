@@ -2,13 +2,12 @@
 
 import contextlib
 import json
-import os
 import queue
 import subprocess
-import sys
 import tempfile
 import threading
 import weakref
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,88 +19,71 @@ from game.measure.setting import Setting
 from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
-from game.measure.worker import setting_of
+from game.processes import end_all, start_module
 from physics import PixelMask, Snapshot
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 class Surveyor:
-    """measure() hands on a moment, turn() takes what was found since into `survey`. `trouble`: why nothing is."""
+    """measure() hands on a moment, turn() takes what was found since into `survey`. `trouble`: why nothing is.
 
-    def __init__(self, survey: Survey | None = None) -> None:
-        self.survey = survey or Survey()
+    The process starts with the first order, and again with the first after stop().
+    """
+
+    def __init__(self) -> None:
+        self.survey = Survey()
         self.here: Setting | None = None  # under which the last moment was taken
         self.busy = False
         self.trouble = ""
         self.revision = 0  # counts what was found
         self.tiers: dict[str, TierFigures] = {}  # of the sprites that were asked for, as far as they are known
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-        self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
+        self.folder: tempfile.TemporaryDirectory[str] | None = None  # what is handed on lies there
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str) -> None:
         """Measure this moment too, instead of the one before if that is not done."""
-        if self.process is None and not self._start():
+        if not self._started():
             return
         self.survey.moments += 1
-        self.busy = True
         number = self.survey.moments
+        order = {"moment": number, "snapshot": self._path(f"{number}.npz"), "broadphase": broadphase}
         # Packing the pixels of a level takes longer than a frame.
-        threading.Thread(target=self._hand_on, args=(snapshot, broadphase, number), daemon=True).start()
+        threading.Thread(
+            target=_hand_on,
+            args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
+            daemon=True,
+        ).start()
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
         """Measure every tier of two sprites: `tiers`."""
-        if self.process is None and not self._start():
+        if not self._started():
             return
-        self.tiers, self.busy = {}, True
-        path = Path(self.folder.name) / "sprites.npz"
+        self.tiers = {}
         arrays: dict[str, Any] = {f"solid_{k}": mask.solid for k, mask in enumerate((first, second))}
         arrays |= {f"origin_{k}": np.array(tuple(mask.origin)) for k, mask in enumerate((first, second))}
-        try:
-            np.savez(path, **arrays)
-            self._say({"moment": None, "sprites": str(path)})
-        except (OSError, ValueError) as error:
-            self.trouble, self.busy = str(error), False
+        order = {"moment": None, "sprites": self._path("sprites.npz")}
+        _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
-    def _start(self):
-        path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
-        options: dict[str, Any] = {"start_new_session": True}
-        if sys.platform == "win32":
-            options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
-        try:
-            self.process = subprocess.Popen(
-                [sys.executable, "-m", "game.measure.worker"],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                text=True,
-                env={**os.environ, "PYTHONPATH": path},
-                **options,
-            )
-        except (OSError, ValueError) as error:
-            self.trouble = f"the process that measures could not be started: {error}"
-            return False
-        # Neither holds the surveyor: whoever forgets to stop it leaves no process behind.
-        threading.Thread(target=_listen, args=(self.process, self.found), daemon=True).start()
-        weakref.finalize(self, self.process.kill)
+    def _started(self):
+        """Start the process where there is none; whether there is one, which is then busy."""
+        if self.process is None:
+            try:
+                self.process = start_module("game.measure.worker")
+                self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
+            except (OSError, ValueError) as error:
+                self.stop()
+                self.trouble = f"the process that measures could not be started: {error}"
+                return False
+            self.found = queue.SimpleQueue()  # what an earlier process tells last is of no use
+            # The thread does not hold the surveyor: whoever forgets to stop it leaves no process behind.
+            threading.Thread(target=_listen, args=(self.process, self.found), daemon=True).start()
+            weakref.finalize(self, self.process.kill)
+        self.busy = True
         return True
 
-    def _hand_on(self, snapshot, broadphase, number):
-        path = Path(self.folder.name) / f"{number}.npz"
-        order = {"moment": number, "snapshot": str(path), "broadphase": broadphase}
-        try:
-            snapshot.save(path)
-            self._say(order)
-        except (OSError, ValueError) as error:
-            self.found.put({"moment": number, "failed": str(error)})
-
-    def _say(self, order):
-        process = self.process
-        if process is None or process.stdin is None:
-            raise OSError("the process that measures has ended")
-        process.stdin.write(json.dumps(order) + "\n")
-        process.stdin.flush()
+    def _path(self, name):
+        assert self.folder is not None  # as long as there is a process
+        return str(Path(self.folder.name) / name)
 
     def turn(self) -> None:
         """Take what was found since the last turn; once per picture."""
@@ -121,18 +103,18 @@ class Surveyor:
         if "failed" in found:
             self.trouble, self.busy = found["failed"], False
             if "ended" in found:
-                self.process = None
+                self.stop()
         elif "settings" in found:
             self.trouble = ""
             survey.planned, survey.kinds = found["settings"], tuple(found["kinds"])
-            self.here = setting_of(found["here"])
+            self.here = Setting(*found["here"])
         elif "tier" in found:
             figures = figures_of(found["tier"])
             self.tiers[figures.tier] = figures
         elif "done" in found:
             self.busy = self.busy and found["moment"] not in (survey.moments, None)
         else:
-            dot = survey.dot(setting_of(found["setting"]))
+            dot = survey.dot(Setting(*found["setting"]))
             if "errors" in found:
                 dot.errors[found["moment"]] = {kind: error_of(each) for kind, each in found["errors"].items()}
             else:
@@ -142,15 +124,22 @@ class Surveyor:
     def stop(self) -> None:
         """End the process; what was found stays."""
         process, self.process = self.process, None
+        folder, self.folder = self.folder, None
         self.busy = False
         if process is not None:
-            process.kill()
-            process.wait()
-            for pipe in (process.stdin, process.stdout):
-                with contextlib.suppress(OSError):
-                    if pipe is not None:
-                        pipe.close()
-        self.folder.cleanup()
+            end_all([process])
+        if folder is not None:
+            folder.cleanup()
+
+
+def _hand_on(process, order, save, found):
+    """Save what an order names, and give it."""
+    try:
+        save()
+        process.stdin.write(json.dumps(order) + "\n")
+        process.stdin.flush()
+    except (OSError, ValueError) as error:
+        found.put({"moment": order["moment"], "failed": str(error)})
 
 
 def _listen(process, found):

@@ -60,7 +60,7 @@ def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: 
         batch.test()
         return Poses(poses[0], poses[1], batch.met())
 
-    low, high = 0.0, 2.0 * (_reach(first) + _reach(second))  # where three quarters and more are misses
+    low, high = 0.0, 2.0 * (first.reach(0.0, 0.0) + second.reach(0.0, 0.0))  # where three quarters and more are misses
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         if at(middle).met.mean() > WANTED:
@@ -68,11 +68,6 @@ def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: 
         else:
             high = middle
     return at(high)
-
-
-def _reach(mask):
-    left, top, right, bottom = mask.bounds
-    return float(np.hypot(max(-left, right), max(-top, bottom)))
 
 
 def measure_tiers(
@@ -85,14 +80,13 @@ def measure_tiers(
     """Measure the tiers in shuffled turns and tell each. Raises ValueError for a sprite without pixels."""
     poses = poses_around(first, second, seed=seed)
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
-    verdicts, batches = {}, {}
+    verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
     for tier, (a, b) in shapes.items():
-        all_of_them = PairBatch(a, poses.first, b, poses.second, seed)
-        all_of_them.test()
-        verdicts[tier] = all_of_them.met()
         for kind, chosen in (("hit", poses.met), ("miss", ~poses.met)):
             which = np.resize(np.flatnonzero(chosen), max(LEAST_PAIRS, int(chosen.sum())))
-            batches[f"{tier} {kind}"] = PairBatch(a, poses.first[which], b, poses.second[which], seed)
+            batch = batches[f"{tier} {kind}"] = PairBatch(a, poses.first[which], b, poses.second[which], seed)
+            batch.test()
+            verdicts[tier][which] = batch.met()
     # A batch is tested so often that a run takes as long as a clock needs to be exact.
     works = {name: partial(_test, batch) for name, batch in batches.items()}
     costs = timed_in_turns(works, {name: REPEATS * len(batch) for name, batch in batches.items()}, seed=seed)

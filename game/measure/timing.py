@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 RUNS = 5
 LEAST_PAIRS = 1000  # what a cost per pair is measured on, at least
-LEAST_STEPS = 300  # … and a cost per step, over all runs
 FINE = 1e-6  # [s] a clock that is coarser is no clock for a step
 
 # The processor's time, which is not ours while others have it, where it is told finely enough (not on Windows).

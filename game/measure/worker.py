@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from game.measure.errors import Error, References
+from game.measure.errors import References
 from game.measure.moment import STEPS, Moment
-from game.measure.setting import Setting, settings_around
+from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
 from physics import PixelMask, Snapshot
@@ -68,7 +68,7 @@ def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Calla
         if not goes_on():
             return
         moment.time_run(setting, 2)  # compiles what is missing
-        say(setting=setting, errors={kind: as_json(error) for kind, error in references.errors(setting).items()})
+        say(setting=setting, errors={kind: vars(error) for kind, error in references.errors(setting).items()})
         say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
     chance = Random(number)
     for _ in range(RUNS - 1):
@@ -86,16 +86,6 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
         masks = [PixelMask(stored[f"solid_{k}"], tuple(stored[f"origin_{k}"].tolist())) for k in (0, 1)]
     measure_tiers(masks[0], masks[1], lambda figures: tell(json.dumps({"moment": order["moment"], "tier": figures})))
     tell(json.dumps({"moment": order["moment"], "done": True}))
-
-
-def as_json(error: Error) -> dict[str, Any]:
-    """An Error as JSON holds it."""
-    return {**vars(error), "wrong": error.wrong, "missed": error.missed}
-
-
-def setting_of(values: list[Any]) -> Setting:
-    """A Setting from what JSON made of it."""
-    return Setting(*values)
 
 
 def main() -> None:

@@ -69,9 +69,7 @@ class Work:
 
 def versions_of(job: dict[str, Any]) -> list[Version]:
     """The kernels of a job, by running its warm-up uncompiled."""
-    effects = physics.Effects(**{name: True for name in job["effects"]}).with_(
-        narrowphase="narrowphase" in job["effects"]
-    )
+    effects = physics.Effects.named(job["effects"])
     return listing(lambda: physics.warmup(effects, job["broadphase"], job["solver"], pieces=job["pieces"]))
 
 

@@ -7,7 +7,6 @@ import contextlib
 import json
 import os
 import subprocess
-import sys
 import threading
 from collections.abc import Iterator
 from hashlib import blake2b
@@ -16,12 +15,12 @@ from typing import Any
 
 import physics
 from game.errors import UsageError
+from game.processes import ROOT, end_all, start_module
 from game.registry import Registry
 from game.run.warmup import pieces_of, solvers_of, strategy_of
 from game.scene import Scene
 from physics.jit.folders import cache_home, source_stamp
 
-ROOT = Path(__file__).resolve().parents[2]
 MOST = 8  # processes: each takes 150 MB, and no scene has kernels for more
 Job = dict[str, Any]  # what physics.warmup takes, as JSON can hold it
 
@@ -131,14 +130,7 @@ class Compilers:
     def stop(self) -> None:
         """End them all; what they have compiled stays."""
         workers, self.workers, self.resting = self.workers, [], []
-        for worker in workers:
-            worker.kill()
-        for worker in workers:
-            worker.wait()
-            for pipe in (worker.stdin, worker.stdout):
-                with contextlib.suppress(OSError):
-                    if pipe is not None:
-                        pipe.close()
+        end_all(workers)
 
 
 def cores_here() -> int:
@@ -149,21 +141,8 @@ def cores_here() -> int:
 
 def start_worker() -> "subprocess.Popen[str] | None":
     """One process, of low priority, deaf to Ctrl-C in the terminal; None where none can be started."""
-    path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
-    environment = {**os.environ, "HITBOX_LISTING": "1", "PYTHONPATH": path}
-    options: dict[str, Any] = {"start_new_session": True}
-    if sys.platform == "win32":
-        options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
     try:
-        return subprocess.Popen(
-            [sys.executable, "-m", "game.run.compile_worker"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            env=environment,
-            **options,
-        )
+        return start_module("game.run.compile_worker", HITBOX_LISTING="1")
     except (OSError, ValueError):
         return None
 

@@ -75,7 +75,7 @@ class Play(SceneScreen):
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
         self.measuring = Measuring(scene, devices)
-        self.costs = CostPanel(lambda: self.measuring.surveyor, self.measuring.now, self.try_setting)
+        self.costs = CostPanel(self.measuring.surveyor, self.measuring.now, self.try_setting)
         self.costs_open = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
@@ -361,7 +361,9 @@ class Play(SceneScreen):
 
 def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
     """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
-    changes = [(f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start]
+    changes: list[tuple[str, Any]] = [
+        (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
+    ]
     if scene.narrowphase != scene.effects.narrowphase:
         changes.append(("narrowphase", scene.narrowphase))
     if scene.substeps is not None:

@@ -14,7 +14,7 @@ from physics.collision.dispatch import narrow_phase_for_queries, no_work
 from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.library import Library
 from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rows import is_snapped, rounding_of
+from physics.shapes.rows import describe
 from physics.tables.body import BODY
 from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import SHAPE
@@ -47,9 +47,11 @@ class PairBatch:
             who = order[side * self.count : (side + 1) * self.count]
             self._place_bodies(who, poses)
             rows.append(first + np.arange(self.count * len(shapes)).reshape(len(shapes), self.count))
-            first += self.count * len(shapes)
-            for number, shape in enumerate(shapes):
-                self._place_shape(shape, rows[-1][number], who, poses)
+            angles = np.unique(poses[:, 2]).tolist()
+            for shape in shapes:
+                last = first + self.count
+                describe(self.library, shape, self.shapes[first:last], np.arange(first, last), who, angles)
+                first = last
         refresh_aabbs(np.arange(len(self.shapes)), self.library.tables, self.bodies, self.shapes)
         self.candidates, self.pair_of = self._near(rows[0], rows[1], np.random.default_rng(seed + 1))
         self.narrow_phase, self.found = narrow_phase_for_queries(), np.zeros(0, MANIFOLD)
@@ -61,18 +63,6 @@ class PairBatch:
         for name, column in zip(("x", "y", "angle"), poses.T, strict=True):
             self.bodies[name][who] = self.bodies[f"previous_{name}"][who] = column
         self.bodies["id"][who] = who
-
-    def _place_shape(self, shape, rows, who, poses):
-        kind, geometry, wrapped = self.library.add(shape)
-        values = {"id": rows, "body": who, "body_row": who, "kind": kind, "geometry": geometry, "wrapped": wrapped}
-        for name, value in values.items():
-            self.shapes[name][rows] = value
-        radius, x, y = rounding_of(shape)
-        self.shapes["radius"][rows], self.shapes["local_x"][rows], self.shapes["local_y"][rows] = radius, x, y
-        self.shapes["snap"][rows] = is_snapped(shape)
-        if is_snapped(getattr(shape, "shape", shape)):
-            for angle in np.unique(poses[:, 2]).tolist():
-                self.library.raster(geometry, angle)
 
     def _near(self, rows_a, rows_b, rng):
         """(candidates (m, 2) SHAPE rows whose boxes meet, the pair that each belongs to), in an order by chance."""

@@ -85,13 +85,21 @@ def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
     """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
-    kind, geometry, wrapped = library.add(shape)
-    inner = getattr(shape, "shape", shape)
-    s, b = shapes[row : row + 1], bodies[row : row + 1]
-    s["id"], s["body"], s["body_row"], s["kind"], s["geometry"], s["wrapped"] = row, row, row, kind, geometry, wrapped
-    s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
-    s["snap"] = is_snapped(shape)
+    b = bodies[row : row + 1]
+    describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
     b["id"], b["x"], b["y"], b["angle"] = row, *pose
     b["previous_x"], b["previous_y"], b["previous_angle"] = pose
-    if is_snapped(inner):
-        library.raster(geometry, pose[2])
+
+
+def describe(
+    library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
+) -> None:
+    """Fill SHAPE rows, a view, for one shape at so many places in no world; angles: those that its bodies have."""
+    kind, geometry, wrapped = library.add(shape)
+    rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
+    rows["kind"], rows["geometry"], rows["wrapped"] = kind, geometry, wrapped
+    rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
+    rows["snap"] = is_snapped(shape)
+    if is_snapped(getattr(shape, "shape", shape)):
+        for angle in angles:
+            library.raster(geometry, angle)

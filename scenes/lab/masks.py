@@ -14,7 +14,7 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, SKY, SLATE, WHITE, YELLOW, faded
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
-from game.measure.tiers import REPEATS
+from game.measure.tiers import POSES
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
 from physics import TIERS, Effects, World, collide, debug
@@ -109,7 +109,7 @@ class Masks(Scene):
     def _press(self, x, y):
         near = [hypot(x - px, y - py) for px, py, _ in self.hands.poses]
         which = int(near[1] < near[0])
-        if near[which] < reach(self.masks[which]):
+        if near[which] < self.masks[which].reach(0.0, 0.0):
             self.hands.take(which, x, y)
 
     def _judge(self):
@@ -178,8 +178,8 @@ class Masks(Scene):
         figures = self.tier_figures.get("mask")
         if figures is None:
             return shared, "poses are being tested beside the game"
-        total = figures.hit.pieces // REPEATS, figures.miss.pieces // REPEATS
-        return shared, f"{total[0]:,} hits, {total[1]:,} misses, {figures.hit.runs} runs"
+        hits = figures.missed.total
+        return shared, f"{hits:,} hits, {POSES - hits:,} misses, {figures.hit.runs} runs"
 
     def draw_on_frame(self, frame):
         """The simple shapes as thin lines: bright where they say hit."""
@@ -226,12 +226,6 @@ class Masks(Scene):
         """The poses and the tallies."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
-
-
-def reach(mask):
-    """The farthest solid corner from the mask's origin [px]."""
-    left, top, right, bottom = mask.bounds
-    return max(hypot(x, y) for x in (left, right) for y in (top, bottom))
 
 
 def share_a_pixel(masks, poses):

@@ -1,4 +1,4 @@
-"""What was chosen before a restart is in the recording that begins there: substeps were not, and the replay diverged."""
+"""A recording that begins at a restart holds the substeps chosen before it: it did not, and its replay diverged."""
 
 from game.command_line import run
 from game.registry import Registry

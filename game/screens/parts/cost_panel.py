@@ -6,11 +6,13 @@ import pygame
 
 from game.drawing.canvas import SMALL, TEXT, shorten, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, Color, faded
+from game.drawing.number_text import count_text
 from game.drawing.plot import Axis, LogPlot, number
 from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
+from game.measure.moment import STEPS
 from game.measure.setting import Setting
-from game.measure.survey import Survey, shown, told
+from game.measure.survey import shown, told
 from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
 from game.screens.parts.switches import following
@@ -20,20 +22,13 @@ TITLES = {
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
-# What is changed -> colour and form: told apart without colour too.
-LOOKS: dict[str, tuple[Color, str]] = {
-    "tier": (SKY, "square"),
-    "broadphase": (GREEN, "diamond"),
-    "substeps": (ORANGE, "circle"),
-    "solver": (YELLOW, "triangle"),
-    "narrowphase": (RED, "cross"),
-}
-NAMES = {
-    "tier": "tier",
-    "broadphase": "broad phase",
-    "substeps": "substeps",
-    "solver": "solver",
-    "narrowphase": "narrow phase",
+# What is changed -> its name, colour and form: told apart without colour too. The first that differs is shown.
+LOOKS: dict[str, tuple[str, Color, str]] = {
+    "tier": ("tier", SKY, "square"),
+    "broadphase": ("broad phase", GREEN, "diamond"),
+    "solver": ("solver", YELLOW, "triangle"),
+    "substeps": ("substeps", ORANGE, "circle"),
+    "narrowphase": ("narrow phase", RED, "cross"),
 }
 NEAR = 7  # [text px] from a dot that still names it
 FEET = (
@@ -48,35 +43,21 @@ ROW = 8  # [text px]
 
 
 class CostPanel:
-    """source(): who measures; now(): the setting that runs; apply(setting) puts one to work in the scene, or tells
-    why it cannot."""
+    """now(): the setting that runs; apply(setting) puts one to work in the scene, or tells why it cannot."""
 
-    def __init__(
-        self, source: Callable[[], Surveyor], now: Callable[[], Setting], apply: Callable[[Setting], None]
-    ) -> None:
-        self.source, self.now, self.apply = source, now, apply
+    def __init__(self, surveyor: Surveyor, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
+        self.surveyor, self.survey, self.now, self.apply = surveyor, surveyor.survey, now, apply
         self.kind: str | None = None  # of error; None: the first there is
         self.trail: list[Setting] = []
         self.places: list[tuple[tuple[float, float], Setting]] = []  # of the last picture's dots
         self.rows: list[tuple[pygame.Rect, Setting]] = []
         self.hovered: Setting | None = None
-        self.chosen = 0  # of the list, for the keyboard
         self.focused = True
         self.sheet: pygame.Surface | None = None  # as it was painted last, …
         self.texts: list[tuple[pygame.Rect, str]] = []  # … with what is written on it
         self.asked: tuple = ()
         self.age = self.seen = 0
         self.rect = self.head = pygame.Rect(0, 0, 0, 0)
-
-    @property
-    def surveyor(self) -> Surveyor:
-        """Who measures."""
-        return self.source()
-
-    @property
-    def survey(self) -> Survey:
-        """What is measured so far."""
-        return self.surveyor.survey
 
     def shown_kind(self) -> str:
         """The error that is plotted, "" before anything is known."""
@@ -122,7 +103,7 @@ class CostPanel:
         """Plot another error, where there are several."""
         kinds = self.survey.kinds
         if kinds:
-            self.kind = kinds[(kinds.index(self.shown_kind()) + way) % len(kinds)]
+            self.kind = following(kinds, self.shown_kind(), way)
 
     def _under(self, position):
         for rect, setting in self.rows:
@@ -175,8 +156,8 @@ class CostPanel:
             more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
             lines = [*wrap(f"up: {TITLES[kind]} [px]{more}; right: time of a step [us]", width, SMALL, scale), *lines]
         self.head = pygame.Rect(left, y, width, len(lines) * 7 * scale)
-        for number_, line in enumerate(lines):
-            frame.text(line, left, y + number_ * 7 * scale, FOG, SMALL, scale)
+        for row, line in enumerate(lines):
+            frame.text(line, left, y + row * 7 * scale, FOG, SMALL, scale)
         return self.head.bottom + 2 * scale
 
     def _state(self):
@@ -186,13 +167,13 @@ class CostPanel:
         if not survey.dots:
             return "taking this moment of the game ..."
         sure = sum(dot.sure for dot in survey.dots.values())
-        moments = f"{survey.moments} moment{'s' * (survey.moments != 1)} of 60 steps"
+        moments = f"{count_text(survey.moments, 'moment')} of {STEPS} steps"
         return f"{sure} of {max(survey.planned, len(survey.dots))} settings measured, {RUNS} runs each, {moments}"
 
     def _draw_plot(self, frame, rect, known, now, scale):
-        x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)], "us")
+        x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)])
         errors = [told(error) for _, error in known.values()]
-        plot = LogPlot(rect, x, Axis([*errors, VISIBLE], "px"), any(error <= 0.0 for error in errors), scale)
+        plot = LogPlot(rect, x, Axis([*errors, VISIBLE]), any(error <= 0.0 for error in errors), scale)
         plot.draw_ground(frame)
         plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
         places = {s: plot.place(1e6 * cost.median, told(error)) for s, (cost, error) in known.items()}
@@ -241,12 +222,12 @@ class CostPanel:
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
         x = left
         for name in names:
-            color, form = LOOKS[name]
-            wide = frame.measure(NAMES[name], SMALL, scale)[0] + 14 * scale
+            word, color, form = LOOKS[name]
+            wide = frame.measure(word, SMALL, scale)[0] + 14 * scale
             if x + wide > left + width and x > left:
                 x, y = left, y + ROW * scale
             draw_form(frame.surface, form, (x + 3 * scale, y + 3 * scale), 2 * scale, frame.tone(color), True)
-            frame.text(NAMES[name], x + 7 * scale, y, FOG, SMALL, scale)
+            frame.text(word, x + 7 * scale, y, FOG, SMALL, scale)
             x += wide
         return y + (ROW + 2) * scale
 
@@ -291,16 +272,14 @@ class CostPanel:
 
 
 def kind_of(setting: Setting, base: Setting) -> str:
-    """What of a setting is other than in another: the first of LOOKS that is."""
+    """What of a setting is other than in another one."""
     differs = setting.differs(base)
-    if "solver" in differs:
-        return "solver"
-    return next((name for name in LOOKS if name in differs), "substeps" if setting.substeps else "broadphase")
+    return next(name for name in LOOKS if name in differs)
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
     """Colour and form of a dot; white for the setting in which the moment was taken."""
-    return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)]
+    return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
 
 def draw_form(

@@ -54,10 +54,7 @@ class Measuring:
 
     def close(self) -> None:
         """End the process; what was measured stays, and more is added when it is opened again."""
-        if self.surveyor.process is not None:
-            found = self.surveyor.survey
-            self.surveyor.stop()
-            self.surveyor = Surveyor(found)
+        self.surveyor.stop()
         self.taken_at = None
 
     def leave(self) -> None:

@@ -92,7 +92,7 @@ def test_the_way_of_a_broad_phase_is_no_other_and_fewer_substeps_are_worse():
     overlaps = [errors[here._replace(substeps=n)]["overlap"].value for n in (1, 2, 4, 8)]
     assert overlaps == sorted(overlaps, reverse=True) and overlaps[0] > 10 * overlaps[-1]
     exact = moment.way(references.truth)
-    assert not exact.apart(references.fine()).any(), "the reference is not wrong beside itself"
+    assert not exact.apart(references.reference.way).any(), "the reference is not wrong beside itself"
 
 
 def test_a_fall_is_off_by_what_the_closed_form_says():
