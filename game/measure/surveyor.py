@@ -9,6 +9,7 @@ import threading
 import weakref
 from functools import partial
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -93,9 +94,10 @@ class Surveyor:
 
     def wait(self, seconds: float) -> None:
         """Take what is found until the moment is done, for so long at most."""
+        end = monotonic() + seconds
         with contextlib.suppress(queue.Empty):
             while self.busy:
-                self._take(self.found.get(timeout=seconds))
+                self._take(self.found.get(timeout=max(0.0, end - monotonic())))
 
     def _take(self, found):
         survey = self.survey

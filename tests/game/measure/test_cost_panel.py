@@ -1,5 +1,7 @@
 """The plot of what accuracy costs: reached, read and worked as a player does."""
 
+from time import monotonic
+
 import pygame
 import pytest
 
@@ -26,12 +28,13 @@ def driver(drive):
         play.close()
 
 
-def look(driver):
-    """One more picture, after all that is being measured is."""
-    play = driver.screen
-    play.measuring.surveyor.wait(120.0)
+def look(driver, known):
+    """A picture in which so much is measured: known(survey)."""
+    surveyor, end = driver.screen.measuring.surveyor, monotonic() + 120.0
+    while not known(surveyor.survey) and monotonic() < end:
+        surveyor.wait(0.1)
     driver.turns(2)
-    return play, driver.app.arcade.picture.presenter.frame
+    return driver.app.arcade.picture.presenter.frame
 
 
 def test_from_the_title_to_a_finding_in_the_shooter_in_three_keys(driver):
@@ -39,8 +42,9 @@ def test_from_the_title_to_a_finding_in_the_shooter_in_three_keys(driver):
         assert driver.name != "Play" or key == pygame.K_m
         driver.key(key)
         driver.turns(30)
-    play, frame = look(driver)
+    play = driver.screen
     assert isinstance(play.scene, Shooter) and play.costs_open
+    frame = look(driver, lambda survey: survey.finding("verdict", play.measuring.now()))
     finding = play.measuring.surveyor.survey.finding("verdict", play.measuring.now())
     assert finding and all(word in words(frame) for word in finding.split())
     assert "What accuracy costs" in words(frame)
@@ -53,11 +57,11 @@ def open_scene(driver, name):
     driver.turns(20)
     driver.key(pygame.K_m)
     driver.turns(2)
-    return look(driver)
+    return driver.screen
 
 
 def test_enter_puts_a_setting_to_work_and_a_recording_holds_it(driver):
-    play, _ = open_scene(driver, "lab/pyramid")
+    play = open_scene(driver, "lab/pyramid")
     assert isinstance(play.scene, Pyramid)
     here = play.measuring.now()
     play.costs.hovered = here._replace(substeps=8)
@@ -72,7 +76,7 @@ def test_enter_puts_a_setting_to_work_and_a_recording_holds_it(driver):
 
 
 def test_a_setting_that_a_scene_does_not_play_with_is_told_and_changes_nothing(driver):
-    play, _ = open_scene(driver, "lab/stacks")
+    play = open_scene(driver, "lab/stacks")
     assert isinstance(play.scene, Stacks)
     before = [world.solver for world in play.scene.worlds]
     blocking = play.measuring.now()._replace(solver="blocking", substeps=None)
@@ -82,7 +86,8 @@ def test_a_setting_that_a_scene_does_not_play_with_is_told_and_changes_nothing(d
 
 
 def test_the_panel_turns_to_another_error_and_closes(driver):
-    play, frame = open_scene(driver, "lab/pyramid")
+    play = open_scene(driver, "lab/tunnelling")
+    frame = look(driver, lambda survey: survey.known("way"))
     assert play.costs.shown_kind() == "overlap"
     driver.key(pygame.K_RIGHT)
     driver.turns(1)
@@ -105,7 +110,7 @@ def test_only_what_a_scene_can_take_is_possible_in_a_recording():
 
 
 def test_a_process_that_dies_is_told(driver):
-    play, _ = open_scene(driver, "lab/filters")
+    play = open_scene(driver, "lab/filters")
     play.measuring.surveyor.process.kill()
     for _ in range(100):
         driver.turns(1)
