@@ -211,6 +211,13 @@ class Pairs:
         self.told = new_told(16)
         self.before = np.zeros(16, EVENT)
 
+    def __getstate__(self):
+        return self.rows.copy()  # the rest is room for the next comparison
+
+    def __setstate__(self, touching):
+        self.told = new_told(16)
+        self.restore(touching)
+
     @property
     def rows(self) -> np.ndarray:
         """EVENT rows of the pairs that touch, in the order of shape ids."""

@@ -21,6 +21,15 @@ class Particles:
         self.colors = []  # ramps seen so far: tuples of colours
         self.clear()
 
+    def __getstate__(self):
+        alive = np.flatnonzero(self.rows[4] < self.rows[5]).astype(np.int16)  # nobody looks at the others
+        rows, ramps = self.rows[:, alive].astype(np.float32), self.ramps[alive].astype(np.int16)  # exact enough to see
+        return self.random, self.colors, self.newest, alive, rows, ramps
+
+    def __setstate__(self, state):
+        self.__init__()
+        self.random, self.colors, self.newest, alive, self.rows[:, alive], self.ramps[alive] = state
+
     def clear(self) -> None:
         """Remove all."""
         self.rows[5] = 0.0  # life 0: not alive

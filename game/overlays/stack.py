@@ -68,6 +68,10 @@ class Overlays:
         """To be told of every step. The invariants are watched from the step after the one that shows them."""
         self.times.note(scene)
         self.invariants.note(scene.lights)
+        self.watch(scene)
+
+    def watch(self, scene: Scene) -> None:
+        """Have the invariants of a scene watched while they are shown, and only then."""
         shown = "invariants" in self.on
         if shown and scene.lights is None:
             scene.watch_invariants()

@@ -16,7 +16,7 @@ from game.files.json_file import read_json
 from game.files.own_levels import level_digest
 from game.input.inputs import ACTIONS, NOTHING, InputFrame
 from game.run.digest import scene_digest
-from game.scene import Result, Scene
+from game.scene import ASSISTS, Result, Scene
 
 FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
@@ -62,6 +62,18 @@ class Recorder:
         if self.frames % self.every == 0:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
+    def cut(self, frames: int) -> None:
+        """Forget what was noted after so many frames: the game was gone back there, and is played on."""
+        left = self.frames - frames
+        self.frames -= max(0, left)
+        while left > 0:
+            taken = min(left, self.runs[-1][0])
+            self.runs[-1][0] -= taken
+            left -= taken
+            if not self.runs[-1][0]:
+                self.runs.pop()
+        del self.digests[self.frames // self.every :]
+
     def save(self, path: str | Path, result: Result | None = None) -> None:
         """Write the recording, with the game.scene.Result it ended in; raises OSError when that is not possible."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
@@ -70,6 +82,18 @@ class Recorder:
         lines.append(",\n".join(json.dumps([count, _to_json(frame)]) for count, frame in self.runs))
         lines += ["],", '"digests": [', ",\n".join(json.dumps(digest) for digest in self.digests), "]}"]
         write_atomically(path, "\n".join(lines) + "\n")
+
+
+def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
+    """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
+    changes: list[tuple[str, Any]] = [
+        (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
+    ]
+    if scene.narrowphase != scene.effects.narrowphase:
+        changes.append(("narrowphase", scene.narrowphase))
+    if scene.substeps is not None:
+        changes.append(("substeps", scene.substeps))
+    return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]
 
 
 class Replay:

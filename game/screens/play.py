@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from time import perf_counter
-from typing import Any
 
 import pygame
 
@@ -15,15 +14,17 @@ from game.measure.setting import Setting
 from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
 from game.run.picture import Picture
-from game.run.replay import KEPT_EVERY, Recorder, Replay
+from game.run.replay import KEPT_EVERY, Recorder, Replay, chosen_before
+from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
-from game.scene import ASSISTS, Scene
+from game.scene import Scene
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
+from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from game.screens.parts.switches import Switches
 from game.screens.screen import SceneScreen
@@ -71,6 +72,9 @@ class Play(SceneScreen):
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
+        self.scrub: Scrub | None = None  # a recording has no other way back than Watch's
+        if recording is None:
+            self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -121,6 +125,8 @@ class Play(SceneScreen):
         """Called when the screen is seen again."""
         self.clock.rest()
         self.apply_settings()
+        if self.scrub is not None:
+            self.scrub.let_go()
 
     @property
     def finished(self) -> bool:
@@ -139,6 +145,9 @@ class Play(SceneScreen):
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
+        if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
+            self.clock.rest()
+            return
         if self.session.replay is not None:
             self.devices.next()  # a replay takes no advice
         elif self.clock.paused and self.devices.changes and not self.clock.requested:
@@ -150,9 +159,27 @@ class Play(SceneScreen):
             if self.outcome is not None:
                 return
 
+    def _went(self):
+        """The scene was taken to another step of its past."""
+        assert self.scrub is not None
+        self.assisted = True
+        self.since_result = self.scrub.rewind.since_result
+        if self.settings is not None:
+            self.scene.set_accessibility(self.settings.accessibility())
+
+    def drop_future(self) -> None:
+        """From a step of the past the game is played on, its recording too, with what was set since."""
+        if self.scrub is not None and not self.scrub.rewind.live:
+            self.apply_settings()
+        if self.scrub is not None:
+            self.scrub.rewind.drop_future()
+
     def step(self) -> None:
         """One fixed step, its sounds and its measurements."""
+        self.drop_future()
         self.session.step()
+        if self.scrub is not None:
+            self.scrub.rewind.note()
         self.overlays.note(self.scene)
         self.sounds.play_cues(self.scene.cues)
         if self.person:
@@ -190,6 +217,7 @@ class Play(SceneScreen):
 
     def end_run(self) -> None:
         """The run is over: hand its recording on, once."""
+        self.drop_future()
         if self.renews and self.recorder is not None:
             self.run_ended(self.recorder, self.scene.result)
             self.recorder = self.session.recorder = None
@@ -250,6 +278,8 @@ class Play(SceneScreen):
         panel = self.open_panel
         if panel is not None and panel.feed(event):
             self.devices.release_all()
+            return True
+        if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
             return True
         return event.type == pygame.KEYDOWN and self._key(event.key)
 
@@ -351,21 +381,13 @@ class Play(SceneScreen):
         self.measuring.measure_sprites()
         if self.costs_open:
             self.measuring.turn(self.now)
-        frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel)
+        scrub = self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
+        reserve = None if scrub is None else scrub.reserve
+        frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
+        if scrub is not None:
+            scrub.draw(frame)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
         draw_status(frame, self)
         self.session.report.note_drawing(perf_counter() - started)
         return frame
-
-
-def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
-    """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
-    changes: list[tuple[str, Any]] = [
-        (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
-    ]
-    if scene.narrowphase != scene.effects.narrowphase:
-        changes.append(("narrowphase", scene.narrowphase))
-    if scene.substeps is not None:
-        changes.append(("substeps", scene.substeps))
-    return changes + [(f"assist:{name}", on) for name, on in scene.assist.items() if on != ASSISTS[name]]

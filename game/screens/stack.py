@@ -318,6 +318,7 @@ class Screens:
         """Keep the run so far for good, and say where."""
         play = self._game()
         assert play.recorder is not None  # else the screens do not offer it
+        play.drop_future()
         try:
             path = free_name(replays_folder(), play.scene.name)
             play.recorder.save(path, play.scene.result)

@@ -36,10 +36,7 @@ class PairList:
         self.free = []  # slots that a new shape may take
         self.freed = []  # slots freed since the last update: strategies have not heard yet
         self.slots = np.zeros((64, 2), np.int32)
-        self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
-        self.states = np.zeros(64, np.int8)
         self.candidates = np.zeros((64, 2), np.int64)
-        self.keys = np.zeros(64, np.int64)
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
@@ -48,6 +45,20 @@ class PairList:
         self.again = []  # slots whose pairs are to be found again, besides those whose rectangles changed
         self.moved = False  # shape rows have moved since the last update
         self.resting = False  # pairs may have lost their last side that is awake
+        self._make_room()
+
+    def _make_room(self):
+        """What an update writes before it reads it."""
+        self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
+        self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
+
+    def __getstate__(self):
+        room = ("kept", "kept_rows", "states", "keys")
+        return {name: value for name, value in vars(self).items() if name not in room}
+
+    def __setstate__(self, state):
+        vars(self).update(state)
+        self._make_room()
 
     @property
     def proxies(self) -> np.ndarray:

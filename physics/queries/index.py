@@ -184,6 +184,13 @@ class QueryIndex:
         self.slots = np.zeros(0, np.int64)
         self.loose_count = 0
 
+    def __getstate__(self):
+        return self.work, self.asked  # the rest is about tables that a copy does not have
+
+    def __setstate__(self, state):
+        self.__init__()
+        self.work, self.asked = state
+
     @property
     def counters(self) -> dict[str, int]:
         """What the last query cost: {name: int}, every name of profile.COUNTERS present."""

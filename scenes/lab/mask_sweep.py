@@ -69,6 +69,7 @@ class MaskSweep(Scene):
         self.walls = {shape: wall_of(shape) for shape in SHAPES}
         self.wall_pictures = {shape: picture_of(wall) for shape, wall in self.walls.items()}
         self.cameras, self.shots, self.spent = [], [], []
+        self.edges = {}  # of each kind of shot, where its origin is
         self.trails, self.marks = [], []  # only seen: [way, kind, pose, age], and what _mark keeps
         keys = [(way, shape) for way in WAYS for shape in SHAPES]
         self.fired, self.hit, self.passed = (dict.fromkeys(keys, 0) for _ in range(3))
@@ -140,7 +141,7 @@ class MaskSweep(Scene):
             beyond = is_beyond(SHAPES[lane], x - WALL_X, y - middle(lane))
             if body.id in met and not beyond:
                 self.hit[way, SHAPES[lane]] += 1
-                self._mark(column, body, fractions.get(body.id))
+                self._mark(column, kind, body, fractions.get(body.id))
                 self.spent.append((column, kind, body))
             elif x > END_X or body.id in met:
                 self.passed[way, SHAPES[lane]] += 1
@@ -149,18 +150,18 @@ class MaskSweep(Scene):
                 left.append(shot)
         self.shots = left
 
-    def _mark(self, column, body, ghost):
+    def _mark(self, column, kind, body, ghost):
         """Where a shot met a wall; `ghost`: where it would have been, as debug.impact_ghosts tells, or None."""
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
-        lines = mask_edges(world, rows, 3.0).outer
         x, y = body.position
-        aim = None
+        pose, aim, fraction = (x, y, body.angle), None, None
+        if kind not in self.edges:
+            self.edges[kind] = placed(mask_edges(world, rows, 3.0).outer, pose, (0.0, 0.0, 0.0))
         if ghost is not None:
-            pose = (float(ghost["x"]), float(ghost["y"]), float(ghost["angle"]))
-            aim = moved(("lines", lines.reshape(-1, 2)), (x, y, body.angle), pose)[1].reshape(-1, 4)
-        fraction = None if ghost is None else float(ghost["fraction"])
-        self.marks.append([column, lines, aim, (x, y), fraction, 0])
+            aim = (float(ghost["x"]), float(ghost["y"]), float(ghost["angle"]))
+            fraction = float(ghost["fraction"])
+        self.marks.append([column, kind, pose, aim, fraction, 0])
         self.play("hit", self.cameras[column].viewport.x + x, 0.2)
         self.particles.burst(
             self.cameras[column].viewport.x + x, LANE_TOP + y, 8, SPARKS, (20, 110), (0.1, 0.4), pi, 2.2
@@ -225,14 +226,17 @@ class MaskSweep(Scene):
 
     def draw_on_frame(self, frame):
         """Each impact: white where it was, dim where the shot was going; the share of the step beside it."""
-        for column, lines, aim, (x, y), fraction, age in self.marks:
+        for column, kind, pose, aim, fraction, age in self.marks:
+            x, y, _ = pose
             lens = frame.lens(self.cameras[column])
             clip = lens.clip.copy()
             clip.width -= COUNTS * frame.scale
             frame.surface.set_clip(clip)
             fading = age / GLOW_STEPS
             if aim is not None:
-                draw_lines(frame.surface, lens, aim, faded(COLORS[WAYS[column]], 0.4 + 0.6 * fading))
+                lines = placed(self.edges[kind], (0.0, 0.0, 0.0), aim)
+                draw_lines(frame.surface, lens, lines, faded(COLORS[WAYS[column]], 0.4 + 0.6 * fading))
+            lines = placed(self.edges[kind], (0.0, 0.0, 0.0), pose)
             draw_lines(frame.surface, lens, lines, faded(WHITE, fading), max(1, frame.scale - 1) if age < 6 else 1)
             frame.surface.set_clip(None)
             if fraction is not None and age < LABEL_STEPS:
@@ -289,3 +293,8 @@ def picture_of(wall):
     for y, x in np.argwhere(solid).tolist():
         image.set_at((x, y), (*PAPER, 255))
     return image
+
+
+def placed(lines, pose, other):
+    """Lines (n, 4) that belong to one pose, as they lie in another."""
+    return moved(("lines", lines.reshape(-1, 2)), pose, other)[1].reshape(-1, 4)

@@ -15,7 +15,7 @@ from game.run.sources import IdleSource, ScriptSource
 from physics import PixelMask, measure
 from scenes.lab.carving import MASKS, TOP, Carving
 from scenes.lab.mask_stack import CHOICES, FALLEN, WARM, WAYS, MaskStack, shapes_of
-from scenes.lab.mask_sweep import MaskSweep
+from scenes.lab.mask_sweep import MaskSweep, placed
 from scenes.lab.prints import EDGE, cut_out
 from scenes.lab.thin_walls import HALF, RADIUS, SHAPES, is_beyond, wall_of
 from scenes.lab.tools import TOOLS, Tool
@@ -317,9 +317,10 @@ def test_marks_stand_where_the_wall_was_met():
     session = Session(scene, IdleSource())
     for _ in range(120):
         session.step()
-        for column, lines, aim, (x, y), fraction, age in scene.marks:
+        for column, kind, pose, aim, fraction, age in scene.marks:
+            x, y, _ = pose
             if age == 0 and column == 1 and abs(y - 37.0) < 36.0:  # the straight wall's lane
-                ends = lines.reshape(-1, 2)
+                ends = placed(scene.edges[kind], (0.0, 0.0, 0.0), pose).reshape(-1, 2)
                 assert ends[:, 0].max() == pytest.approx(149.5, abs=0.6), "its foremost point touches the wall"
                 assert aim is not None and 0.0 <= fraction < 1.0
                 assert hypot(ends[:, 0].mean() - x, ends[:, 1].mean() - y) < 12.0

@@ -8,6 +8,8 @@ from game.run.outcome import solver_name
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
 from game.screens.parts.played import Played
 
+LEAP = 60  # steps that the row "Rewind" goes back
+
 
 def play_rows(play: Played) -> list[Row]:
     """Rows for a Play screen; what belongs to this scene alone comes first, where no window is too small for it."""
@@ -112,8 +114,23 @@ def _time(play):
             turn=lambda way: clock.faster() if way > 0 else clock.slower(),
             hint=f"down to {SPEEDS[-1]:.0%}",
         ),
+        *_rewind(play),
         Row(BUTTON, "Restart", key="R", press=play.wish_restart),
     ]
+
+
+def _rewind(play):
+    if play.scrub is None:
+        return []
+    rewind = play.scrub.rewind
+    back = "" if rewind.live else f"   {(rewind.end - rewind.position) / 60.0:.1f} s back"
+    hint = "a second back, frozen; hold the key to run back"
+    return [Row(BUTTON, "Rewind" + back, key="Backspace", press=lambda: _leap(play), hint=hint)]
+
+
+def _leap(play):
+    play.clock.paused = True
+    play.scrub.go(-LEAP)
 
 
 def _slider(play, scene, slider):

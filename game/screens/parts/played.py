@@ -9,6 +9,7 @@ from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
 from game.screens.parts.first_hint import HintCard
+from game.screens.parts.scrub import Scrub
 from game.screens.parts.switches import Switches
 
 
@@ -22,6 +23,7 @@ class Played(Protocol):
     clock: FixedStep
     switches: Switches
     settings: Settings | None
+    scrub: Scrub | None
     hint: HintCard | None
     person: bool
     since_result: int

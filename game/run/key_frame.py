@@ -1,0 +1,116 @@
+"""A key frame: everything that a scene is at one moment, in few bytes, to be put back into the same scene.
+
+The scene and its worlds go on being the objects they are: whoever holds one sees it go back. What they hold is pickled,
+arrays beside the pickle. What never changes (pictures, shapes, code, and whatever says that a deep copy of it is
+itself) is only named.
+"""
+
+import io
+import pickle
+import sys
+from collections.abc import Iterable
+from operator import is_
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+import pygame
+
+from game.run.chunks import Chunks, bytes_of
+from game.scene import Scene
+from physics import World
+
+OUTSIDE = ("accessibility", "ghost", "best", "tier_figures")  # of a scene: set from outside, whenever that is
+TRAIL = "trail"  # of a scene: it is only ever added to, so that its length says what it was
+KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # never change
+
+
+class KeyFrame:
+    """A scene as it stands. before: an earlier key frame, with which is shared what did not change."""
+
+    def __init__(self, scene: Scene, before: "KeyFrame | None" = None) -> None:
+        self.scene = scene
+        self.trail, self.steps = scene.trail, len(scene.trail)
+        stream = io.BytesIO()
+        writer = _Writer(stream, scene)
+        writer.dump({name: value for name, value in vars(scene).items() if name not in (*OUTSIDE, TRAIL)})
+        for world in writer.worlds:  # and those that are met meanwhile
+            writer.dump(world.__getstate__())
+        self.worlds = _same(tuple(writer.worlds), before and before.worlds)
+        self.kept = _same(tuple(writer.kept), before and before.kept)
+        raw = [stream.getbuffer(), *(buffer.raw() for buffer in writer.buffers)]
+        self.chunks = Chunks(raw, [0, *writer.widths], before and before.chunks)
+
+    def restore(self) -> None:
+        """Put the scene back."""
+        stream, *buffers = self.chunks.contents()
+        reader = _Reader(io.BytesIO(stream), self.kept, buffers)
+        scene = self.scene
+        outside = {name: vars(scene)[name] for name in OUTSIDE}
+        state = reader.load()
+        vars(scene).clear()
+        vars(scene).update(state, **outside, **{TRAIL: self.trail[: self.steps]})
+        for world in self.worlds:
+            state = reader.load()
+            vars(world).clear()
+            world.__setstate__(state)
+
+
+def bytes_held(frames: Iterable[KeyFrame]) -> int:
+    """Bytes that these hold together, what several share once."""
+    lists = {id(kept): kept for frame in frames for kept in (frame.kept, frame.worlds)}
+    return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
+
+
+def shared(number: int) -> object:
+    """What a pickle calls for an object that is not in it; a key frame reads its own list in place of this."""
+    raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
+
+
+class _Writer(pickle.Pickler):
+    """`kept`: the objects that the pickle only names; `worlds`: those of them that wait for their turn."""
+
+    def __init__(self, file, scene):
+        self.buffers, self.widths = [], []
+        super().__init__(file, 5, buffer_callback=self._take)
+        self.scene = scene
+        self.kept, self.worlds = [], []
+        self.numbers = {}  # by id
+        self.width = 0  # bytes of an item of the array that is being pickled
+
+    def _take(self, buffer):
+        self.buffers.append(buffer)
+        self.widths.append(self.width)
+
+    def reducer_override(self, obj):
+        kind = type(obj)
+        if kind is np.ndarray:
+            self.width = obj.itemsize
+            return NotImplemented
+        if obj is shared or not (obj is self.scene or isinstance(obj, (World, *KEPT)) or hasattr(kind, "__deepcopy__")):
+            return NotImplemented
+        number = self.numbers.get(id(obj))
+        if number is None:
+            number = self.numbers[id(obj)] = len(self.kept)
+            self.kept.append(obj)
+            if isinstance(obj, World):
+                self.worlds.append(obj)
+        return shared, (number,)
+
+
+class _Reader(pickle.Unpickler):
+    def __init__(self, file, kept, buffers):
+        super().__init__(file, buffers=buffers)
+        self.kept = kept
+
+    def find_class(self, module_name: str, global_name: str) -> Any:
+        if (module_name, global_name) == (shared.__module__, shared.__name__):
+            return self.kept.__getitem__
+        return super().find_class(module_name, global_name)
+
+
+def _same(new, old):
+    """The old list where it holds the very same objects."""
+    if old is not None and len(new) == len(old) and all(map(is_, new, old)):
+        return old
+    return new

@@ -1,0 +1,168 @@
+"""The way back: Backspace held runs back, and while the game is frozen a bar shows and takes the last ten seconds."""
+
+from collections.abc import Callable
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT
+from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SKY, SLATE
+from game.drawing.presenter import Frame
+from game.input.devices import DeviceSource
+from game.run.rewind import STEPS, Rewind
+
+SPEEDS = ((1.0, 1.0), (2.5, 2.0), (60.0, 4.0))  # (held for less than [s], times as fast as it was played)
+REPEAT = 0.35  # [s] an arrow is held until it goes on by itself
+MANY = 10  # steps with Shift
+LEAST_WIDTH = 360  # [text px] that the bar needs
+BAR_HEIGHT = 24  # [text px]
+KEYS_LINE = "\u2190 \u2192 a step   Shift ten   Backspace runs back   P plays on from here"
+BACK_KEY = pygame.K_BACKSPACE
+WAYS = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1}
+PAD_WAYS = {"dpad left": -1, "dpad right": 1}
+PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
+
+
+class Scrub:
+    """Takes a Rewind where a player wants it: feed() takes events, turn() goes there. went: called after each move."""
+
+    def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
+        self.rewind, self.went = rewind, went
+        self.control: object = None  # the key or button that is held
+        self.way, self.pace, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0, 0.0
+        self.asked: int | None = None  # a step, by mouse or tap
+        self.dragging = False
+        self.bar = pygame.Rect(0, 0, 0, 0)  # of the last picture
+
+    @property
+    def runs(self) -> bool:
+        """True while a key is held to run back: time stands still for the game."""
+        return self.control == BACK_KEY
+
+    def let_go(self) -> None:
+        """Nothing is held any more."""
+        self.control, self.dragging, self.asked = None, False, None
+
+    def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
+        """Take an event; True if it is used up. devices: know a pad's buttons; now: of the last turn [s]."""
+        button = devices.button_of(event)
+        if event.type == pygame.KEYUP:
+            return self._release(event.key)
+        if button is not None:
+            return frozen and self._pad(button, now)
+        if event.type == pygame.KEYDOWN and event.key == BACK_KEY:
+            self._hold(BACK_KEY, -1, 0.0, now)
+        elif frozen and event.type == pygame.KEYDOWN and event.key in WAYS:
+            steps = MANY if getattr(event, "mod", 0) & pygame.KMOD_SHIFT else 1
+            self._tap(event.key, WAYS[event.key] * steps, now)
+        elif frozen and event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and self._hit(event.pos):
+            self.dragging = True
+            self._point(event.pos)
+        elif self.dragging and event.type == pygame.MOUSEMOTION:
+            self._point(event.pos)
+        elif self.dragging and event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+            self.dragging = False
+        else:
+            return False
+        return True
+
+    def _pad(self, button, now):
+        _, name, down = button
+        if not down:
+            return self._release(name)
+        if name in PAD_RUNS:
+            self._hold(name, PAD_RUNS[name], 0.0, now)
+        elif name in PAD_WAYS:
+            self._tap(name, PAD_WAYS[name], now)
+        return name in PAD_RUNS or name in PAD_WAYS
+
+    def _hold(self, control, way, delay, now):
+        if self.control != control:
+            self.control, self.way, self.owed = control, way, 0.0
+            self.since = self.before = now + delay
+
+    def _tap(self, control, steps, now):
+        self._hold(control, steps, REPEAT, now)
+        self.asked = (self.rewind.position if self.asked is None else self.asked) + steps
+
+    def _release(self, control):
+        if self.control != control:
+            return False
+        self.control = None
+        return True
+
+    def _hit(self, position):
+        return self.bar.inflate(0, self.bar.height).collidepoint(position)
+
+    def _point(self, position):
+        share = (position[0] - self.bar.x) / max(self.bar.width, 1)
+        self.asked = self.rewind.end - round((1.0 - max(0.0, min(1.0, share))) * STEPS)
+
+    def go(self, steps: int) -> None:
+        """Go so many steps on, or back."""
+        before = self.rewind.position
+        self.rewind.seek(before + steps)
+        if self.rewind.position != before:
+            self.went()
+
+    def turn(self, now: float, frozen: bool) -> bool:
+        """Go where was asked for at `now` [s]. True while a key runs back: the game makes no steps then."""
+        if not frozen and not self.runs:
+            self.let_go()
+        goal = self._goal(now)
+        if goal is not None:
+            self.go(goal - self.rewind.position)
+        return self.runs
+
+    def _goal(self, now):
+        goal, self.asked = self.asked, None
+        if self.control is not None and now > self.before:
+            held = now - self.since
+            speed = next((times for seconds, times in SPEEDS if held < seconds), SPEEDS[-1][1])
+            self.owed += (now - self.before) * 60.0 * (speed if abs(self.way) == 1 else 1.0)
+            self.before = now
+            whole = int(self.owed)
+            self.owed -= whole
+            if whole:
+                goal = (self.rewind.position if goal is None else goal) + self.way * whole
+        return goal
+
+    def reserve(self, frame: Frame) -> None:
+        """Keep other text away from the bar."""
+        frame.reserve(self._rect(frame))
+
+    def _rect(self, frame):
+        high = BAR_HEIGHT * frame.scale_for(LEAST_WIDTH)
+        area = frame.area.clip(frame.rect)
+        return pygame.Rect(area.x, area.bottom - high, area.width, high)
+
+    def draw(self, frame: Frame) -> None:
+        """Ten seconds from left to right: what can be gone back to, where the key frames lie, and where we are."""
+        scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
+        frame.surface.fill(INK, rect)
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
+        y = rect.y + 4 * scale
+        earliest = frame.text(f"-{STEPS / 60:.0f} s", rect.x + 4 * scale, y, FOG, TEXT, scale)
+        back = (rewind.end - rewind.position) / 60.0
+        widest = frame.measure("-10.00 s", TEXT, scale)[0]
+        text = f"-{back:.2f} s" if back else "now"
+        frame.text(text, rect.right - 4 * scale, y, GOLD if back else PAPER, TEXT, scale, "right")
+        left, right = earliest.right + 6 * scale, rect.right - 10 * scale - widest
+        self.bar = pygame.Rect(left, rect.y + 3 * scale, right - left, 10 * scale)
+        self._draw_bar(frame.surface, scale)
+        if frame.measure(KEYS_LINE, SMALL, scale)[0] < rect.width - 8 * scale:
+            frame.text(KEYS_LINE, rect.centerx, rect.bottom - 8 * scale, FOG, SMALL, scale, "center")
+
+    def _x(self, step):
+        return self.bar.x + self.bar.width * (step - self.rewind.end + STEPS) // STEPS
+
+    def _draw_bar(self, surface, scale):
+        rewind, bar = self.rewind, self.bar
+        y, high = bar.centery - scale, 2 * scale
+        surface.fill(DUSK, (bar.x, y, bar.width, high))
+        start, here = self._x(rewind.start), self._x(rewind.position)
+        surface.fill(SLATE, (start, y, bar.right - start, high))
+        surface.fill(SKY, (start, y, here - start, high))
+        for stretch in rewind.stretches:
+            if stretch.start >= rewind.start:
+                surface.fill(SLATE, (self._x(stretch.start), y - scale, scale, high + 2 * scale))
+        surface.fill(PAPER, (here - scale, bar.y + scale, 3 * scale, bar.height - 2 * scale))
