@@ -174,7 +174,7 @@ class App:
         elif event.type in (pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED):
             self.arcade.picture.presenter.frame.surface = pygame.display.get_surface() or self.window
         elif event.type == pygame.DROPFILE:
-            self._follow(("watch", event.file))
+            self._follow(("file", event.file))
         else:
             if event.type == pygame.WINDOWFOCUSLOST:
                 self.screen.lose_focus()

@@ -13,6 +13,7 @@ SCENES = {
     # finding what touches
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",
+    "lab/ladder": "scenes.lab.ladder:Ladder",
     "lab/shapes": "scenes.lab.shapes:Shapes",
     "lab/queries": "scenes.lab.queries:Queries",
     "lab/filters": "scenes.lab.filters:Filters",

@@ -21,7 +21,7 @@ from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.processes import end_all, start_module
-from physics import PixelMask, Snapshot
+from physics import Fit, PixelMask, Snapshot
 
 
 class Surveyor:
@@ -153,8 +153,9 @@ def _listen(process, found):
 
 def figures_of(values: list[Any]) -> TierFigures:
     """A TierFigures from what JSON made of it."""
-    tier, shapes, hit, miss, wrong, missed = values
-    return TierFigures(tier, shapes, Cost(*hit), Cost(*miss), Rate(*wrong), Rate(*missed))
+    tier, shapes, hit, miss, wrong, missed, build, fit = values
+    costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
+    return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))
 
 
 def error_of(values: dict[str, Any]) -> Error:

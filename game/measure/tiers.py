@@ -14,7 +14,7 @@ import numpy as np
 from game.measure.rates import Rate
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from game.scene import Scene
-from physics import TIERS, PixelMask, fit
+from physics import TIERS, Fit, PixelMask, fit, measure
 from physics.queries.pair_batch import PairBatch
 
 POSES = 4000
@@ -32,6 +32,8 @@ class TierFigures(NamedTuple):
     miss: Cost
     wrong: Rate  # hits that are none, of all that it calls hits
     missed: Rate  # true hits that it calls none, of all true hits
+    build: Cost  # seconds to make the shapes of the first sprite, from its pixels
+    fit: Fit  # how well they stand for it
 
 
 class Poses(NamedTuple):
@@ -90,11 +92,14 @@ def measure_tiers(
     # A batch is tested so often that a run takes as long as a clock needs to be exact.
     works = {name: partial(_test, batch) for name, batch in batches.items()}
     costs = timed_in_turns(works, {name: REPEATS * len(batch) for name, batch in batches.items()}, seed=seed)
+    builds = timed_in_turns({tier: partial(_build, first, tier) for tier in tiers}, dict.fromkeys(tiers, 1), seed=seed)
     for tier in tiers:
         says, is_so = verdicts[tier], poses.met
         wrong = Rate(int((says & ~is_so).sum()), int(says.sum()))
         missed = Rate(int((is_so & ~says).sum()), int(is_so.sum()))
-        tell(TierFigures(tier, len(shapes[tier][0]), costs[f"{tier} hit"], costs[f"{tier} miss"], wrong, missed))
+        a, fitted = shapes[tier][0], measure(first, shapes[tier][0])
+        hit, miss = costs[f"{tier} hit"], costs[f"{tier} miss"]
+        tell(TierFigures(tier, len(a), hit, miss, wrong, missed, builds[tier], fitted))
 
 
 def know_tiers(scene: Scene) -> None:
@@ -104,6 +109,11 @@ def know_tiers(scene: Scene) -> None:
         found: list[TierFigures] = []
         measure_tiers(*sprites, found.append)
         scene.tier_figures = {figures.tier: figures for figures in found}
+
+
+def _build(mask, tier):
+    """Make the shapes anew: what a mask has been fitted with is kept with it."""
+    return fit(PixelMask(mask.solid, mask.origin), tier)
 
 
 def _test(batch):

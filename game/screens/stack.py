@@ -8,6 +8,7 @@ from game.drawing.window import copy_text
 from game.errors import UsageError
 from game.files.best_run import keep_ghost, load_ghost
 from game.files.data_folder import free_name
+from game.files.own_levels import level_digest
 from game.files.records import Entry
 from game.input.bindings import help_pairs
 from game.run.options import make_scene, scene_class_of
@@ -52,6 +53,7 @@ class Screens:
             "scores": self.scores,
             "replays": self.replays,
             "watch": self.watch,
+            "file": self.open_file,
             "tour": self.tour,
             "attract": self.attract,
             "play": self.play,
@@ -90,7 +92,7 @@ class Screens:
         try:
             self.table[name](*rest)
         except UsageError as error:
-            self.complain(error, name != "watch")
+            self.complain(error, name not in ("watch", "file"))
         except LoadingStopped:
             self.arcade.stop_if_closed()
 
@@ -150,6 +152,24 @@ class Screens:
     def replays(self) -> None:
         """The list of replays."""
         self.stack.append(ReplaysScreen(self.arcade.registry, copy_text))
+
+    def open_file(self, path: str | Path) -> None:
+        """A file that was dropped on the window: a picture goes to the scene that takes pictures, all else is watched.
+
+        What is being played goes on where the file cannot be used. Raises UsageError then.
+        """
+        classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
+        taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)
+        if taker is None:
+            self.watch(path)
+            return
+        arcade = self.arcade
+        arcade.compile_for(taker)
+        level_digest(path)
+        scene = taker(arcade.options.seed or 0, level=Path(path))
+        self._leave_play()
+        self.stack = [Title(), self._scene_menu()]
+        self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def watch(self, path: str | Path) -> None:
         """A recording; its kernels are compiled first. Raises UsageError for one that cannot be used."""

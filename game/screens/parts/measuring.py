@@ -6,7 +6,7 @@ from game.measure.moment import here_of
 from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
 from game.scene import SUBSTEPS, Scene
-from physics import TIERS, World
+from physics import PixelMask, World
 
 EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
@@ -17,7 +17,8 @@ class Measuring:
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
         self.surveyor = Surveyor()
-        self.bench = Surveyor()  # of the scene's sprites
+        self.bench = Surveyor()  # of the scene's sprites …
+        self.benched: tuple[PixelMask, PixelMask] | None = None  # … which are these
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
 
     @property
@@ -32,14 +33,17 @@ class Measuring:
     def measure_sprites(self) -> None:
         """Once per picture: what the scene wants to know of the tiers of its sprites is measured, once."""
         sprites = self.scene.measured_sprites()
-        if sprites is None or len(self.scene.tier_figures) == len(TIERS) or self.bench.trouble:
+        if sprites is None:
             return
-        if not self.bench.busy:
-            self.bench.measure_sprites(*sprites)
-        self.bench.turn()
-        self.scene.tier_figures = self.bench.tiers
-        if len(self.bench.tiers) == len(TIERS):
+        if self.benched is None or sprites[0] is not self.benched[0] or sprites[1] is not self.benched[1]:
             self.bench.stop()
+            self.bench, self.benched = Surveyor(), sprites
+            self.bench.measure_sprites(*sprites)
+        if self.bench.busy:
+            self.bench.turn()
+            if not self.bench.busy:
+                self.bench.stop()
+        self.scene.tier_figures = self.bench.tiers
 
     def turn(self, now: float) -> None:
         """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done."""

@@ -1,0 +1,241 @@
+"""The accuracy ladder: one sprite at every tier, from a circle to its exact pixels. What does each rung buy?
+
+What to see: red is what a shape covers and the sprite does not, blue what it leaves out. Go down the ladder: each rung
+lies closer to the pixels and takes more bytes and more time to make; what a test takes goes up and then, at the pixels,
+down again. Take another sprite with left and right or the wheel, or drop a picture of your own (PNG) on the window.
+"""
+
+from functools import cache
+from math import ceil
+
+import numpy as np
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
+from game.drawing.colors import BLUE, FOG, GOLD, NIGHT, PAPER, RED, SLATE
+from game.drawing.sprites import load_atlas
+from game.errors import FileError
+from game.input.inputs import InputFrame
+from game.overlays.outlines import draw_outline
+from game.scene import Goal, Scene
+from physics import TIERS, Effects, PixelMask, debug, fit
+from scenes.lab.coverage import covered
+from scenes.lab.yard import HEAD
+
+SPRITES = (
+    ("gunship", "planes", "gunship_0"),
+    ("player", "planes", "player"),
+    ("saucer", "planes", "saucer_0"),
+    ("boss", "planes", "boss_a_0"),
+    ("large plane", "planes", "large_plane_a"),
+    ("hero", "hero", "run_1"),
+    ("walker", "things", "walker_0"),
+    ("hedgehog", "things", "hedgehog_0"),
+    ("lander", "lander", "ship"),
+    ("rock", "lander", "rock_1"),
+    ("crate", "lab", "crate_24_0"),
+)
+NAMES = {"aabb": "box", "obb": "turned box", "pixels": "pixels, as drawn", "mask": "pixels, exactly"}
+HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # hold all pixels of a sprite
+COLUMNS = 3
+CELL = (160, 84)
+VIEW = 70  # [px] of a cell that the sprite has, each way
+MOST = 256  # [px] of a picture of one's own, each way
+BOT_LOOKS = 20  # steps at each sprite
+LIT = {"px too many": RED, "px left out": BLUE}  # what is lit so
+MIX = 0.6  # of red and blue over the picture
+
+
+class Ladder(Scene):
+    """One world per tier with the sprite in it; a cell of the picture each."""
+
+    name = "lab/ladder"
+    title = "Ladder"
+    about = "One sprite at nine tiers, from circle to exact pixels: what each covers wrongly, weighs and costs."
+    effects = Effects(narrowphase=False)  # a sprite alone in its world meets nobody
+    pieces = ("masks", "boxes", "circles", "contacts")
+    features = (
+        "eleven sprites, or a PNG of one's own",
+        "over-covered and missed pixels lit",
+        "IoU, Hausdorff distance, centre, inertia, bytes, times to make and to test",
+    )
+    actions = (("left right wheel", "another sprite"),)
+    head = HEAD
+    hides_pointer = False
+    takes_level = True
+    level_suffix = ".png"
+
+    def build(self):
+        """The first sprite: one's own picture, where there is one."""
+        self.choices = [self.level_file.name] if self.level_file is not None else []
+        self.choices += [name for name, _, _ in SPRITES]
+        self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
+        self._show(0)
+
+    def _show(self, choice):
+        """Put a sprite into a world per tier."""
+        self.choice, self.worlds = choice, []
+        self.image, self.mask = self._sprite()
+        self.shapes = {tier: fit(self.mask, tier) for tier in TIERS}
+        worlds = {tier: self._world(tier) for tier in TIERS}
+        boxes = np.array([next(iter(world)).bounds or (0.0,) * 4 for world in worlds.values()])
+        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+        self.middle = tuple((low + high) / 2)
+        self.reach = ceil((high - low).max() / 2 + 1.0)
+        self.cells, self.counts = {}, {}
+        for number, (tier, world) in enumerate(worlds.items()):
+            x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
+            zoom = VIEW / (2 * self.reach)
+            view = pygame.Rect(x + 4, y + (CELL[1] - VIEW) // 2, VIEW, VIEW)
+            camera = Camera(view, zoom, x=self.middle[0] - self.reach, y=self.middle[1] - self.reach)
+            self.cells[tier] = (world, camera, view)
+        self.pictures = {tier: self._lit(tier) for tier in TIERS}
+        self.seen[self.sprite_name] = self.counts
+
+    def _world(self, tier):
+        world = self.add_world()
+        world.add_body(self.mask, kind="static", tier=tier)
+        return world
+
+    @property
+    def sprite_name(self):
+        """What the sprite is called."""
+        return self.choices[self.choice]
+
+    def _sprite(self):
+        own = len(self.choices) - len(SPRITES)
+        if self.choice < own:
+            return own_picture(self.level_file)
+        _, atlas, name = SPRITES[self.choice - own]
+        return load_atlas(atlas)[name], load_atlas(atlas).mask(name)
+
+    def _lit(self, tier):
+        """The sprite with what a tier covers wrongly in red and what it leaves out in blue, pixel by pixel."""
+        size, (ox, oy) = 2 * self.reach, self.mask.origin
+        left, top = np.floor(self.middle[0] - self.reach), np.floor(self.middle[1] - self.reach)
+        column, row = np.meshgrid(np.arange(size), np.arange(size))
+        # Centres of the sprite's own pixels, in body space.
+        shift_x, shift_y = -ox - np.floor(-ox), -oy - np.floor(-oy)
+        x, y = left + column + shift_x + 0.5, top + row + shift_y + 0.5
+        says, is_so = covered(self.shapes[tier], x, y), covered((self.mask,), x, y)
+        over, missed = says & ~is_so, is_so & ~says
+        self.counts[tier] = int(over.sum()), int(missed.sum())
+        picture = pygame.Surface((size, size))
+        picture.fill(NIGHT)
+        picture.blit(self.image, (round(-ox - left - shift_x), round(-oy - top - shift_y)))
+        pixels = pygame.surfarray.pixels3d(picture)
+        for chosen, color in ((over, RED), (missed, BLUE)):
+            pixels[chosen.T] = (1.0 - MIX) * pixels[chosen.T] + MIX * np.array(color)
+        del pixels
+        return picture, (left + shift_x, top + shift_y)
+
+    def measured_sprites(self):
+        """The sprite against itself."""
+        return self.mask, self.mask
+
+    def update(self, inputs):
+        """Left, right and the wheel take another sprite."""
+        way = inputs.pressed("right") - inputs.pressed("left") + inputs.wheel
+        if way:
+            self._show((self.choice + way) % len(self.choices))
+        for world in self.worlds:
+            world.step()
+
+    def views(self):
+        """A cell per tier."""
+        return [(world, camera) for world, camera, _ in self.cells.values()]
+
+    def draw(self, canvas, alpha):
+        """The names and figures of all cells; the pictures are drawn at the window's resolution."""
+        canvas.text("LADDER", 4, 4, GOLD)
+        text = f"{self.sprite_name}, {self.mask.area} pixels: red is covered and empty, blue is solid and left out"
+        canvas.text(text, 476, 6, FOG, SMALL, align="right")
+        for number, tier in enumerate(TIERS):
+            x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
+            canvas.surface.fill(NIGHT, (x + 1, y + 1, CELL[0] - 2, CELL[1] - 2))
+            canvas.fix(self.cells[tier][2])
+            self._draw_figures(canvas, tier, x + VIEW + 8, y + 4)
+
+    def _draw_figures(self, canvas, tier, x, y):
+        canvas.text(NAMES.get(tier, tier), x, y, PAPER, SMALL)
+        over, missed = self.counts[tier]
+        lines = [("px too many", f"{over:,}"), ("px left out", f"{missed:,}")]
+        figures = self.tier_figures.get(tier)
+        if figures is not None:
+            found = figures.fit
+            lines += [
+                ("shared (IoU)", f"{100 * found.iou:.1f} %"),
+                ("Hausdorff", f"{found.hausdorff:.1f} px"),
+                ("centre off", f"{found.center_error:.2f} px"),
+                ("inertia off", f"{100 * found.inertia_error:.1f} %"),
+                ("bytes", f"{found.bytes:,}"),
+                ("made in", f"{1e3 * figures.build.median:.2f} ms"),
+                ("hit, miss", f"{1e9 * figures.hit.median:,.0f}, {1e9 * figures.miss.median:,.0f} ns"),
+            ]
+        else:
+            canvas.text("measuring the rest", x, y + 8 + 8 * len(lines), FOG, SMALL)
+        for number, (name, value) in enumerate(lines):
+            top = y + 8 + 8 * number
+            canvas.text(name, x, top, LIT.get(name, FOG), SMALL)
+            canvas.text(value, x + 78, top, PAPER, SMALL, align="right")
+
+    def draw_on_frame(self, frame):
+        """The sprite in every cell, pixel by pixel, and the shapes round it as thin lines."""
+        for tier, (world, camera, view) in self.cells.items():
+            rect, lens = frame.from_canvas(view), frame.lens(camera)
+            frame.surface.set_clip(rect)
+            picture, (left, top) = self.pictures[tier]
+            size = ceil(picture.get_width() * lens.scale)
+            at = lens.points(left, top)
+            frame.surface.blit(pygame.transform.scale(picture, (size, size)), (round(at[0]), round(at[1])))
+            if tier not in ("pixels", "mask"):
+                for outline in debug.outlines(world):
+                    draw_outline(frame.surface, lens, outline, PAPER, 1, frame.scale)
+            frame.surface.set_clip(None)
+            pygame.draw.rect(frame.surface, SLATE, rect, 1)
+
+    def check(self):
+        """What holds a sprite leaves nothing out; what is made of its pixels is exact."""
+        held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
+        exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
+        closer = all(
+            sum(counts["outline"]) <= sum(counts["hull"]) <= sum(counts["aabb"]) for counts in self.seen.values()
+        )
+        return [
+            Goal(
+                "every sprite was looked at",
+                BOT_LOOKS * len(SPRITES),
+                len(self.seen) >= len(SPRITES),
+                f"{len(self.seen)}",
+            ),
+            Goal("circle, boxes, capsule and hull leave no pixel out", 1, not held, ", ".join(held)),
+            Goal("pixels stand for themselves", 1, not exact, ", ".join(exact)),
+            Goal("the outline is closer than the hull, the hull than the box", 1, closer),
+        ]
+
+    def bot(self):
+        """One sprite after the other."""
+        return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
+
+    def state(self):
+        """Which sprite, and what was counted."""
+        return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
+
+
+@cache
+def own_picture(path):
+    """(image, mask) of a PNG. Raises FileError for what is none, is too large, or has no solid pixel."""
+    try:
+        image = pygame.image.load(path)
+    except (pygame.error, OSError) as error:
+        raise FileError(path, "picture", f"is no picture that can be read ({error})") from error
+    if max(image.get_size()) > MOST:
+        raise FileError(
+            path, "picture", f"is {image.get_width()} x {image.get_height()} px, at most {MOST} go each way"
+        )
+    image = image.convert_alpha()
+    mask = PixelMask.from_surface(image)
+    if not mask.area:
+        raise FileError(path, "picture", "has no solid pixel: none with more than half of its alpha")
+    return image, mask
