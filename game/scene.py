@@ -325,6 +325,11 @@ class Scene:
                 if body.tier is not None:
                     body.tier = name
 
+    @property
+    def own_body(self) -> int | None:
+        """Id of the body, in the first world, that the player must keep from being hit; None where there is none."""
+        return None
+
     def set_accessibility(self, accessibility: Accessibility) -> None:
         """Take what the player wants of the picture."""
         self.accessibility = accessibility

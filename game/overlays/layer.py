@@ -26,6 +26,7 @@ LAYER_NAMES = (
     "ghosts",
     "outlines",
     "invariants",
+    "disagreement",
 )
 
 

@@ -13,6 +13,7 @@ from game.overlays.layer_bounds import Bounds, Motion
 from game.overlays.layer_centers import Centers
 from game.overlays.layer_colors import Colors
 from game.overlays.layer_contacts import Contacts
+from game.overlays.layer_disagreement import Disagreement
 from game.overlays.layer_features import Features
 from game.overlays.layer_filters import Filters
 from game.overlays.layer_ghosts import Ghosts
@@ -36,6 +37,7 @@ class Overlays:
         self.times = Times()  # keeps a history, to be told of every step
         self.filters = Filters()  # asks the scene what its kinds are called
         self.invariants = Invariants()  # shows the lights of the scene
+        self.disagreement = Disagreement()  # counts the steps that it is shown
         self.layers: tuple[Layer, ...] = (
             Bounds(),
             Motion(),
@@ -53,6 +55,7 @@ class Overlays:
             Ghosts(),
             Outlines(),
             self.invariants,
+            self.disagreement,
         )
         self.on = set(on)
 
@@ -68,6 +71,8 @@ class Overlays:
         """To be told of every step. The invariants are watched from the step after the one that shows them."""
         self.times.note(scene)
         self.invariants.note(scene.lights)
+        if "disagreement" in self.on:
+            self.disagreement.note(scene)
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:

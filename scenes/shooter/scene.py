@@ -83,8 +83,6 @@ class Shooter(Scene):
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
-    # --- what enemies ask for ----------------------------------------------------------------------------------------
-
     @property
     def target(self):
         """Where the player is, or was last [px]."""
@@ -100,7 +98,10 @@ class Shooter(Scene):
         """Which part of the player must be met: core or hull."""
         return ("core", "hull")[int(self.values["hurts"])]
 
-    # --- the step ----------------------------------------------------------------------------------------------------
+    @property
+    def own_body(self):
+        """The plane's hull, while it can be hit."""
+        return None if self.plane.ghost or self.plane.body is None else self.plane.body.id
 
     def update(self, inputs):
         """All choose their velocities, the world steps, and what happened is read from it."""

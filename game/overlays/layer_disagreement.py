@@ -1,0 +1,127 @@
+"""Boxes that lie: pairs in which a sprite's bounding box says hit and its pixels do not."""
+
+from collections import deque
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, GOLD, RED, faded
+from game.drawing.presenter import Frame, Lens
+from game.overlays.layer import Layer, LegendLine
+from game.overlays.layer_bounds import draw_boxes
+from game.scene import Scene
+from physics import World, debug
+from physics.tables.shape import MASK
+
+LIE_BUDGET = 400  # pairs drawn per picture; the note says how many there are
+REMEMBERED = 600  # steps that the share is counted over
+KEPT = 50  # steps that the mark of the player's own box stays, fading
+OWN = "your box would have died here"
+
+
+def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
+    """((n, 2), (m, 2)) shape rows of pairs with a sprite whose boxes share area: all, and those that do not touch.
+
+    Of the pairs that the broad phase found in the last step; sensors are asked for nothing.
+    """
+    ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
+    none = np.zeros((0, 2), np.int64)
+    if not len(ids) or not len(pairs):
+        return none, none
+    rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
+    rows = rows[(ids[rows] == pairs).all(axis=1)]  # what is gone since the step has no row
+    shapes, boxes = world.shapes, debug.bounds(world)
+    asked = (shapes["kind"][rows] == MASK).any(axis=1) & ~shapes["sensor"][rows].astype(bool).any(axis=1)
+    a, b = boxes[rows[:, 0]], boxes[rows[:, 1]]
+    asked &= ((a[:, :2] < b[:, 2:]) & (b[:, :2] < a[:, 2:])).all(axis=1)  # edges that only touch share nothing
+    rows = rows[asked]
+    contacts = world.contacts
+    contacts = contacts[contacts["separation"] <= 0.0]
+    touching = contacts["shape_a"].astype(np.int64) << 32 | contacts["shape_b"]
+    found = ids[rows].astype(np.int64)
+    return rows, rows[~np.isin(found[:, 0] << 32 | found[:, 1], touching)]
+
+
+class Disagreement(Layer):
+    """note(scene) once per step while it is on. Boxes that lie are red; where the player's own did, words say so."""
+
+    name, title, key, color = "disagreement", "Boxes that lie", "j", RED
+
+    def __init__(self) -> None:
+        self.clear()
+        self.begin()
+
+    def clear(self) -> None:
+        """Forget what was counted (another scene, or a restart)."""
+        self.counts: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)  # (hits by boxes, that are none), by step
+        self.marks: list[list] = []  # [steps ago, the player's own box] that was hit by what then missed the player
+        self.inside: dict[int, list] = {}  # by body whose box is in the player's own: [that box, whether it has hit]
+        self.frame = 0
+
+    def note(self, scene: Scene) -> None:
+        """Count the step just made."""
+        if scene.frame < self.frame:
+            self.clear()
+        self.frame = scene.frame
+        told = [false_hits(world) for world in scene.worlds]
+        self.counts.append((sum(len(rows) for rows, _ in told), sum(len(lies) for _, lies in told)))
+        self.marks = [[age + 1, box] for age, box in self.marks if age < KEPT]
+        if told:
+            self._mark_own(scene, *told[0])
+
+    def _mark_own(self, scene, hits, lies):
+        """Mark where something came into the player's own box, once it is out again and has touched nothing."""
+        own, world = scene.own_body, scene.world
+        now = {}
+        if own is not None:
+            boxes = debug.bounds(world)
+            for found, has_hit in ((lies, False), (hits, True)):
+                bodies = world.shapes["body"][found]
+                for pair, rows in zip(bodies.tolist(), found.tolist(), strict=True):
+                    if own in pair:
+                        mine = pair.index(own)
+                        now.setdefault(pair[1 - mine], [boxes[rows[mine]], has_hit])
+        for body, (box, has_hit) in self.inside.items():
+            if body in now:
+                now[body] = [box, has_hit or now[body][1]]
+            elif not has_hit and own is not None:
+                self.marks.append([0, box])
+        self.inside = now
+
+    def begin(self, views: int = 1) -> None:
+        """Start a picture of so many views, which share the budget evenly."""
+        self.drawn = self.total = 0
+        self.room = LIE_BUDGET // views
+        self.labels: list[tuple[int, float, float]] = []
+
+    def draw(self, frame: Frame, lens: Lens, world: World) -> None:
+        """Draw one world through one lens."""
+        _, lies = false_hits(world)
+        self.total += len(lies)
+        boxes = debug.bounds(world)
+        seen = lens.seen(boxes)
+        shown = lies[seen[lies].any(axis=1)][: self.room]
+        self.drawn += len(shown)
+        rows = np.unique(shown[seen[shown]])
+        draw_boxes(frame, lens, boxes[rows], (self.color,), np.zeros(len(rows), int))
+        for age, (x0, y0, x1, y1) in self.marks:
+            (left, right), (top, bottom) = lens.points(np.array([x0, x1]), np.array([y0, y1]))
+            color = faded(frame.tone(GOLD), age / KEPT)
+            pygame.draw.rect(frame.surface, color, (left, top, right - left, bottom - top), frame.scale)
+            self.labels.append((age, (left + right) / 2, top))
+
+    def draw_labels(self, frame: Frame) -> None:
+        """What the player's own box would have cost."""
+        for age, x, y in reversed(self.labels):
+            if age < KEPT // 2:
+                frame.text_if_free(OWN, x, y - 8 * frame.text_scale, GOLD, SMALL, frame.text_scale, "center", True)
+
+    def notes(self) -> list[LegendLine]:
+        """(color, text) lines for the legend."""
+        hits, lies = (sum(column) for column in zip(*self.counts, strict=True)) if self.counts else (0, 0)
+        lines = [(self.color, f"box hits without a shared pixel {self.drawn} of {self.total}")]
+        if hits:
+            seconds = len(self.counts) / 60.0
+            lines.append((FOG, f"{100 * lies / hits:.0f} % of {hits} box hits in {seconds:.0f} s"))
+        return lines

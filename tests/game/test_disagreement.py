@@ -1,0 +1,172 @@
+"""Boxes that lie: those that the layer shows are those that a slow look at every pair finds."""
+
+from itertools import combinations
+
+import numpy as np
+import pygame
+import pytest
+
+from game.input.inputs import InputState
+from game.overlays.layer_disagreement import OWN, false_hits
+from game.overlays.stack import Overlays
+from game.registry import Registry
+from game.run.picture import Picture
+from game.run.session import Session
+from game.run.sources import BotSource
+from game.scene import Scene
+from physics import Effects, Filter, PixelMask, World, collide
+from scenes import SCENES
+
+STEPS, LOOKED_AT = 2400, 20
+
+
+def corner(flipped=False):
+    """An L of 8 x 8 px, the upper right or the lower left quarter of which is empty."""
+    solid = np.ones((8, 8), bool)
+    solid[:4, 4:] = False
+    return PixelMask(solid[::-1, ::-1] if flipped else solid, origin=(4, 4))
+
+
+def ids_of(world, rows):
+    return {tuple(sorted(pair)) for pair in world.shapes["body"][rows].tolist()}
+
+
+def test_two_corners_in_each_other_are_a_hit_by_their_boxes_alone():
+    world = World(Effects())
+    a, b = (
+        world.add_body(corner(), kind="kinematic"),
+        world.add_body(corner(True), position=(4.0, -4.0), kind="kinematic"),
+    )
+    world.step()
+    hits, lies = false_hits(world)
+    assert ids_of(world, hits) == ids_of(world, lies) == {(a.id, b.id)}
+    b.position = (1.0, -1.0)
+    world.step()
+    hits, lies = false_hits(world)
+    assert ids_of(world, hits) == {(a.id, b.id)} and not len(lies)
+    b.position = (8.0, 0.0)
+    world.step()
+    assert not len(false_hits(world)[0]), "edges that only touch share nothing"
+
+
+def test_who_is_not_to_meet_is_not_asked():
+    world = World(Effects(sensors=True))
+    world.add_body(corner(), kind="kinematic", filter=Filter(membership=1, mask=2))
+    world.add_body(corner(True), position=(4.0, -4.0), kind="kinematic", filter=Filter(membership=1, mask=2))
+    world.add_body(
+        corner(True), position=(4.0, -4.0), kind="kinematic", filter=Filter(membership=2, mask=1), sensor=True
+    )
+    world.step()
+    assert not len(false_hits(world)[0])
+
+
+@pytest.fixture(scope="module")
+def flown():
+    """The shooter flown by its bot, the layer on; [(world's ids by a slow look, by the layer)] of some steps."""
+    scene = Registry(SCENES).scene_class("shooter")(seed=1)
+    session, overlays = Session(scene, BotSource()), Overlays(["disagreement"])
+    looks, said = [], []
+    for step in range(STEPS):
+        session.step()
+        overlays.note(scene)
+        if step % LOOKED_AT == 0:
+            looks.append((slow_lies(scene.world), ids_of(scene.world, false_hits(scene.world)[1])))
+        if overlays.disagreement.marks and overlays.disagreement.marks[-1][0] == 0:
+            frame = Picture(pygame.Surface((960, 540))).draw_scene(scene, overlays)
+            said.append(any(OWN in text for _, text in frame.boxes))
+    return looks, said, overlays
+
+
+def slow_lies(world):
+    """Ids of the pairs with a sprite whose boxes share area, and no pixel: every pair of bodies, one by one."""
+    found = set()
+    mask_of = {body.id: body.shapes[0] for body in world}
+    filters = {body.id: body.filter for body in world}
+    for a, b in combinations(world, 2):
+        one, other = mask_of[a.id], mask_of[b.id]
+        if not isinstance(one, PixelMask) and not isinstance(other, PixelMask):
+            continue
+        meet = filters[a.id].membership & filters[b.id].mask and filters[b.id].membership & filters[a.id].mask
+        if not meet or a.sensor or b.sensor:
+            continue
+        (x0, y0, x1, y1), (u0, v0, u1, v1) = a.bounds, b.bounds
+        if x0 < u1 and u0 < x1 and y0 < v1 and v0 < y1:
+            poses = [(each.position.x, each.position.y, each.angle) for each in (a, b)]
+            touch = collide(one, poses[0], other, poses[1])
+            if not len(touch) or min(touch.separations.tolist()) > 0.0:
+                found.add((a.id, b.id))
+    return found
+
+
+def test_in_the_shooter_the_layer_shows_what_a_slow_look_finds(flown):
+    looks, _, _ = flown
+    assert any(slow for slow, _ in looks) and all(slow == shown for slow, shown in looks)
+
+
+def test_the_players_own_box_would_have_died(flown):
+    _, said, overlays = flown
+    assert said and any(said), "in forty seconds some bullet passes through the box and not through the plane"
+    (_, note), (_, share) = overlays.disagreement.notes()
+    assert note.startswith("box hits without") and "%" in share and "10 s" in share
+
+
+class Visit(Scene):
+    """A corner comes into the box of the player's own corner, by so many steps of 4 px, and goes as it came."""
+
+    name, title, about, effects = "test/visit", "Visit", "", Effects()
+    depth = 2
+
+    def build(self):
+        """Two corners."""
+        world = self.add_world()
+        self.mine = world.add_body(corner(), kind="kinematic")
+        self.other = world.add_body(corner(True), position=(12.0, -12.0), kind="kinematic")
+
+    def update(self, inputs):
+        """There, and back."""
+        way = 1 if self.frame < self.depth else -1
+        self.other.velocity = (-240.0 * way, 240.0 * way)
+        self.world.step()
+
+    @property
+    def own_body(self):
+        """Who stands."""
+        return self.mine.id
+
+    def draw(self, canvas, alpha):
+        """No picture."""
+
+    def check(self):
+        """No goals."""
+        return []
+
+    def bot(self):
+        """No keys."""
+        return frozenset()
+
+    def state(self):
+        """Nothing of its own."""
+        return ()
+
+
+@pytest.mark.parametrize("depth, marks", [(1, 0), (2, 1), (3, 0)], ids=["beside", "in the box", "hit"])
+def test_what_came_into_the_box_and_left_without_a_hit_is_marked_once(depth, marks):
+    scene = type("Visit", (Visit,), {"depth": depth})()
+    overlays, state = Overlays(["disagreement"]), InputState()
+    for _ in range(2 * depth + 2):
+        scene.step(state)
+        overlays.note(scene)
+    assert [box.tolist() for _, box in overlays.disagreement.marks] == [[-4.0, -4.0, 4.0, 4.0]] * marks
+
+
+def test_a_restart_is_counted_anew():
+    scene = Registry(SCENES).scene_class("shooter")(seed=1)
+    overlays, session = Overlays(["disagreement"]), Session(scene, BotSource())
+    for _ in range(30):
+        session.step()
+        overlays.note(scene)
+    assert len(overlays.disagreement.counts) == 30
+    scene.restart()
+    session.step()
+    overlays.note(scene)
+    assert len(overlays.disagreement.counts) == 1
