@@ -197,7 +197,7 @@ def _draw_wind(canvas, scene):
     canvas.surface.fill(color, (min(middle, tip), y, abs(tip - middle), 1))
     for back in (1, 2, 3):
         canvas.surface.fill(color, (tip - way * back, y - back + 1, 1, 2 * back - 1))
-    canvas.text(f"{abs(wind):.0f}", left + width - 4, top + 3, color, SMALL, align="right")
+    canvas.text(f"{abs(wind):.0f}", left + width - 4, top + 3, PAPER, SMALL, align="right")
 
 
 def _draw_chart(canvas, scene, view):
