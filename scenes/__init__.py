@@ -14,6 +14,7 @@ SCENES = {
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",
     "lab/ladder": "scenes.lab.ladder:Ladder",
+    "lab/disagreement": "scenes.lab.disagreement:Disagreement",
     "lab/shapes": "scenes.lab.shapes:Shapes",
     "lab/queries": "scenes.lab.queries:Queries",
     "lab/filters": "scenes.lab.filters:Filters",

@@ -59,6 +59,7 @@ SHOTS = {
     "lab/broadphases": Shot(60, 3, 158, 1, layers=("structure",)),
     "lab/masks": Shot(480, 0, 72),
     "lab/ladder": Shot(3, zoom=3),
+    "lab/disagreement": Shot(1200, 160, 60),
     "lab/shapes": Shot(120, 24, 50, 1),
     "lab/filters": Shot(240, 66, 24),
     "lab/sensors": Shot(240, 96, 56, 1),

@@ -9,7 +9,7 @@ import numpy as np
 
 from scenes.shooter.bullets import NAMES, mask_of
 from scenes.shooter.cast import GROUNDED, HEIGHT
-from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, RIGHT, SPEED, TOP
+from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, SPEED, TOP
 
 MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)  # steps ahead
 SOON = 5  # of these are so near that only a bomb would help
@@ -54,7 +54,7 @@ class Pilot:
         if not plane.here:
             return frozenset()
         x, y = plane.body.position
-        place_x = np.clip(x + self.way_x, LEFT, RIGHT)
+        place_x = np.clip(x + self.way_x, LEFT, scene.plane.right)
         place_y = np.clip(y + self.way_y, TOP, BOTTOM)
         danger, doomed = self._danger(scene, x, y, place_x, place_y)
         cost = danger + self._distance(scene, x, y, place_x[:, -1], place_y[:, -1])

@@ -46,6 +46,7 @@ class Plane:
         self.world = world
         self.lives, self.power, self.bombs = LIVES, 1, BOMBS
         self.tier = tier
+        self.right = RIGHT  # how far it may fly
         self.bank = 0.0
         self.safe = self.away = self.cooldown = self.entering = 0
         self.bodies = {}
@@ -128,7 +129,7 @@ class Plane:
             side, vx, vy = 0, 0.0, (START_Y - ENTRY_Y) * 60 / FLY_IN
         else:
             speed = SPEED * (FOCUS if self.focusing else 1.0) * (DIAGONAL if side and rise else 1.0)
-            vx = min(max(side * speed, (LEFT - self.x) * 60), (RIGHT - self.x) * 60)
+            vx = min(max(side * speed, (LEFT - self.x) * 60), (self.right - self.x) * 60)
             vy = min(max(rise * speed, (TOP - self.y) * 60), (BOTTOM - self.y) * 60)
         self.velocity = (vx, vy)
         for body in self.bodies.values():

@@ -1,0 +1,73 @@
+"""What every tier of sprites says of the moments of a running world, beside their exact pixels.
+
+A moment is taken, and in the following calls one tier after the other is asked who meets whom there: in a world of its
+own, so that nobody's verdict changes what happens. A tier a call keeps each call short.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from game.measure.errors import pairs_of
+from game.measure.moment import Moment
+from game.measure.rates import Rate
+from physics import TIERS, World, debug
+
+TRUTH = "mask"
+Pairs = set[tuple[int, int]]  # ids of bodies
+
+
+class Jury:
+    """ask(world) once a step. `wrong`, `missed`: by tier, over all moments that all tiers were asked about.
+
+    lit: the tier whose errors are kept to be drawn: `seen`, of the last moment, (told wrongly, else missed; outlines).
+    """
+
+    def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
+        self.lit, self.seen = lit, list[tuple[bool, list[Any]]]()
+        self.tiers = tuple(tier for tier in tiers if tier != TRUTH)
+        self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))  # hits that are none, of all it told
+        self.missed = dict.fromkeys(self.tiers, Rate(0, 0))  # true hits that it did not tell, of all there were
+        self.moments = 0
+        self._moment: Moment | None = None
+        self._said: dict[str, Pairs] = {}
+
+    def ask(self, world: World) -> bool:
+        """Ask one more tier, of a new moment where all have been asked; True when the last one has answered."""
+        if self._moment is None:
+            self._moment, self._said = Moment(world.snapshot(), world.broadphase.name), {}
+        waiting = [tier for tier in (TRUTH, *self.tiers) if tier not in self._said]
+        self._said[waiting[0]] = self._verdict(self._moment, waiting[0])
+        if len(waiting) > 1:
+            return False
+        true = self._said[TRUTH]
+        for tier in self.tiers:
+            wrong, missed = self._said[tier] - true, true - self._said[tier]
+            self.wrong[tier] = _more(self.wrong[tier], len(wrong), len(self._said[tier]))
+            self.missed[tier] = _more(self.missed[tier], len(missed), len(true))
+        self.moments, self._moment = self.moments + 1, None
+        return True
+
+    def _verdict(self, moment, tier):
+        world = moment.world(moment.here._replace(tier=tier, narrowphase=True))
+        world.step(0.0)
+        said = pairs_of(world)
+        if tier == self.lit:
+            true = self._said[TRUTH]
+            self.seen = [(True, _outlines(world, pair)) for pair in sorted(said - true)]
+            self.seen += [(False, _outlines(world, pair)) for pair in sorted(true - said)]
+        return said
+
+    def state(self) -> tuple[int, ...]:
+        """For a digest."""
+        rates = [*self.wrong.values(), *self.missed.values()]
+        return self.moments, len(self._said), *(number for rate in rates for number in rate)
+
+
+def _more(rate, count, total):
+    return Rate(rate.count + count, rate.total + total)
+
+
+def _outlines(world, pair):
+    return debug.outlines(world, np.flatnonzero(np.isin(world.shapes["body"], pair)))

@@ -1,0 +1,176 @@
+"""The shooter's own traffic, judged by nine tiers: how often does each say hit where no pixel is shared, or miss a hit?
+
+What to see: the game goes on as the pixels say. Ten times a second the same moment is shown to every tier, and whoever
+says otherwise than the exact pixels is counted. Choose a tier with the wheel: the pairs that it told wrongly in the
+last moment are lit. The curves settle as hits add up; the bars are as wide as 95 % of such counts would scatter. You
+cannot die here: fly into the traffic and count what your box would have cost.
+"""
+
+from dataclasses import replace
+
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import BLUE, DUSK, FOG, GOLD, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.measure.jury import Jury
+from game.overlays.outlines import draw_outline
+from game.scene import Goal
+from scenes.lab.masks import COLORS, NAMES
+from scenes.lab.yard import HEAD
+from scenes.shooter.director import Director
+from scenes.shooter.scene import Shooter
+
+HEADING = pygame.Rect(0, 0, 480, HEAD)
+SIDE = pygame.Rect(328, HEAD, 152, 270 - HEAD)  # where the figures stand
+ROW, TOP = 16, 36
+OPENS = 34.5  # [s] of the stage: a gunship, and what comes with it
+MARGIN = 14  # [px] that the plane keeps from them
+BARS, FULL = 384, 48  # left end and width [px] of a bar of 100 %
+CURVES = pygame.Rect(SIDE.x + 24, 184, SIDE.width - 30, 68)
+MOST_POINTS = 200  # of a curve; then every second one is dropped
+FIRST = "aabb"  # lit from the start
+LIARS = ("circle", "aabb", "obb")  # must be caught by the bot's flight
+HOLDING = ("circle", "obb", "capsule", "hull")  # of a sprite hold all of its pixels, however it is turned
+
+
+class Disagreement(Shooter):
+    """The shooter, with a jury beside it."""
+
+    name = "lab/disagreement"
+    title = "Disagreement"
+    about = "The shooter's traffic, judged by nine tiers: who says hit where no pixel is shared, and who misses one."
+    features = (
+        "nine tiers asked about the same moments of a real game",
+        "wrong and missed hits apart, with the interval they lie in",
+        "what the chosen tier told wrongly is lit",
+    )
+    actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
+    tiers = ("pixels",)
+    sliders = ()
+    head = HEAD
+    ranked_by = None
+    assists = ()
+    takes_level = False
+    music = "lab"
+    hides_pointer = False
+
+    def build(self):
+        """The sky of the shooter, where nobody dies; nobody has said anything yet."""
+        self.assist = {"invincible": True, "hit_stop": False}
+        super().build()
+        self.plane.right = SIDE.x - MARGIN
+        self.director = Director(from_then_on(self.director.stage, OPENS))
+        self.director.mode = "run"
+        self.jury = Jury(FIRST)
+        self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over ever more moments
+        self.apart = 1  # moments between two of them
+
+    @property
+    def hurts(self):
+        """The hull, as in every game that has no small core."""
+        return "hull"
+
+    def update(self, inputs):
+        """The game, and then one more tier is asked."""
+        super().update(inputs)
+        jury = self.jury
+        if inputs.wheel:
+            jury.lit = jury.tiers[(jury.tiers.index(jury.lit) - inputs.wheel) % len(jury.tiers)]
+            jury.seen = []
+        if not jury.ask(self.world) or jury.moments % self.apart:
+            return
+        self.curves.append(tuple(jury.wrong[tier].share for tier in jury.tiers))
+        if len(self.curves) > MOST_POINTS:
+            self.curves, self.apart = self.curves[1::2], 2 * self.apart
+
+    def draw(self, canvas, alpha):
+        """The game, and the figures beside it."""
+        super().draw(canvas, alpha)
+        for rect, color in ((HEADING, INK), (SIDE, NIGHT)):
+            canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # covered now
+            canvas.surface.fill(color, rect)
+            canvas.fix(rect)
+        canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
+        canvas.text("DISAGREEMENT", 4, 4, GOLD)
+        canvas.text("hits told wrong", BARS, TOP - 12, FOG, SMALL)
+        canvas.text("missed", SIDE.right - 4, TOP - 12, FOG, SMALL, align="right")
+        for row, tier in enumerate(self.jury.tiers):
+            self._draw_row(canvas, tier, TOP + row * ROW)
+        self._draw_curves(canvas)
+        hits = self.jury.missed[FIRST].total
+        canvas.text(f"{self.jury.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
+
+    def _draw_row(self, canvas, tier, y):
+        """A tier's share of wrong hits, as a bar with its interval, and of missed ones."""
+        wrong, missed, color = self.jury.wrong[tier], self.jury.missed[tier], COLORS[tier]
+        if tier == self.jury.lit:
+            canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
+        canvas.surface.fill(color, (SIDE.x + 6, y, 2, 6))
+        canvas.text(NAMES.get(tier, tier), SIDE.x + 10, y, PAPER, SMALL)
+        if not wrong.total:
+            canvas.text("no hit yet", BARS, y, FOG, SMALL)
+            return
+        low, high = (round(FULL * share) for share in wrong.interval)
+        canvas.surface.fill(faded(color, 0.5), (BARS + low, y + 2, max(1, high - low), 2))
+        canvas.surface.fill(color, (BARS + round(FULL * wrong.share), y, 1, 6))
+        canvas.text(f"{100 * wrong.share:.0f} %", BARS + FULL + 22, y, PAPER, SMALL, align="right")
+        canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
+
+    def _draw_curves(self, canvas):
+        """How the shares of wrong hits settled."""
+        area = CURVES
+        canvas.surface.fill(INK, area)
+        top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])
+        canvas.text(f"{100 * top:.0f} %", area.x - 2, area.y, FOG, SMALL, align="right")
+        canvas.text("0", area.x - 2, area.bottom - 6, FOG, SMALL, align="right")
+        canvas.text("share of wrong hits, as they add up", SIDE.x + 6, area.y - 9, FOG, SMALL)
+        if len(self.curves) < 2:
+            return
+        for column, tier in enumerate(self.jury.tiers):
+            points = [
+                (
+                    area.x + number * (area.width - 1) / (len(self.curves) - 1),
+                    area.bottom - 1 - min(shares[column] / top, 1.0) * (area.height - 2),
+                )
+                for number, shares in enumerate(self.curves)
+            ]
+            pygame.draw.lines(canvas.surface, COLORS[tier], False, points)
+
+    def draw_on_frame(self, frame):
+        """What the chosen tier told wrongly in the last moment, and what it missed."""
+        lens = frame.lens(self.camera)
+        clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
+        frame.surface.set_clip(clip)
+        width = max(1, frame.scale - 1)
+        for told, outlines in self.jury.seen:
+            color = RED if told else BLUE
+            for outline in outlines:
+                if outline[0] not in ("mask", "tiles"):
+                    draw_outline(frame.surface, lens, outline, color, width, frame.scale)
+        frame.surface.set_clip(None)
+
+    def check(self):
+        """Simple shapes were caught telling hits that are none; what is made of the outline hardly ever does."""
+        wrong, missed = self.jury.wrong, self.jury.missed
+        caught = [tier for tier in LIARS if wrong[tier].count]
+        all_caught = len(caught) == len(LIARS)
+        holding = [tier for tier in HOLDING if missed[tier].count]
+        return [
+            Goal("true hits were seen", 1200, missed[FIRST].total > 0, f"{missed[FIRST].total}"),
+            Goal("circle, box and turned box told hits that are none", 1200, all_caught, ", ".join(caught)),
+            Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
+        ]
+
+    def bot(self):
+        """The shooter's own pilot."""
+        return super().bot()
+
+    def state(self):
+        """The game's, and what the jury has said."""
+        return (*super().state(), *self.jury.state(), self.jury.lit)
+
+
+def from_then_on(stage, start):
+    """A stage without its waves before a time [s]."""
+    kept = [each for each in stage.events if each.at >= start or each.event in ("backdrop", "pace")]
+    return replace(stage, events=tuple(replace(each, at=max(0.0, each.at - start)) for each in kept))

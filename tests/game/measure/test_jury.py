@@ -1,0 +1,74 @@
+"""The jury's counts are those of single calls of collide() on every pair, in the shooter's own traffic."""
+
+from itertools import combinations
+
+import pytest
+
+from game.measure.jury import Jury
+from game.run.session import Session
+from game.run.sources import BotSource
+from physics import TIERS, collide, fit
+from tests.lockstep import make_scene
+
+QUIET, ASKED = 500, 6  # steps before anything is asked; moments then
+
+
+def slow_verdict(bodies, filters, tier):
+    """Ids of the pairs that meet at a tier, every pair tried."""
+    shapes = {body.id: fit(body.shapes[0], tier) if body.tier else body.shapes for body in bodies}
+    met = set()
+    for a, b in combinations(bodies, 2):
+        (own, others), (theirs, ours) = filters[a.id], filters[b.id]
+        if not own & ours or not theirs & others or a.sensor or b.sensor:
+            continue
+        poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
+        found = [collide(s, poses[0], t, poses[1]) for s in shapes[a.id] for t in shapes[b.id]]
+        if any(len(each) and min(each.separations.tolist()) <= 0.0 for each in found):
+            met.add((a.id, b.id))
+    return met
+
+
+@pytest.fixture(scope="module")
+def asked():
+    """(jury, {tier: (said, wrong, missed)} counted slowly) after some moments of the shooter."""
+    scene = make_scene("shooter")
+    session, jury = Session(scene, BotSource()), Jury("aabb")
+    counts = dict.fromkeys(jury.tiers, (0, 0, 0))
+    for _ in range(QUIET):
+        session.step()
+    while jury.moments < ASKED:
+        bodies = list(scene.world)
+        filters = {body.id: (body.filter.membership, body.filter.mask) for body in bodies}
+        true = slow_verdict(bodies, filters, "mask")
+        for tier in jury.tiers:
+            said, (all_said, wrong, missed) = slow_verdict(bodies, filters, tier), counts[tier]
+            counts[tier] = all_said + len(said), wrong + len(said - true), missed + len(true - said)
+        while not jury.ask(scene.world):
+            session.step()  # the moment that is being judged stays as it was taken
+        session.step()
+        while not len(scene.world.contacts):
+            session.step()
+    return jury, counts
+
+
+def test_every_tier_is_counted_as_a_slow_look_counts(asked):
+    jury, counts = asked
+    for tier in jury.tiers:
+        wrong, missed = jury.wrong[tier], jury.missed[tier]
+        assert (wrong.total, wrong.count, missed.count) == counts[tier], tier
+    assert set(jury.tiers) == set(TIERS) - {"mask"} and jury.wrong["circle"].count > 0
+
+
+def test_what_the_lit_tier_told_wrongly_is_there_to_be_drawn():
+    scene = make_scene("shooter")
+    session, jury = Session(scene, BotSource()), Jury("circle")
+    for _ in range(QUIET):
+        session.step()
+    before = 0
+    for _ in range(900):
+        session.step()
+        if jury.ask(scene.world):
+            wrong = jury.wrong["circle"].count - before
+            assert sum(told for told, _ in jury.seen) == wrong and all(outlines for _, outlines in jury.seen)
+            before += wrong
+    assert before > 0
