@@ -44,6 +44,7 @@ class Settings:
     ghost: bool = True  # the best run is seen beside this one
     rumble: bool = True
     hint_seen: bool = False  # the card of the first game was put away
+    labs_seen: list = field(default_factory=list)  # names of those whose card was put away
     initials: str = "AAA"  # those entered last
     keys: dict = field(default_factory=lambda: default_table("keys"))
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
@@ -117,6 +118,8 @@ def _refusal_of(name, value):
     """Why a value cannot be used, or ""."""
     if name in ("keys", "buttons"):
         return _table_refusal(name, value)
+    if name == "labs_seen":
+        return "" if _are_names(value) else f"must be a list of names (got {value!r:.60})"
     default = getattr(Settings, name)
     if isinstance(default, bool):
         return "" if isinstance(value, bool) else f"must be true or false (got {value!r:.60})"

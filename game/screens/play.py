@@ -20,7 +20,7 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
 from game.screens.parts.cost_panel import CostPanel
-from game.screens.parts.first_hint import HintCard
+from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
@@ -89,7 +89,7 @@ class Play(SceneScreen):
         self.helped_since = 0  # the step from which the keys are shown
         self.now = 0.0  # [s] of the last turn
         self.switches = Switches(scene, devices, lambda solver: self.prepare(solver))
-        self.hint = HintCard() if self.person and settings is not None and not settings.hint_seen else None
+        self.hint = first_card(scene, settings) if self.person and settings is not None else None
         self.apply_settings()
 
     @property
@@ -265,12 +265,12 @@ class Play(SceneScreen):
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event before the game does; True if it is used up."""
         if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
-            self.hint = None
-            self.helped_since = self.session.report.steps
             if self.settings is not None:
-                self.settings.hint_seen = True
+                self.hint.remember(self.settings)
             self.settings_changed()
-            if event.type == pygame.MOUSEBUTTONDOWN:
+            keeps, self.hint = self.hint.keeps_keys, None
+            self.helped_since = self.session.report.steps
+            if keeps or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
         if button is not None and self._button(button):
@@ -280,6 +280,10 @@ class Play(SceneScreen):
             self.devices.release_all()
             return True
         if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
+            return True
+        if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
+            self.close_costs()
+            self.panel_open, self.hint = False, LabCard(self.scene)
             return True
         return event.type == pygame.KEYDOWN and self._key(event.key)
 
@@ -386,8 +390,8 @@ class Play(SceneScreen):
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
         if scrub is not None:
             scrub.draw(frame)
+        draw_status(frame, self)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
-        draw_status(frame, self)
         self.session.report.note_drawing(perf_counter() - started)
         return frame

@@ -5,6 +5,7 @@ import pygame
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.presenter import Frame
+from game.files.settings import Settings
 
 LINES = (("Tab or Y", "the panel"), ("1 to 9", "see what the physics sees"), ("Esc", "menu: a one-minute tour"))
 FOOT = "Enter or a click puts this away"
@@ -16,6 +17,8 @@ SIZE = (224, 74)  # [text px]
 class HintCard:
     """Shown until it is put away by one of the keys it names, or by a click on it."""
 
+    keeps_keys = False  # they do what it says that they do
+
     def __init__(self) -> None:
         self.rect = pygame.Rect(0, 0, 0, 0)
 
@@ -26,6 +29,10 @@ class HintCard:
         if event.type == pygame.MOUSEBUTTONDOWN:
             return self.rect.collidepoint(event.pos)
         return button in BUTTONS
+
+    def remember(self, settings: Settings) -> None:
+        """It is not shown again."""
+        settings.hint_seen = True
 
     def draw(self, frame: Frame) -> None:
         """Draw it where the picture is free, at window resolution."""

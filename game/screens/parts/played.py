@@ -9,6 +9,7 @@ from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
 from game.screens.parts.first_hint import HintCard
+from game.screens.parts.lab_card import LabCard
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.switches import Switches
 
@@ -24,7 +25,7 @@ class Played(Protocol):
     switches: Switches
     settings: Settings | None
     scrub: Scrub | None
-    hint: HintCard | None
+    hint: HintCard | LabCard | None
     person: bool
     since_result: int
     helped_since: int  # the step from which the keys are shown

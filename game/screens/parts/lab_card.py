@@ -1,0 +1,159 @@
+"""A lab's card: what is to be seen in it, and what it must show, with what it has measured so far."""
+
+import sys
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, wrap
+from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, SKY, SLATE, Color
+from game.drawing.presenter import Frame
+from game.files.settings import Settings
+from game.scene import Goal, Scene
+from game.screens.parts.first_hint import HintCard
+
+SEE = "What to see: "
+FOOT = "F1 or ?: this card   Enter or a click puts it away"
+KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
+BUTTONS = ("a", "b", "start")
+WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
+GRID = 4  # places that are tried, less one, each way
+FOLLOWS = INK  # a line that goes on with the one above it
+EVERY = 30  # pictures between two looks at the goals
+
+
+class LabCard:
+    """Shown at the first visit, and whenever it is asked for, until it is put away. Raises ValueError for a scene whose
+    source does not say what to see."""
+
+    keeps_keys = True
+
+    def __init__(self, scene: Scene) -> None:
+        found = what_to_see(type(scene))
+        if found is None:
+            raise ValueError(f"{scene.name} does not say what to see")
+        self.scene, (self.question, self.see) = scene, found
+        self.rect = pygame.Rect(0, 0, 0, 0)
+        self.goals: list[Goal] = []
+        self.age = 0
+
+    def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
+        """True if this event puts the card away; `button`: the pad's button it presses, or None."""
+        if event.type == pygame.KEYDOWN:
+            return event.key in KEYS or asks_for_card(event)
+        if event.type == pygame.MOUSEBUTTONDOWN:
+            return self.rect.collidepoint(event.pos)
+        return button in BUTTONS
+
+    def remember(self, settings: Settings) -> None:
+        """It is not opened by itself again."""
+        if self.scene.name not in settings.labs_seen:
+            settings.labs_seen = [*settings.labs_seen, self.scene.name]
+
+    def draw(self, frame: Frame) -> None:
+        """Draw it at window resolution, where it covers the least text; the game goes on behind it."""
+        if self.age % EVERY == 0:  # some goals take time to check
+            self.goals = self.scene.check()
+        self.age += 1
+        scale, area = frame.text_scale, frame.area.clip(frame.rect)
+        width = min(WIDTH * scale, area.width)
+        lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)
+        self.rect = least_covering(frame, area, (width, (height_of(lines) + 2 * EDGE) * scale))
+        frame.boxes[:] = [each for each in frame.boxes if not self.rect.colliderect(each[0])]  # covered now
+        frame.surface.fill(INK, self.rect)
+        pygame.draw.rect(frame.surface, SLATE, self.rect, scale)
+        frame.surface.fill(GOLD, (self.rect.x, self.rect.y, 2 * scale, self.rect.height))
+        y = self.rect.y + EDGE * scale
+        for line in lines:
+            left, y = self.rect.x + EDGE * scale, y + line.gap * scale
+            if line.mark is not None:
+                if line.mark != FOLLOWS:
+                    frame.surface.fill(line.mark, (left, y + scale, MARK * scale, MARK * scale))
+                left += 2 * MARK * scale
+            frame.text(line.text, left, y, line.ink, line.font, scale)
+            y += line.height * scale
+        frame.fix(self.rect)
+
+    def _lines(self, width, scale, room):
+        """What is written, from top to bottom: lines of so many frame pixels, `room` text pixels of them."""
+        see = wrap(self.see, width, SMALL, scale)
+        lines = [Line(text, GOLD, TEXT) for text in wrap(self.question, width, TEXT, scale)]
+        lines += [Line(text, PAPER, gap=0 if number else 3) for number, text in enumerate(see)]
+        foot = Line(FOOT, FOG, gap=4)
+        if self.goals:
+            lines.append(Line("what it must show, and what it has measured", SKY, gap=4))
+            lines += self._goal_lines(width, scale, room - height_of([*lines, foot]))
+        return [*lines, foot]
+
+    def _goal_lines(self, width, scale, room):
+        """The goals, those first about which something is known; those for which there is no room are counted."""
+        lines, left = [], sorted(self.goals, key=self._waits)
+        while left:
+            goal = left[0]
+            mark = GREEN if goal.met else SLATE if self._waits(goal) else ORANGE
+            words = f"{goal.name}: {goal.detail}" if goal.detail else goal.name
+            wrapped = wrap(words, width - 2 * MARK * scale, SMALL, scale)
+            more = [Line(text, PAPER, mark=FOLLOWS if number else mark) for number, text in enumerate(wrapped)]
+            last = Line(f"{len(left)} more", FOG)
+            if height_of([*lines, *more, *([last] if len(left) > 1 else [])]) > room:
+                return [*lines, last]
+            lines, left = lines + more, left[1:]
+        return lines
+
+    def _waits(self, goal):
+        return not goal.met and self.scene.frame < goal.due
+
+
+class Line(NamedTuple):
+    """A line of the card. gap: [text px] above it; mark: the colour of the square before it, FOLLOWS: only its room."""
+
+    text: str
+    ink: Color
+    font: str = SMALL
+    gap: int = 0
+    mark: Color | None = None
+
+    @property
+    def height(self) -> int:
+        """[text px]."""
+        return 10 if self.font == TEXT else 7
+
+
+def height_of(lines: Iterable[Line]) -> int:
+    """[text px]."""
+    return sum(line.gap + line.height for line in lines)
+
+
+def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
+    """The place in an area, of a grid of them, at which a rect covers the least text."""
+    spare = area.width - size[0], area.height - size[1]
+    places = [
+        pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
+        for column in range(GRID + 1)
+        for row in range(GRID + 1)
+    ]
+
+    def covered(place):
+        return sum(both.width * both.height for both in (place.clip(box) for box, _ in frame.boxes))
+
+    return min(places, key=covered)
+
+
+def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
+    """The card that a scene opens with: its own at the first visit; before the first of all games, the keys."""
+    if what_to_see(type(scene)) is not None:
+        return LabCard(scene) if scene.name not in settings.labs_seen else None
+    return None if settings.hint_seen else HintCard()
+
+
+def what_to_see(scene_class: type[Scene]) -> tuple[str, str] | None:
+    """(what a lab asks, what is to be seen), as its source says at its head; None where it does not."""
+    head, found, see = (sys.modules[scene_class.__module__].__doc__ or "").partition(SEE)
+    see = " ".join(see.split())
+    return (" ".join(head.split()), see[0].upper() + see[1:]) if found and see else None
+
+
+def asks_for_card(event: pygame.event.Event) -> bool:
+    """Whether a key is the one that opens it."""
+    return event.key == pygame.K_F1 or getattr(event, "unicode", "") == "?"
