@@ -264,13 +264,13 @@ class Play(SceneScreen):
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event before the game does; True if it is used up."""
-        if self.hint is not None and self.hint.dismissed_by(event, self.devices.pressed_button(event)):
+        hint = None if self.open_panel is not None else self.hint
+        if hint is not None and hint.dismissed_by(event, self.devices.pressed_button(event)):
             if self.settings is not None:
-                self.hint.remember(self.settings)
+                hint.remember(self.settings)
             self.settings_changed()
-            keeps, self.hint = self.hint.keeps_keys, None
-            self.helped_since = self.session.report.steps
-            if keeps or event.type == pygame.MOUSEBUTTONDOWN:
+            self.hint, self.helped_since = None, self.session.report.steps
+            if hint.keeps_keys or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
         if button is not None and self._button(button):

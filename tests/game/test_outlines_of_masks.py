@@ -151,7 +151,7 @@ def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
     assert scene_digest(scene) == before
     mine = np.flatnonzero(scene.world.shapes["body"] == scene.flying.id)
     lines = mask_edges(scene.world, mine, float(scale)).outer
-    wanted = (255, 255, 255) if layer == "masks" else tuple(overlays.layers[-1].color)
+    wanted = (255, 255, 255) if layer == "masks" else tuple(next(each.color for each in overlays.layers if each.name == layer))
     picture = pygame.surfarray.array3d(frame.surface)
     for x, y in middles(lines):
         column, row = round(x * scale), round(y * scale)

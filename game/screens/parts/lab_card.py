@@ -20,6 +20,7 @@ BUTTONS = ("a", "b", "start")
 WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
 GRID = 4  # places that are tried, less one, each way
 FOLLOWS = INK  # a line that goes on with the one above it
+GOALS = 84  # [text px] of goals at most
 EVERY = 30  # pictures between two looks at the goals
 
 
@@ -83,7 +84,7 @@ class LabCard:
         foot = Line(FOOT, FOG, gap=4)
         if self.goals:
             lines.append(Line("what it must show, and what it has measured", SKY, gap=4))
-            lines += self._goal_lines(width, scale, room - height_of([*lines, foot]))
+            lines += self._goal_lines(width, scale, min(GOALS, room - height_of([*lines, foot])))
         return [*lines, foot]
 
     def _goal_lines(self, width, scale, room):
