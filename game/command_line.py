@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import os
 import sys
 import warnings
@@ -87,6 +88,8 @@ def make_parser() -> Parser:
         action="store_true",
         help="warnings are failures, and the first broken invariant ends the run: U1 to U11, after every step",
     )
+    add("--advise", metavar="SCENE", help="measure every setting of a scene, and tell which takes the least time")
+    add("--error", metavar="PX", type=float, help="that the advice may cost (1 px: what can be seen)")
     add("--version", action="store_true", help="versions of the game and what it runs on")
     return parser
 
@@ -99,8 +102,10 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     _known(given["broadphase"], "broad phase", tuple(BROADPHASES))
     _known(given["solver"], "solver", tuple(SOLVERS))
     _known(given["scene"], "scene", registry.names)
+    _known(given["advise"], "scene", registry.names)
     layers, level = read_layers(given.pop("overlay")), given.pop("level")
     options = Options(**given, overlay=layers, level=None if level is None else Path(level))
+    _check_advice(options)
     if options.frames is not None and options.frames < 1:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
@@ -126,6 +131,20 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
                 f"valid: {', '.join(valid)}"
             )
     return options
+
+
+def _check_advice(options):
+    """--advise is a run of its own: it names its scene, and is played by the bot."""
+    if options.error is not None and options.advise is None:
+        raise UsageError("--error needs --advise")
+    if options.error is not None and not 0.0 < options.error < math.inf:
+        raise UsageError(f"--error must be more than 0 px, and finite (got {options.error})")
+    if options.advise is None:
+        return
+    others = [flag for flag in ("scene", "record", "replay", "screenshot", "profile") if getattr(options, flag)]
+    if others:
+        raise UsageError(f"--advise brings its own scene and run: leave out --{others[0]}")
+    options.scene = options.advise
 
 
 def _known(name, what, valid):
@@ -210,6 +229,10 @@ def _dispatch(options, registry):
         from game.run.warmup import warm_up_all
 
         return warm_up_all(registry)
+    if options.advise:
+        from game.run.advise import run_advice
+
+        return run_advice(options, registry)
     if options.headless:
         from game.run.headless import run_headless
 

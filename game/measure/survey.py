@@ -94,12 +94,12 @@ class Survey:
         if here not in known or len(known) < 2:
             return ""
         cost, error = known[here]
-        as_good = {s: c for s, (c, e) in known.items() if told(e) <= (1.0 + TIE) * told(error) and _sound(e)}
+        as_good = {s: c for s, (c, e) in known.items() if told(e) <= (1.0 + TIE) * told(error) and is_sound(e)}
         best = min(as_good, key=lambda s: as_good[s].median, default=here)
         if best != here and cheaper(as_good[best][:2], cost[:2]):
             share = as_good[best].median / cost.median
             return f"{best.label(here)}: as exact in {share:.2f} x the time"
-        exacter = {s: (c, e) for s, (c, e) in known.items() if told(e) < (1.0 - TIE) * told(error) and _sound(e)}
+        exacter = {s: (c, e) for s, (c, e) in known.items() if told(e) < (1.0 - TIE) * told(error) and is_sound(e)}
         better = {s: e for s, (c, e) in exacter.items() if not cheaper(cost[:2], c[:2])}
         if better:
             best = min(better, key=lambda s: told(better[s]))
@@ -123,5 +123,6 @@ def shown(error: Error) -> str:
     return f"less than {error.floor:.2g} px" if error.floor else "0 px"
 
 
-def _sound(error):
+def is_sound(error: Error) -> bool:
+    """Whether nothing failed on the way."""
     return not any(error.failures.values())

@@ -33,6 +33,8 @@ class Options:
     warmup: bool = False
     strict: bool = False
     version: bool = False
+    advise: str | None = None  # a scene; it is then the scene too
+    error: float | None = None  # [px] that the advice may cost
     recording: Replay | None = None
 
     @property

@@ -1,0 +1,98 @@
+"""Which settings give the least time within an error: measured one change at a time, then what pays together.
+
+An advice is only given where it is sure: the intervals of its times are apart and by more than a tie, over all moments.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from random import Random
+from typing import NamedTuple
+
+from game.measure.errors import References
+from game.measure.front import cheaper
+from game.measure.moment import STEPS, Moment
+from game.measure.setting import Setting, settings_around
+from game.measure.survey import Survey, is_sound, told
+from game.measure.timing import RUNS
+
+PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))  # that are chosen each by itself
+
+
+class Advice(NamedTuple):
+    """best: what to set, `here` where nothing is surely cheaper; None where nothing is within the error."""
+
+    here: Setting
+    best: Setting | None
+    within: tuple[Setting, ...]  # all that are, the cheapest first
+
+
+Tell = Callable[[int, int], object]  # (runs that are done, of so many)
+
+
+def measure_settings(
+    survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], tell: Tell, seed: int
+) -> None:
+    """Add the errors and the times of settings at all moments to a survey."""
+    settings, chance, done = list(settings), Random(seed), 0
+    survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)
+    survey.moments = len(moments)
+    for number, moment in enumerate(moments, 1):
+        references = References(moment)
+        survey.kinds = references.kinds
+        for setting in settings:
+            moment.time_run(setting, 2)  # compiles what is missing
+            survey.dot(setting).errors[number] = references.errors(setting)
+            survey.dot(setting).steps = STEPS
+            done += 1
+            tell(done, of)
+        for _ in range(RUNS):
+            chance.shuffle(settings)
+            for setting in settings:
+                survey.dot(setting).spent.setdefault(number, []).append(moment.time_run(setting))
+                done += 1
+                tell(done, of)
+
+
+def advise(
+    moments: Sequence[Moment], error: float, tell: Tell = lambda done, of: None, seed: int = 0
+) -> tuple[Advice, Survey]:
+    """What to set for an error of so many pixels, and what that was found from. Raises ValueError for no moments."""
+    if not moments:
+        raise ValueError("moments must be one at least (got none)")
+    here, survey = moments[0].here, Survey()
+    measure_settings(survey, moments, settings_around(here, moments[0].effects), tell, seed)
+    together = _together(survey, here, error)
+    if together not in survey.dots:
+        measure_settings(survey, moments, [here, together], tell, seed + 1)
+    within = _within(survey, error)
+    if not within:
+        return Advice(here, None, ()), survey
+    best = within[0]
+    if here in within and not _is_cheaper(survey, best, here):
+        best = here
+    return Advice(here, best, tuple(within)), survey
+
+
+def _within(survey, error):
+    """The settings whose errors are all within, the cheapest first."""
+    found = {}
+    for setting, dot in survey.dots.items():
+        errors = [dot.error(kind) for kind in survey.kinds]
+        if dot.cost is not None and all(e is not None and is_sound(e) and told(e) <= error for e in errors):
+            found[setting] = dot.cost.median
+    return sorted(found, key=found.__getitem__)
+
+
+def _is_cheaper(survey, one, other):
+    """By the whole interval of its runs, not by their median alone."""
+    a, b = survey.dots[one].cost, survey.dots[other].cost
+    return a is not None and b is not None and cheaper((a.least, a.upper), b[:2])
+
+
+def _together(survey, here, error):
+    """Of each part the cheapest choice that surely pays by itself, all at once."""
+    together = here
+    for part in PARTS:
+        alone = [each for each in _within(survey, error) if set(each.differs(here)) <= set(part) and each != here]
+        if alone and (_is_cheaper(survey, alone[0], here) or here not in _within(survey, error)):
+            together = together._replace(**{name: getattr(alone[0], name) for name in part})
+    return together
