@@ -24,13 +24,13 @@ from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
+from game.screens.parts.rumble import rumble
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from game.screens.parts.switches import Switches
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
-RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0.8, 0.5, 300)}  # low, high 0..1, [ms]
 PANEL_BUTTONS = {
     "dpad up": pygame.K_UP,
     "dpad down": pygame.K_DOWN,
@@ -79,7 +79,7 @@ class Play(SceneScreen):
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
         self.measuring = Measuring(scene, devices)
-        self.costs = CostPanel(self.measuring.surveyor, self.measuring.now, self.try_setting)
+        self.costs = CostPanel(self.measuring.surveyor, self.measuring.now, self.try_setting, self.start_race)
         self.costs_open = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
@@ -162,7 +162,7 @@ class Play(SceneScreen):
     def _went(self):
         """The scene was taken to another step of its past."""
         assert self.scrub is not None
-        self.assisted = True
+        self.assisted, self.measuring.race = True, None
         self.since_result = self.scrub.rewind.since_result
         if self.settings is not None:
             self.scene.set_accessibility(self.settings.accessibility())
@@ -180,11 +180,13 @@ class Play(SceneScreen):
         self.session.step()
         if self.scrub is not None:
             self.scrub.rewind.note()
+        if self.measuring.race is not None:
+            self.measuring.race.step(self.session)
         self.overlays.note(self.scene)
         self.sounds.play_cues(self.scene.cues)
         if self.person:
             self._note_help()
-            self._rumble()
+            rumble(self.scene, self.devices.pads, self.settings)
             self._note_result()
 
     def _note_help(self):
@@ -193,13 +195,6 @@ class Play(SceneScreen):
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
             self.assisted = True
-
-    def _rumble(self):
-        pads = self.devices.pads
-        if pads is not None and self.settings is not None and self.settings.rumble:
-            for name, _, _ in self.scene.cues:
-                if name in RUMBLES:
-                    pads.rumble(*RUMBLES[name])
 
     def _note_result(self):
         if self.scene.result is None:
@@ -335,6 +330,12 @@ class Play(SceneScreen):
             self.prepare(setting.solver)
         self.switches.tell(self.measuring.apply(setting))
 
+    def start_race(self, setting: Setting) -> None:
+        """From the start, against the same scene under a setting that was measured."""
+        self.switches.tell(self.measuring.start_race(setting))
+        if self.measuring.race is not None:
+            self.restart()
+
     def close(self) -> None:
         """Called when the screen is left for good."""
         super().close()
@@ -390,6 +391,8 @@ class Play(SceneScreen):
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
         if scrub is not None:
             scrub.draw(frame)
+        if self.measuring.race is not None:
+            self.measuring.race.draw(frame)
         draw_status(frame, self)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)

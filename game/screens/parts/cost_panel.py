@@ -32,7 +32,8 @@ LOOKS: dict[str, tuple[str, Color, str]] = {
 }
 NEAR = 7  # [text px] from a dot that still names it
 FEET = (
-    "click or Enter: play with it   \u2191 \u2193 choose   \u2190 \u2192 other error   M closes",
+    "click or Enter: play with it, Shift: race it   \u2191 \u2193 choose   \u2190 \u2192 other error   M closes",
+    "click: play with it   Shift+click: race it   M closes",
     "click: play with it   \u2190 \u2192 other error   M closes",
     "click: play with it   M closes",
     "M closes",
@@ -43,10 +44,17 @@ ROW = 8  # [text px]
 
 
 class CostPanel:
-    """now(): the setting that runs; apply(setting) puts one to work in the scene, or tells why it cannot."""
+    """now(): the setting that runs; apply(setting) puts one to work in the scene, or tells why it cannot; race(setting)
+    lets the scene run against itself under it."""
 
-    def __init__(self, surveyor: Surveyor, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
-        self.surveyor, self.survey, self.now, self.apply = surveyor, surveyor.survey, now, apply
+    def __init__(
+        self,
+        surveyor: Surveyor,
+        now: Callable[[], Setting],
+        apply: Callable[[Setting], None],
+        race: Callable[[Setting], None],
+    ) -> None:
+        self.surveyor, self.survey, self.now, self.apply, self.race = surveyor, surveyor.survey, now, apply, race
         self.kind: str | None = None  # of error; None: the first there is
         self.trail: list[Setting] = []
         self.places: list[tuple[tuple[float, float], Setting]] = []  # of the last picture's dots
@@ -72,7 +80,7 @@ class CostPanel:
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""
         if event.type == pygame.KEYDOWN and self.focused:
-            return self.key(event.key)
+            return self.key(event.key, bool(getattr(event, "mod", 0) & pygame.KMOD_SHIFT))
         if event.type == pygame.MOUSEMOTION:
             self.hovered = self._under(event.pos)
             return self.rect.collidepoint(event.pos)
@@ -81,12 +89,12 @@ class CostPanel:
             if self.head.collidepoint(event.pos):
                 self.turn_kind(1)
             elif (setting := self._under(event.pos)) is not None:
-                self.apply(setting)
+                (self.race if pygame.key.get_mods() & pygame.KMOD_SHIFT else self.apply)(setting)
             return self.focused
         return False
 
-    def key(self, key: int) -> bool:
-        """Up and down choose a setting, Enter applies it, left and right turn to another error."""
+    def key(self, key: int, shift: bool = False) -> bool:
+        """Up and down choose a setting, Enter applies it, with Shift races it; left and right turn to another error."""
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
             way = 1 if key == pygame.K_DOWN else -1
@@ -94,7 +102,7 @@ class CostPanel:
         elif key in (pygame.K_LEFT, pygame.K_RIGHT):
             self.turn_kind(1 if key == pygame.K_RIGHT else -1)
         elif key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.hovered is not None:
-            self.apply(self.hovered)
+            (self.race if shift else self.apply)(self.hovered)
         else:
             return False
         return True

@@ -6,6 +6,7 @@ from game.measure.moment import here_of
 from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
 from game.scene import SUBSTEPS, Scene
+from game.screens.parts.race import Race
 from physics import PixelMask, World
 
 EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
@@ -20,6 +21,7 @@ class Measuring:
         self.bench = Surveyor()  # of the scene's sprites …
         self.benched: tuple[PixelMask, PixelMask] | None = None  # … which are these
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
+        self.race: Race | None = None  # against another setting
 
     @property
     def world(self) -> World:
@@ -68,16 +70,34 @@ class Measuring:
 
     def apply(self, setting: Setting) -> str:
         """Put a setting to work in the scene, as input that a recording holds. Returns a line about it."""
-        scene, now = self.scene, self.now()
-        changes = []
-        for name in setting.differs(now):
-            change = self._change(scene, name, getattr(setting, name))
-            if isinstance(change, str):
-                return change
-            changes += change
+        now, changes = self.now(), self._changes(setting)
+        if isinstance(changes, str):
+            return changes
         for name, value in changes:
             self.devices.change(name, value)
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
+
+    def start_race(self, setting: Setting) -> str:
+        """Let a rival run beside the scene, which is to restart with its next step. Returns a line about it."""
+        now, changes = self.now(), self._changes(setting)
+        if isinstance(changes, str):
+            return changes
+        self.race = Race(self.scene, changes)
+        return f"the race: {now.label(setting)} against {setting.label(now)}"
+
+    def end_race(self) -> None:
+        """The rival goes."""
+        self.race = None
+
+    def _changes(self, setting):
+        """[(change, value)] that bring the scene to a setting, or a sentence about why it cannot be brought there."""
+        changes = []
+        for name in setting.differs(self.now()):
+            change = self._change(self.scene, name, getattr(setting, name))
+            if isinstance(change, str):
+                return change
+            changes += change
+        return changes
 
     def _change(self, scene, name, value):
         """[(change, value)], or a sentence about why it cannot be made here."""

@@ -29,8 +29,15 @@ def play_rows(play: Played) -> list[Row]:
             press=play.toggle_costs,
             hint="every setting as a dot: its error against its time",
         ),
+        *_race(play),
         Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none")),
     ]
+
+
+def _race(play):
+    if play.measuring.race is None:
+        return []
+    return [Row(BUTTON, "End the race", press=play.measuring.end_race, hint="the rival goes")]
 
 
 def _switches(play, scene):

@@ -1,0 +1,132 @@
+"""The race: the scene that is played and a rival under another setting, from one seed, by one input."""
+
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import GOLD, INK, ORANGE, PAPER, SKY, SLATE
+from game.drawing.presenter import Frame
+from game.drawing.typical import Typical
+from game.input.inputs import InputState
+from game.measure.errors import VISIBLE
+from game.measure.moment import here_of
+from game.overlays.layer_bounds import draw_boxes
+from game.overlays.outlines import draw_outline
+from game.run.replay import chosen_before
+from game.run.session import Session
+from game.scene import Scene
+from physics import debug
+from physics.tables.shape import MASK
+
+# What the two are set to by themselves; all else that a player does goes to both.
+OWN = ("broadphase", "solver", "substeps", "tier", "narrowphase", "slider:solver", "slider:substeps")
+MOST = 400  # outlines in a picture; the line below says how many bodies are apart
+
+
+class Race:
+    """step(session) after each of its steps. changes: what the rival has otherwise, as Scene.change takes it, which
+    raises ValueError for what it cannot take. Whoever starts a race restarts the scene with its next input.
+    """
+
+    def __init__(self, scene: Scene, changes: list[tuple[str, object]]) -> None:
+        self.scene = scene
+        self.rival = type(scene)(scene.seed, scene.broadphase, scene.solver, scene.tier, scene.level_file)
+        for name, value in [*chosen_before(scene), *changes]:
+            self.rival.change(name, value)
+        self.rival.restart()
+        self.inputs = InputState()
+        self.times = Typical(), Typical()  # [s] of a step: of the scene, of the rival
+        self.steps = 0
+        self.same = np.zeros(
+            0, np.int64
+        )  # ids of the bodies that are the same in both: they came together, in one place
+        self.seen = np.zeros(0, np.int64)  # ids of all that were in either
+
+    def step(self, session: Session) -> None:
+        """The rival makes the step that the session has just made."""
+        frame = session.inputs.now
+        self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
+        started = perf_counter()
+        self.rival.step(self.inputs)
+        self.times[1].note(perf_counter() - started)
+        self.times[0].note(session.report.last or 0.0)
+        self.steps += 1
+        self._pair(session.inputs.now)
+
+    def _pair(self, frame):
+        """Ids are numbers in the order of coming: once the two are apart, one number may stand for two things."""
+        if any(name == "restart" for name, _ in frame.changes):
+            self.same = self.seen = np.zeros(0, np.int64)
+        ours, theirs = (each.world.bodies for each in (self.scene, self.rival))
+        both, mine, other = np.intersect1d(ours["id"], theirs["id"], return_indices=True)
+        near = np.hypot(ours["x"][mine] - theirs["x"][other], ours["y"][mine] - theirs["y"][other]) <= VISIBLE
+        came = near & ~np.isin(both, self.seen)
+        self.same = both[came | np.isin(both, self.same)]
+        self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
+
+    def gaps(self) -> tuple[np.ndarray, np.ndarray]:
+        """((n, 2), (n, 2)) places of the bodies that both have, in the scene and in the rival [px]."""
+        ours, theirs = self.scene.world.bodies, self.rival.world.bodies
+        mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
+        mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
+        return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
+
+    def told(self) -> list[str]:
+        """Three lines: the scene's setting and time, the rival's, how far apart they are."""
+        now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
+        ours, theirs = self.gaps()
+        apart = np.hypot(*(ours - theirs).T)
+        rms = float(np.sqrt((apart * apart).mean())) if len(apart) else 0.0
+        seen = int((apart > VISIBLE).sum())
+        alone = len(self.scene.world.bodies) + len(self.rival.world.bodies) - 2 * len(apart)
+        return [
+            f"{now.label(other)}: {1e6 * self.times[0].value:,.0f} us a step",
+            f"{other.label(now)}: {1e6 * self.times[1].value:,.0f} us a step",
+            f"after {self.steps / 60:.1f} s {rms:.2g} px apart, {seen} of {len(apart)} bodies by over a pixel"
+            + (f", {alone} without a twin" if alone else ""),
+        ]
+
+    def draw(self, frame: Frame) -> None:
+        """The rival's outlines over the scene, a line to each body that is elsewhere, and the figures."""
+        world, camera = self.scene.views()[0]
+        lens = frame.lens(camera)
+        frame.surface.set_clip(lens.clip)
+        if world is self.scene.world:
+            self._draw_rival(frame, lens)
+            ours, theirs = self.gaps()
+            far = np.hypot(*(ours - theirs).T) > VISIBLE
+            for start, end in zip(ours[far].tolist(), theirs[far].tolist(), strict=True):
+                ends = lens.points(*start), lens.points(*end)
+                pygame.draw.line(frame.surface, frame.tone(ORANGE), *ends, frame.scale)
+        frame.surface.set_clip(None)
+        self._draw_figures(frame)
+
+    def _draw_rival(self, frame, lens):
+        """Its outlines; of masks their boxes."""
+        color, world = frame.tone(SKY), self.rival.world
+        seen = np.flatnonzero(lens.seen(debug.bounds(world)))[:MOST]
+        for outline in debug.outlines(world, seen):
+            if outline[0] not in ("mask", "tiles"):
+                draw_outline(frame.surface, lens, outline, color, 1, frame.scale)
+        masks = seen[world.shapes["kind"][seen] == MASK]
+        draw_boxes(frame, lens, debug.bounds(world)[masks], (SKY,), np.zeros(len(masks), int))
+
+    def _draw_figures(self, frame):
+        scale, lines = frame.text_scale, self.told()
+        area = frame.area.clip(frame.rect)
+        width = min(area.width, max(frame.measure(line, SMALL, scale)[0] for line in lines) + 14 * scale)
+        size = (width, (8 * len(lines) + 4) * scale)
+        rows = range(area.bottom - size[1] - 4 * scale, area.top + 16 * scale, -8 * scale)
+        place = frame.free_place(size, [(area.centerx - size[0] // 2, y) for y in rows])
+        rect = pygame.Rect(place or (area.centerx - size[0] // 2, area.bottom - size[1] - 4 * scale), size)
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
+        frame.surface.fill(INK, rect)
+        pygame.draw.rect(frame.surface, SLATE, rect, 1)
+        for number, (line, color) in enumerate(zip(lines, (GOLD, SKY, ORANGE), strict=True)):
+            y = rect.y + (3 + 8 * number) * scale
+            frame.surface.fill(frame.tone(color), (rect.x + 4 * scale, y + scale, 3 * scale, 3 * scale))
+            frame.text(line, rect.x + 10 * scale, y, PAPER, SMALL, scale)
+        frame.reserve(rect)

@@ -1,0 +1,184 @@
+"""The race: two scenes from one seed by one input, apart by what their settings do and by nothing else."""
+
+import numpy as np
+import pygame
+import pytest
+
+from game.files.settings import Settings
+from game.input.devices import DeviceSource
+from game.input.inputs import InputFrame
+from game.run.digest import scene_digest
+from game.run.picture import Picture
+from game.run.replay import load_replay
+from game.run.session import Session
+from game.run.sources import BotSource, ScriptSource
+from game.screens.parts.panel_rows import play_rows
+from game.screens.play import Play
+from scenes import SCENES
+from tests.lockstep import make_scene
+
+OTHER = {"hash": "tree", "tree": "hash", "sweep": "hash", "brute": "tree"}
+
+
+class Silent:
+    """No sound."""
+
+    def __getattr__(self, name):
+        return lambda *a, **k: None
+
+
+@pytest.fixture
+def played():
+    """played(name, source=bot): a screen on which a scene is played; closed at the end."""
+    screens = []
+
+    def make(name, source=None):
+        settings = Settings(window_scale=1, hint_seen=True, labs_seen=list(SCENES))
+        play = Play(make_scene(name, few=True), DeviceSource(), Silent(), settings=settings)
+        if source is not None:
+            play.session.source = Mixed(source, play.devices)
+        screens.append(play)
+        return play
+
+    yield make
+    for play in screens:
+        play.close()
+
+
+class Mixed:
+    """A bot's keys, with what is switched meanwhile."""
+
+    def __init__(self, source, devices):
+        self.source, self.devices = source, devices
+
+    def next(self, scene):
+        frame, changes = self.source.next(scene), self.devices.next().changes
+        return InputFrame(frame.actions, frame.pointer, frame.pointer_down, frame.wheel, (*frame.changes, *changes))
+
+
+def race_of(play, **changes):
+    play.start_race(play.measuring.now()._replace(**changes))
+    assert play.measuring.race is not None, play.news
+    return play.measuring.race
+
+
+def steps(play, count):
+    for _ in range(count):
+        play.step()
+
+
+@pytest.mark.parametrize("name", ["shooter", "lab/pyramid", "lab/mask_stack"])
+def test_another_broad_phase_is_never_apart(played, name):
+    play = played(name, BotSource())
+    steps(play, 30)
+    race = race_of(play, broadphase=OTHER[play.scene.world.broadphase.name])
+    for _ in range(90):
+        play.step()
+        assert play.scene.frame == race.rival.frame
+        assert [w.digest() for w in race.rival.worlds] == [w.digest() for w in play.scene.worlds]
+    assert race.rival.world.broadphase.name == OTHER[play.scene.world.broadphase.name]
+    assert "0 px apart, 0 of" in race.told()[2] and race.steps == 90
+
+
+def test_fewer_substeps_are_apart_and_that_is_told_and_drawn(played):
+    play = played("lab/pyramid", BotSource())
+    steps(play, 5)
+    race = race_of(play, substeps=1)
+    steps(play, 60)
+    ours, theirs = race.gaps()
+    bodies, others = play.scene.world.bodies, race.rival.world.bodies
+    apart = np.hypot(bodies["x"] - others["x"], bodies["y"] - others["y"])
+    assert np.hypot(*(ours - theirs).T) == pytest.approx(apart) and apart.max() > 0.0
+    assert f"{np.sqrt((apart**2).mean()):.2g} px apart" in race.told()[2]
+    assert "1 substep:" in race.told()[1] and "us a step" in race.told()[0]
+    picture = Picture(pygame.Surface((960, 540)))
+    with_rival = pygame.surfarray.array3d(play.draw(picture).surface)
+    text = " ".join(text for _, text in picture.presenter.frame.boxes)
+    assert all(word in text for line in race.told() for word in line.split())
+    play.measuring.end_race()
+    assert (pygame.surfarray.array3d(play.draw(picture).surface) != with_rival).any()
+
+
+def test_one_number_for_two_things_is_not_one_body(played):
+    """Shots that hit a circle are gone, where they fly on past pixels: from then on the two number differently."""
+    play = played("shooter", BotSource())
+    race = race_of(play, tier="circle")
+    for _ in range(1200):
+        play.step()
+        ours, theirs = race.gaps()
+        assert len(ours) == len(theirs) == len(race.same)
+    ids = np.intersect1d(play.scene.world.bodies["id"], race.rival.world.bodies["id"])
+    assert len(race.same) < len(ids) or len(ids) == 0 or len(race.same) == 0
+    assert "without a twin" in race.told()[2]
+
+
+def test_what_the_player_does_goes_to_both_and_what_is_raced_to_one(played):
+    play = played("lab/pyramid")
+    race = race_of(play, substeps=8)
+    steps(play, 3)
+    play.devices.change("slider:rows", 6)
+    play.devices.change("broadphase", "brute")
+    steps(play, 3)
+    assert race.rival.values["rows"] == play.scene.values["rows"] == 6
+    assert play.scene.broadphase == "brute" != race.rival.broadphase
+    assert race.rival.world.substeps == 8 != play.scene.world.substeps
+
+
+def test_it_is_started_from_the_plot_with_shift_and_ended_in_the_panel(drive):
+    d = drive(listing=SCENES)
+    d.app.screens.play("lab/cradle")
+    d.turns(3)
+    d.key(pygame.K_RETURN)
+    d.key(pygame.K_m)
+    d.turns(20)
+    play = d.screen
+    play.costs.hovered = play.measuring.now()._replace(broadphase="brute")
+    d.post(pygame.KEYDOWN, key=pygame.K_RETURN, mod=pygame.KMOD_SHIFT, unicode="\r")
+    d.turns(4)
+    assert play.measuring.race is not None and play.scene.frame < 20, "both began anew"
+    assert play.scene.frame == play.measuring.race.rival.frame and "the race" in play.news
+    row = next(row for row in play_rows(play) if row.label == "End the race")
+    row.press()
+    assert play.measuring.race is None and not any(row.label == "End the race" for row in play_rows(play))
+    play.close()
+
+
+def test_a_setting_that_cannot_be_played_is_told_and_nothing_restarts(played):
+    play = played("lab/stacks")
+    steps(play, 10)
+    play.start_race(play.measuring.now()._replace(solver="blocking", substeps=None))
+    play.step()
+    assert play.measuring.race is None and play.scene.frame == 11 and "only measured" in play.news
+
+
+def test_rewinding_ends_it(played):
+    play = played("lab/cradle")
+    race_of(play, broadphase="brute")
+    steps(play, 20)
+    play.scrub.go(-5)
+    assert play.measuring.race is None
+
+
+def test_the_recording_knows_nothing_of_it(played, tmp_path):
+    right = [InputFrame(frozenset({"right"} if number % 20 < 10 else ())) for number in range(200)]
+    play = played("shooter", ScriptSource(right))
+    steps(play, 20)
+    race_of(play, tier="circle")
+    steps(play, 100)
+    play.recorder.save(tmp_path / "run.json")
+    replay = load_replay(tmp_path / "run.json")
+    fresh = Session(make_scene("shooter"), replay, replay=replay)
+    for _ in range(replay.frames):
+        fresh.step()  # raises where it diverges
+    assert scene_digest(fresh.scene) == scene_digest(play.scene)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_it_can_be_run_in_every_scene(played, name):
+    play = played(name, BotSource())
+    now = play.measuring.now()
+    race = race_of(play, **({"broadphase": OTHER[now.broadphase]} if play.scene.switches_broadphase else {}))
+    steps(play, 8)
+    frame = play.draw(Picture(pygame.Surface((960, 540))))
+    assert any("px apart" in text for _, text in frame.boxes)
+    assert [w.digest() for w in race.rival.worlds] == [w.digest() for w in play.scene.worlds]
