@@ -6,6 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
+import physics
 from game.input.inputs import InputState
 from game.overlays.layer_disagreement import OWN, false_hits
 from game.overlays.stack import Overlays
@@ -18,6 +19,7 @@ from physics import Effects, Filter, PixelMask, World, collide
 from scenes import SCENES
 
 STEPS, LOOKED_AT = 2400, 20
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of whole games")
 
 
 def corner(flipped=False):
@@ -98,11 +100,13 @@ def slow_lies(world):
     return found
 
 
+@needs_speed
 def test_in_the_shooter_the_layer_shows_what_a_slow_look_finds(flown):
     looks, _, _ = flown
     assert any(slow for slow, _ in looks) and all(slow == shown for slow, shown in looks)
 
 
+@needs_speed
 def test_the_players_own_box_would_have_died(flown):
     _, said, overlays = flown
     assert said and any(said), "in forty seconds some bullet passes through the box and not through the plane"

@@ -4,6 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
+import physics
 from game.files.settings import Settings
 from game.input.devices import DeviceSource
 from game.input.inputs import InputFrame
@@ -17,6 +18,7 @@ from game.screens.play import Play
 from scenes import SCENES
 from tests.lockstep import make_scene
 
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of whole games")
 OTHER = {"hash": "tree", "tree": "hash", "sweep": "hash", "brute": "tree"}
 
 
@@ -67,6 +69,7 @@ def steps(play, count):
         play.step()
 
 
+@needs_speed
 @pytest.mark.parametrize("name", ["shooter", "lab/pyramid", "lab/mask_stack"])
 def test_another_broad_phase_is_never_apart(played, name):
     play = played(name, BotSource())
@@ -80,6 +83,7 @@ def test_another_broad_phase_is_never_apart(played, name):
     assert "0 px apart, 0 of" in race.told()[2] and race.steps == 90
 
 
+@needs_speed
 def test_fewer_substeps_are_apart_and_that_is_told_and_drawn(played):
     play = played("lab/pyramid", BotSource())
     steps(play, 5)
@@ -99,6 +103,7 @@ def test_fewer_substeps_are_apart_and_that_is_told_and_drawn(played):
     assert (pygame.surfarray.array3d(play.draw(picture).surface) != with_rival).any()
 
 
+@needs_speed
 def test_one_number_for_two_things_is_not_one_body(played):
     """Shots that hit a circle are gone, where they fly on past pixels: from then on the two number differently."""
     play = played("shooter", BotSource())
@@ -159,6 +164,7 @@ def test_rewinding_ends_it(played):
     assert play.measuring.race is None
 
 
+@needs_speed
 def test_the_recording_knows_nothing_of_it(played, tmp_path):
     right = [InputFrame(frozenset({"right"} if number % 20 < 10 else ())) for number in range(200)]
     play = played("shooter", ScriptSource(right))

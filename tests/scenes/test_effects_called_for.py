@@ -181,7 +181,8 @@ def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
 LABS = [name for name in SCENES if name not in LEDGER]
 LONGEST = {"lab/broadphases": 60}  # steps within which an effect must have shown, where 600 take too long
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="minutes")
-SLOW = [("lab/gallery", "sleeping")]  # shows on the last of its pages: nine minutes without compiled kernels
+# Shows on the last of its pages: nine minutes without compiled kernels. Shows when a gunship has been shot down.
+SLOW = [("lab/gallery", "sleeping"), *(("lab/disagreement", name) for name in ("drag", "wind", "rotation", "carving"))]
 DECLARED = [
     pytest.param(name, effect, marks=needs_speed if (name, effect) in SLOW else ())
     for name in LABS

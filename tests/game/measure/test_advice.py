@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import physics
 from game.command_line import run
 from game.measure.advice import advise
 from game.measure.moment import Moment
@@ -16,6 +17,8 @@ from game.run.sources import BotSource
 from physics import BROADPHASES, Effects, PixelMask, Polygon, World
 from scenes import SCENES
 from tests.lockstep import make_scene
+
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps")
 
 
 class Table(Moment):
@@ -88,6 +91,7 @@ def test_no_moments_are_refused():
         advise([], 1.0)
 
 
+@needs_speed
 def test_a_real_scene_is_measured_whole():
     scene = make_scene("lab/filters")
     session = Session(scene, BotSource())
@@ -102,6 +106,7 @@ def test_a_real_scene_is_measured_whole():
     assert found.best in survey.dots and found.here == taken.here
 
 
+@needs_speed
 def test_the_command_line_tells_it_as_text_and_as_json(capsys):
     registry = Registry(SCENES)
     assert run(["--advise", "lab/sensors", "--frames", "30"], registry) == 0

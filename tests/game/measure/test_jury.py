@@ -4,6 +4,7 @@ from itertools import combinations
 
 import pytest
 
+import physics
 from game.measure.jury import Jury
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -11,6 +12,7 @@ from physics import TIERS, collide, fit
 from tests.lockstep import make_scene
 
 QUIET, ASKED = 500, 6  # steps before anything is asked; moments then
+pytestmark = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of a whole game")
 
 
 def slow_verdict(bodies, filters, tier):
