@@ -78,7 +78,7 @@ class Play(SceneScreen):
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
-        self.measuring = Measuring(scene, devices)
+        self.measuring = Measuring(scene, devices, lambda solver: self.prepare(solver))
         self.costs = CostPanel(self.measuring.surveyor, self.measuring.now, self.try_setting, self.start_race)
         self.costs_open = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
@@ -326,8 +326,6 @@ class Play(SceneScreen):
 
     def try_setting(self, setting: Setting) -> None:
         """Put a setting that was measured to work."""
-        if setting.solver is not None and setting.solver != self.measuring.now().solver:
-            self.prepare(setting.solver)
         self.switches.tell(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:

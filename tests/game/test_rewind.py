@@ -23,7 +23,8 @@ from tests.game.arena import Arena, Race
 from tests.lockstep import make_scene
 
 K = pygame
-LENGTH, BRANCH, OTHER = (96, 70, 24) if physics.JIT else (24, 17, 8)  # steps played; where other input begins; for how long
+# Steps played; where other input begins; for how long.
+LENGTH, BRANCH, OTHER = (96, 70, 24) if physics.JIT else (24, 17, 8)
 LEFT = InputFrame(frozenset({"left", "fire"}), (200, 120))
 BESIDE, A_BODY = 64 * 1024, 128  # [bytes] that the last ten seconds may take, and per moving body and step
 MEASURED = ("shooter", "platformer", "lab/pyramid", "lab/conveyor", "lab/tunnelling", "lab/shapes")

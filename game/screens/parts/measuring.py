@@ -1,5 +1,7 @@
 """Joins a played scene to what measures it: which world, when a moment is taken, what a setting changes there."""
 
+from collections.abc import Callable
+
 from game.drawing.number_text import plain_name
 from game.input.devices import DeviceSource
 from game.measure.moment import here_of
@@ -13,10 +15,13 @@ EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
 
 class Measuring:
-    """Of one scene that is played. It measures between open() and close()."""
+    """Of one scene that is played. It measures between open() and close().
 
-    def __init__(self, scene: Scene, devices: DeviceSource) -> None:
-        self.scene, self.devices = scene, devices
+    prepare(solver): called before a solver is put to work; who has kernels to compile does it then.
+    """
+
+    def __init__(self, scene: Scene, devices: DeviceSource, prepare: Callable[[str], None]) -> None:
+        self.scene, self.devices, self.prepare = scene, devices, prepare
         self.surveyor = Surveyor()
         self.bench = Surveyor()  # of the scene's sprites …
         self.benched: tuple[PixelMask, PixelMask] | None = None  # … which are these
@@ -73,6 +78,7 @@ class Measuring:
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
+        self._prepare(setting)
         for name, value in changes:
             self.devices.change(name, value)
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
@@ -82,12 +88,17 @@ class Measuring:
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
+        self._prepare(setting)
         self.race = Race(self.scene, changes)
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
         """The rival goes."""
         self.race = None
+
+    def _prepare(self, setting):
+        if setting.solver is not None and setting.solver != self.now().solver:
+            self.prepare(setting.solver)
 
     def _changes(self, setting):
         """[(change, value)] that bring the scene to a setting, or a sentence about why it cannot be brought there."""
