@@ -99,6 +99,17 @@ def test_the_goals_are_what_the_lab_has_measured():
     assert play.hint.goals != before, "it goes on with the lab"
 
 
+def test_it_stays_where_it_is_while_the_lab_goes_on():
+    play = screen("lab/tunnelling")
+    picture = Picture(pygame.Surface((960, 540)))
+    play.draw(picture)
+    place = play.hint.rect.topleft
+    for _ in range(60):
+        play.step()
+        play.draw(picture)
+        assert play.hint.rect.topleft == place
+
+
 def test_what_has_no_room_is_counted():
     play = screen("lab/gallery")
     frame = play.draw(Picture(pygame.Surface((480, 270))))

@@ -189,6 +189,20 @@ def test_the_recording_knows_nothing_of_it(played, tmp_path):
     assert scene_digest(fresh.scene) == scene_digest(play.scene)
 
 
+@pytest.mark.parametrize("size", [(480, 270), (960, 540), (1440, 810)])
+def test_its_figures_are_whole_beside_an_open_panel(played, size):
+    play = played("lab/cradle", BotSource())
+    race_of(play, broadphase="brute")
+    steps(play, 4)
+    play.panel_open = True
+    frame = play.draw(Picture(pygame.Surface(size)))
+    inside = frame.area.clip(frame.rect)
+    found = [
+        rect for rect, text in frame.boxes if len(text) > 8 and any(text in line for line in play.measuring.race.told())
+    ]
+    assert len(found) >= 2 and all(inside.contains(rect) for rect in found)
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_it_can_be_run_in_every_scene(played, name):
     play = played(name, BotSource())

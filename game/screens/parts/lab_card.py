@@ -35,7 +35,8 @@ class LabCard:
         if found is None:
             raise ValueError(f"{scene.name} does not say what to see")
         self.scene, (self.question, self.see) = scene, found
-        self.rect = pygame.Rect(0, 0, 0, 0)
+        self.rect = self.area = pygame.Rect(0, 0, 0, 0)
+        self.place = (0, 0)
         self.goals: list[Goal] = []
         self.age = 0
 
@@ -60,7 +61,10 @@ class LabCard:
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
         width = min(WIDTH * scale, area.width)
         lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)
-        self.rect = least_covering(frame, area, (width, (height_of(lines) + 2 * EDGE) * scale))
+        size = (width, (height_of(lines) + 2 * EDGE) * scale)
+        if self.area != area:  # it stays where it is, as long as the picture does
+            self.area, self.place = area, least_covering(frame, area, size).topleft
+        self.rect = pygame.Rect(self.place, size).clamp(area)
         frame.boxes[:] = [each for each in frame.boxes if not self.rect.colliderect(each[0])]  # covered now
         frame.surface.fill(INK, self.rect)
         pygame.draw.rect(frame.surface, SLATE, self.rect, scale)

@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 import pygame
 
-from game.drawing.canvas import SMALL
+from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import GOLD, INK, ORANGE, PAPER, SKY, SLATE
 from game.drawing.presenter import Frame
 from game.drawing.typical import Typical
@@ -40,9 +40,7 @@ class Race:
         self.inputs = InputState()
         self.times = Typical(), Typical()  # [s] of a step: of the scene, of the rival
         self.steps = 0
-        self.same = np.zeros(
-            0, np.int64
-        )  # ids of the bodies that are the same in both: they came together, in one place
+        self.same = np.zeros(0, np.int64)  # ids of bodies that are the same in both: they came at once, to one place
         self.seen = np.zeros(0, np.int64)  # ids of all that were in either
 
     def step(self, session: Session) -> None:
@@ -115,18 +113,21 @@ class Race:
         draw_boxes(frame, lens, debug.bounds(world)[masks], (SKY,), np.zeros(len(masks), int))
 
     def _draw_figures(self, frame):
-        scale, lines = frame.text_scale, self.told()
-        area = frame.area.clip(frame.rect)
-        width = min(area.width, max(frame.measure(line, SMALL, scale)[0] for line in lines) + 14 * scale)
-        size = (width, (8 * len(lines) + 4) * scale)
-        rows = range(area.bottom - size[1] - 4 * scale, area.top + 16 * scale, -8 * scale)
-        place = frame.free_place(size, [(area.centerx - size[0] // 2, y) for y in rows])
-        rect = pygame.Rect(place or (area.centerx - size[0] // 2, area.bottom - size[1] - 4 * scale), size)
+        scale, area = frame.text_scale, frame.area.clip(frame.rect)
+        rows = []
+        for line, color in zip(self.told(), (GOLD, SKY, ORANGE), strict=True):
+            wrapped = wrap(line, area.width - 16 * scale, SMALL, scale)
+            rows += [(text, color if text is wrapped[0] else INK) for text in wrapped]
+        width = max(frame.measure(text, SMALL, scale)[0] for text, _ in rows) + 14 * scale
+        size = (width, (8 * len(rows) + 4) * scale)
+        left, lowest = area.centerx - size[0] // 2, area.bottom - size[1] - 4 * scale
+        place = frame.free_place(size, [(left, y) for y in range(lowest, area.top + 16 * scale, -8 * scale)])
+        rect = pygame.Rect(place or (left, lowest), size)
         frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
         frame.surface.fill(INK, rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
-        for number, (line, color) in enumerate(zip(lines, (GOLD, SKY, ORANGE), strict=True)):
+        for number, (text, color) in enumerate(rows):
             y = rect.y + (3 + 8 * number) * scale
             frame.surface.fill(frame.tone(color), (rect.x + 4 * scale, y + scale, 3 * scale, 3 * scale))
-            frame.text(line, rect.x + 10 * scale, y, PAPER, SMALL, scale)
+            frame.text(text, rect.x + 10 * scale, y, PAPER, SMALL, scale)
         frame.reserve(rect)
