@@ -59,6 +59,8 @@ class LabCard:
             self.goals = self.scene.check()
         self.age += 1
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
+        head = self.scene.head * frame.scale  # the line that says what is switched stays in sight
+        area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
         width = min(WIDTH * scale, area.width)
         lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)
         size = (width, (height_of(lines) + 2 * EDGE) * scale)
