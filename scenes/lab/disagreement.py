@@ -12,9 +12,11 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, DUSK, FOG, GOLD, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.sprites import load_atlas
 from game.measure.jury import Jury
 from game.overlays.outlines import draw_outline
 from game.scene import Goal
+from physics import BROADPHASES, Circle, World
 from scenes.lab.masks import COLORS, NAMES
 from scenes.lab.yard import HEAD
 from scenes.shooter.director import Director
@@ -61,6 +63,7 @@ class Disagreement(Shooter):
         self.plane.right = SIDE.x - MARGIN
         self.director = Director(from_then_on(self.director.stage, OPENS))
         self.director.mode = "run"
+        rehearse(self.effects)
         self.jury = Jury(FIRST)
         self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over ever more moments
         self.apart = 1  # moments between two of them
@@ -168,6 +171,18 @@ class Disagreement(Shooter):
     def state(self):
         """The game's, and what the jury has said."""
         return (*super().state(), *self.jury.state(), self.jury.lit)
+
+
+def rehearse(effects):
+    """Ask every tier once, of two planes and a disc in each other: what that compiles is compiled before the game."""
+    world, jury = World(effects, BROADPHASES["sweep"]()), Jury(FIRST)
+    masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
+    for x, mask in zip((0.0, 9.0), masks, strict=True):
+        world.add_body(mask, position=(x, 0.0), kind="kinematic", tier="pixels")
+    world.add_body(Circle(2.0), position=(4.0, 0.0), kind="kinematic")
+    world.step()
+    while not jury.ask(world):
+        pass
 
 
 def from_then_on(stage, start):

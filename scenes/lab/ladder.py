@@ -71,6 +71,8 @@ class Ladder(Scene):
         self.choices = [self.level_file.name] if self.level_file is not None else []
         self.choices += [name for name, _, _ in SPRITES]
         self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
+        for tier in TIERS:  # a large sprite is cut into tiles: what is compiled for that is compiled before the start
+            fit(load_atlas("planes").mask("boss_a_0"), tier)
         self._show(0)
 
     def _show(self, choice):
