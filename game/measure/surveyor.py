@@ -52,6 +52,7 @@ class Surveyor:
         threading.Thread(
             target=_hand_on,
             args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
+            name="hand on",
             daemon=True,
         ).start()
 
@@ -135,13 +136,16 @@ class Surveyor:
 
 
 def _hand_on(process, order, save, found):
-    """Save what an order names, and give it."""
+    """Save what an order names, and give it. A process that is gone is told of by who listens to it."""
     try:
         save()
+    except (OSError, ValueError) as error:
+        if process.poll() is None:
+            found.put({"moment": order["moment"], "failed": str(error)})
+        return
+    with contextlib.suppress(OSError, ValueError):
         process.stdin.write(json.dumps(order) + "\n")
         process.stdin.flush()
-    except (OSError, ValueError) as error:
-        found.put({"moment": order["moment"], "failed": str(error)})
 
 
 def _listen(process, found):

@@ -1,0 +1,44 @@
+"""What was being packed while the measuring process died took the place of "has ended" with "I/O operation on
+closed file"."""
+
+import threading
+from time import monotonic, sleep
+
+from game.measure.surveyor import Surveyor
+
+
+class Packed:
+    """A snapshot whose saving takes until it is let go."""
+
+    def __init__(self) -> None:
+        self.begun, self.free, self.done = threading.Event(), threading.Event(), threading.Event()
+
+    def save(self, path):
+        self.begun.set()
+        self.free.wait(20.0)
+        self.done.set()
+
+
+def turns_until(surveyor, whether):
+    end = monotonic() + 20.0
+    while not whether() and monotonic() < end:
+        surveyor.turn()
+        sleep(0.01)
+    assert whether()
+
+
+def test_who_packs_late_says_nothing_of_a_closed_pipe():
+    surveyor, snapshot = Surveyor(), Packed()
+    surveyor.measure(snapshot, "tree")
+    assert snapshot.begun.wait(20.0)
+    packing = [each for each in threading.enumerate() if each.name == "hand on"]
+    surveyor.process.kill()
+    turns_until(surveyor, lambda: surveyor.trouble)
+    told = surveyor.trouble
+    assert "has ended" in told and surveyor.process is None
+    snapshot.free.set()
+    for thread in packing:
+        thread.join(20.0)
+    assert packing and snapshot.done.is_set()
+    surveyor.turn()
+    assert surveyor.trouble == told
