@@ -90,6 +90,11 @@ def make_parser() -> Parser:
     )
     add("--advise", metavar="SCENE", help="measure every setting of a scene, and tell which takes the least time")
     add("--error", metavar="PX", type=float, help="that the advice may cost (1 px: what can be seen)")
+    add("--report", metavar="DIR", help="measure what accuracy costs, and write it as a page; goes on where it ended")
+    add("--quick", action="store_true", help="of the report: smaller and fewer, two minutes")
+    add("--workers", metavar="N", type=int, help="of the report: in so many processes")
+    add("--dask", metavar="ADDRESS", help="of the report: on the workers of a Dask cluster")
+    add("--only", metavar="JOBS", help="of the report: measure these again, as broadphases or pyramid/*")
     add("--version", action="store_true", help="versions of the game and what it runs on")
     return parser
 
@@ -106,6 +111,7 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     layers, level = read_layers(given.pop("overlay")), given.pop("level")
     options = Options(**given, overlay=layers, level=None if level is None else Path(level))
     _check_advice(options)
+    _check_report(options)
     if options.frames is not None and options.frames < 1:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
@@ -145,6 +151,23 @@ def _check_advice(options):
     if others:
         raise UsageError(f"--advise brings its own scene and run: leave out --{others[0]}")
     options.scene = options.advise
+
+
+def _check_report(options):
+    """--report is a run of its own; what belongs to it stands beside it."""
+    if options.report is None:
+        for flag in ("quick", "workers", "dask", "only"):
+            if getattr(options, flag) not in (None, False):
+                raise UsageError(f"--{flag} needs --report")
+        return
+    others = ("scene", "advise", "record", "replay", "screenshot", "profile", "json", "headless", "bot", "frames")
+    for flag in others:
+        if getattr(options, flag):
+            raise UsageError(f"--report brings its own scenes and runs: leave out --{flag}")
+    if options.workers is not None and options.workers < 1:
+        raise UsageError(f"--workers must be at least 1 (got {options.workers})")
+    if options.workers is not None and options.dask is not None:
+        raise UsageError("--dask brings its own workers: leave out --workers")
 
 
 def _known(name, what, valid):
@@ -229,6 +252,10 @@ def _dispatch(options, registry):
         from game.run.warmup import warm_up_all
 
         return warm_up_all(registry)
+    if options.report is not None:
+        from game.report.run import run_report
+
+        return run_report(options, registry)
     if options.advise:
         from game.run.advise import run_advice
 

@@ -79,8 +79,19 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers in shuffled turns and tell each. Raises ValueError for a sprite without pixels."""
-    poses = poses_around(first, second, seed=seed)
+    """Measure the tiers over poses around each other, and tell each. Raises ValueError for a sprite without pixels."""
+    measure_at(first, second, poses_around(first, second, seed=seed), tell, tiers, seed)
+
+
+def measure_at(
+    first: PixelMask,
+    second: PixelMask,
+    poses: Poses,
+    tell: Callable[[TierFigures], object],
+    tiers: Sequence[str] = TIERS,
+    seed: int = 0,
+) -> None:
+    """Measure the tiers at poses, of which some are hits and some are none, in shuffled turns; tell each."""
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
     for tier, (a, b) in shapes.items():

@@ -35,6 +35,11 @@ class Options:
     version: bool = False
     advise: str | None = None  # a scene; it is then the scene too
     error: float | None = None  # [px] that the advice may cost
+    report: str | None = None  # a folder
+    quick: bool = False
+    workers: int | None = None
+    dask: str | None = None  # the address of a scheduler
+    only: str | None = None  # jobs of the report, by a pattern
     recording: Replay | None = None
 
     @property

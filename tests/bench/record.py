@@ -4,45 +4,13 @@ A ratio is our time over the peer's in the same run, so less is better, and it m
 """
 
 import json
-import os
-import platform
-from importlib import metadata
 from pathlib import Path
 
 from game import VERSION
+from game.measure.machine import machine
 
 KEPT = Path(__file__).resolve().parents[2] / "docs" / "bench"  # a file per release
 NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is pointed at
-PACKAGES = ("numpy", "numba", "pygame-ce", "pygame", "pymunk")
-
-
-def machine():
-    """Facts about where it runs; nothing that names it."""
-    return {
-        "cpu": cpu_model(),
-        "cores": os.cpu_count(),
-        "system": platform.system(),
-        "python": platform.python_version(),
-        **{name: version for name in PACKAGES if (version := installed(name))},
-    }
-
-
-def cpu_model():
-    """The processor's own name, or its kind where the system does not tell."""
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
-    except OSError:
-        names = []
-    return names[0] if names else platform.processor() or platform.machine()
-
-
-def installed(package):
-    """The version of a package, "" when it is not there."""
-    try:
-        return metadata.version(package)
-    except metadata.PackageNotFoundError:
-        return ""
 
 
 def to_record(ratios, quick):

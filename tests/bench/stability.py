@@ -22,7 +22,7 @@ from fnmatch import fnmatchcase
 from time import perf_counter
 
 from game import VERSION
-from tests.bench.record import machine
+from game.measure.machine import machine
 from tests.stability.study.engines import engines
 from tests.stability.study.rows import table
 from tests.stability.study.verdict import Played, Verdict, judge, scenes_of

@@ -1,0 +1,91 @@
+"""What a chart of the report is: the jobs that measure it, the panels that show it, and what it claims."""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from game.measure.rates import Rate
+from game.report.claim import Claim
+from game.report.job import Job, Plan, Row
+
+Interval = tuple[float, float, float]  # low, middle, high
+Reading = Callable[[Row], Interval | None]  # None: the row has nothing to show there
+
+SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
+
+
+class Axis(NamedTuple):
+    """label: with its unit; mark: where a line is drawn, as at what a player can see."""
+
+    label: str
+    read: Reading
+    log: bool = True
+    mark: float | None = None
+
+
+class Panel(NamedTuple):
+    """One plot. line: "front" joins the dots that none beats, "medians" the series whose medians none
+    beats, "series" the dots of each in the order of x, "" nothing."""
+
+    title: str
+    x: Axis
+    y: Axis
+    shows: Callable[[Row], bool] = lambda row: True
+    line: str = "front"
+
+
+class Chart(NamedTuple):
+    """rows have "series" and "label"; key: the first part of its jobs' names; truth: what errors are measured by."""
+
+    number: int
+    key: str
+    title: str
+    question: str
+    truth: str
+    panels: Sequence[Panel] | Callable[[Sequence[Row]], Sequence[Panel]]  # of the rows that there are
+    jobs: Callable[[Plan], list[Job]]
+    claims: Callable[[Sequence[Row]], list[Claim]] = lambda rows: []
+    of: str = ""  # the key of the chart whose rows it shows; "" its own
+
+
+def time(key: str, unit: str = "us") -> Reading:
+    """The least, the median and the upper quartile of a cost."""
+
+    def read(row):
+        cost = row.get(key)
+        if cost is None:
+            return None
+        low, middle, high = (each * SECOND[unit] for each in cost["seconds"])
+        return low, middle, high
+
+    return read
+
+
+def value(key: str, scale: float = 1.0) -> Reading:
+    """A number, or three: low, middle, high."""
+
+    def read(row):
+        found = row.get(key)
+        if found is None:
+            return None
+        low, middle, high = found if isinstance(found, list) else (found, found, found)
+        return low * scale, middle * scale, high * scale
+
+    return read
+
+
+def percent(key: str) -> Reading:
+    """A rate, kept as [count, total], in percent, with the interval in which the true one lies (Wilson)."""
+
+    def read(row):
+        if row.get(key) is None:
+            return None
+        rate = Rate(*row[key])
+        low, high = rate.interval
+        return 100.0 * low, 100.0 * rate.share, 100.0 * high
+
+    return read
+
+
+def panel_is(name: str) -> Callable[[Row], bool]:
+    """Rows that name a panel as theirs."""
+    return lambda row: row.get("panel") == name

@@ -1,0 +1,33 @@
+"""The charts of the report, in their order (hard_cases.md, section 3.2, numbers the first twelve)."""
+
+from game.report.charts import (
+    broadphases,
+    chaos,
+    contacts,
+    continuous,
+    far,
+    integration,
+    latency,
+    papers,
+    peers,
+    scenes,
+    solvers,
+    tiers,
+)
+
+CHARTS = (
+    tiers.CHART,
+    contacts.CHART,
+    tiers.FIT_CHART,
+    solvers.CHART,
+    integration.CHART,
+    continuous.CHART,
+    continuous.TIME_CHART,
+    broadphases.CHART,
+    far.CHART,
+    chaos.CHART,
+    latency.CHART,
+    scenes.CHART,
+    peers.CHART,
+    papers.CHART,
+)

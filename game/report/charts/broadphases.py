@@ -1,0 +1,196 @@
+"""Chart 8: what a broad phase costs over the number of bodies, and how many pairs it leaves.
+
+Layouts and shares of movers as Broadmark (Serpa and Rodrigues 2020) varies them. `every pair` is the naive baseline:
+all n (n - 1) / 2 pairs in every step; what the strategies are compared with is never anything better than that.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from game.measure.timing import Cost, undisturbed
+from game.report.chart import Axis, Chart, Panel, panel_is, time, value
+from game.report.claim import Claim, ordering, pair
+from game.report.job import Job, Plan, Row, spread
+from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, SweepAndPrune, World
+
+SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
+STEPS, RUNS = 60, 5  # 300 steps in all
+SIZES = (10, 100, 1000, 10_000)
+NAIVE_LIMIT = 1000  # above, a step of every pair takes seconds in all
+WAYS: dict[str, Callable[[], object]] = {
+    **BROADPHASES,
+    "every pair": lambda: BruteForce(incremental=False),
+    "sweep both axes": lambda: SweepAndPrune(axes="both"),
+    "tree of four": lambda: DynamicTree(width=4),
+}
+MOVERS = {"all move": 1.0, "half move": 0.5, "one in twenty moves": 0.05}
+
+
+def even(rng, n):
+    """One overlap per body or so."""
+    return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
+
+
+def line(rng, n):
+    """Clustered along the ground: long and low."""
+    return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
+
+
+def clusters(rng, n):
+    """A hundredth as many crowds, each 60 px around its middle."""
+    middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
+    return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
+
+
+def mixed(rng, n):
+    """Sizes from 1 to 100 times the least, small ones more often, as dense as even ones."""
+    radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # few enough to be told apart
+    side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
+    return rng.uniform(0, side, (n, 2)), radii
+
+
+def point(rng, n):
+    """All at one place: every pair is one."""
+    return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
+
+
+LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixed, "one point": point}
+
+
+def world_of(strategy: object, layout: str, n: int, moving: float, seed: int = 5) -> World:
+    """Discs as boxes, of which a share moves, each at the same speed in a direction of its own."""
+    rng = np.random.default_rng(seed)
+    places, radii = LAYOUTS[layout](rng, n)
+    world = World(Effects(narrowphase=False), strategy)
+    movers = max(1, round(moving * n))
+    angle = rng.uniform(0, math.tau, n)
+    speeds = SPEED * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    for radius in np.unique(radii).tolist():
+        here, shape = np.flatnonzero(radii == radius), Bounds(Circle(radius))
+        still, moves = here[here >= movers], here[here < movers]
+        if len(still):
+            world.add_bodies(shape, places[still], kind="static")
+        if len(moves):
+            world.add_bodies(shape, places[moves], speeds[moves])
+    return world
+
+
+def measure(layout: str, n: int, moving: str) -> list[Row]:
+    """A row per strategy: the cost of the broad phase in a step, and its pairs beside those that truly meet."""
+    makes = {name: make for name, make in WAYS.items() if n <= NAIVE_LIMIT or name in BROADPHASES or "tree" in name}
+    if n > NAIVE_LIMIT:
+        makes.pop("brute", None)
+    if layout == "one point":
+        makes.pop("sweep both axes", None)
+    worlds = {name: world_of(make(), layout, n, MOVERS[moving]) for name, make in makes.items()}
+    spent: dict[str, list[float]] = {name: [] for name in worlds}
+    counters = {}
+    for name, world in worlds.items():
+        world.step()
+        world.step()
+        counters[name] = dict(world.profile.counters)
+    truth = len(worlds["hash"].contacts)  # of boxes
+    with undisturbed():
+        for _ in range(RUNS):
+            for name, world in worlds.items():
+                spent[name].append(_broad_phase_of(world))
+    return [
+        {
+            "series": name,
+            "label": f"{name}, {n} bodies {layout}, {moving}",
+            "panel": f"{layout}, {moving}",
+            "layout": layout,
+            "n": n,
+            "moving": moving,
+            "candidates": counters[name]["candidates"],
+            "true_pairs": truth,
+            "tested": counters[name]["pairs_tested"],
+            "possible": n * (n - 1) // 2,
+            "false_ratio": counters[name]["candidates"] / truth if truth else None,
+            "cost": spread(Cost.of(spent[name], STEPS)),
+        }
+        for name in worlds
+    ]
+
+
+def _broad_phase_of(world):
+    """Seconds of it a step, over STEPS, as what moves is looked for once in a few."""
+    spent = 0.0
+    for _ in range(STEPS):
+        world.step()
+        spent += world.profile.stages["broad_phase"]
+    return spent / STEPS
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    sizes = SIZES[:3] if plan.quick else SIZES
+    found = []
+    for layout in LAYOUTS:
+        for moving in MOVERS:
+            if plan.quick and (layout in ("line", "clusters") or (moving == "half move")):
+                continue
+            for n in sizes:
+                if layout == "one point" and (n > NAIVE_LIMIT or moving != "all move"):
+                    continue
+                params = {"layout": layout, "n": n, "moving": moving}
+                name = f"broadphases/{layout}-{moving}-{n}".replace(" ", "-")
+                found.append(Job(name, "game.report.charts.broadphases:measure", params, 0.3 + n / 1000))
+    return found
+
+
+def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
+    """(power of n by which a cost grows, its standard error), by least squares on logarithms, from 100 bodies on:
+    below, the call costs more than the work. None of fewer than two sizes."""
+    points = [(r["n"], r["cost"]["seconds"][1]) for r in rows if r["series"] == series and r["panel"] == panel]
+    points = [(math.log(n), math.log(cost)) for n, cost in points if n >= 100]
+    if len(points) < 2:
+        return None
+    x, y = np.array(points).T
+    slope, offset = np.polyfit(x, y, 1)
+    if len(points) == 2:
+        return float(slope), 0.0
+    left = y - slope * x - offset
+    return float(slope), float(np.sqrt((left @ left) / (len(x) - 2) / ((x - x.mean()) ** 2).sum()))
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for panel in dict.fromkeys(row["panel"] for row in rows):
+        mine = [row for row in rows if row["panel"] == panel]
+        n = max(row["n"] for row in mine)
+        costs = {row["series"]: pair(row["cost"]) for row in mine if row["n"] == n}
+        if len(costs) > 1:
+            found.append(ordering(f"{n} bodies, {panel}", costs))
+    return found
+
+
+def _panel(layout, moving):
+    return Panel(
+        f"{layout}, {moving}",
+        Axis("bodies", value("n")),
+        Axis("broad phase [us a step]", time("cost")),
+        panel_is(f"{layout}, {moving}"),
+        line="series",
+    )
+
+
+CHART = Chart(
+    8,
+    "broadphases",
+    "Broad phases over the number of bodies",
+    "What does it cost to find who may touch, and how many pairs are left that do not?",
+    "all pairs of boxes; no strategy may lose one, so what is left to compare is how many too many it keeps",
+    (
+        *(_panel(layout, moving) for layout in LAYOUTS for moving in MOVERS),
+        Panel(
+            "pairs kept for each that truly meets",
+            Axis("broad phase [us a step]", time("cost")),
+            Axis("candidates / true pairs", value("false_ratio")),
+            lambda row: row["n"] == 1000 and row["layout"] != "one point",
+        ),
+    ),
+    _jobs,
+    _claims,
+)

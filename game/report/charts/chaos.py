@@ -1,0 +1,109 @@
+"""Chart 11: how long a run can be foretold. A bullet strikes a pyramid, each time from a place some 1e-9 px aside.
+
+There is no reference: when runs part, and how far, is the finding (Chung and Pollard 2016 call it predictability).
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from game.report.chart import Axis, Chart, Panel, panel_is, time, value
+from game.report.charts.solvers import times_of
+from game.report.claim import HOLDS, TIE, Claim
+from game.report.job import Job, Plan, Row, spread
+from game.report.piles import BOX, EFFECTS, pyramid, world_of
+from physics import Circle
+
+NUDGE = 1e-9  # [px] between the bullets of two runs
+PARTED, STEPS = 1.0, 180  # [px] apart by what a player can see; steps of a run
+WAYS = (("sequential_impulse", 4), ("soft_step", 2), ("soft_step", 4), ("soft_step", 8), ("soft_step", "auto"))
+SPEED = 40.0 * BOX  # [px/s]
+
+
+def _world(solver, substeps, aside):
+    rows = 6
+    world = world_of(pyramid(rows), solver, substeps, EFFECTS.with_(continuous=True))
+    world.add_body(
+        Circle(BOX / 4), position=(-6.0 * BOX, -1.3 * BOX + aside), velocity=(SPEED, -0.1 * SPEED), mass=BOX * BOX
+    )
+    return world
+
+
+def measure(seeds: int) -> list[Row]:
+    """A row per way: when runs part by a pixel, and how far they are apart at the end."""
+    rows, worlds = {}, {}
+    for solver, substeps in WAYS:
+        ways = np.array([_way(_world(solver, substeps, NUDGE * seed)) for seed in range(seeds + 1)])
+        gaps = np.sqrt(((ways[1:] - ways[0]) ** 2).sum(axis=3).mean(axis=2))  # (seeds, steps)
+        parted = np.where((gaps > PARTED).any(axis=1), (gaps > PARTED).argmax(axis=1), STEPS) / 60.0
+        label = f"{solver}, {substeps}"
+        worlds[label] = _world(solver, substeps, 0.0)
+        rows[label] = {
+            "series": label,
+            "label": label,
+            "panel": "chaos",
+            "parted": [float(each) for each in np.percentile(parted, (5, 50, 95))],
+            "spread": [float(each) for each in np.percentile(gaps[:, -1], (5, 50, 95))],
+            "together": [int((parted >= STEPS / 60.0).sum()), seeds],
+        }
+    costs = times_of(worlds)
+    return [row | {"cost": spread(costs[label])} for label, row in rows.items()]
+
+
+def _way(world):
+    """(STEPS, bodies, 2) centres."""
+    found = []
+    for _ in range(STEPS):
+        world.step()
+        found.append(np.stack([world.bodies["center_x"], world.bodies["center_y"]], axis=1))
+    return found
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    seeds = 6 if plan.quick else 30
+    return [Job("chaos/pyramid", "game.report.charts.chaos:measure", {"seeds": seeds}, seeds * 0.6)]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    if len(rows) < 2:
+        return []
+    order = sorted(rows, key=lambda row: -row["parted"][1])
+    first, second = order[:2]
+    sure = first["parted"][0] > second["parted"][2]
+    figure = (
+        f"{first['parted'][1]:.2f} s ({first['parted'][0]:.2f} to {first['parted'][2]:.2f}), then {second['label']} "
+    )
+    return [
+        Claim(
+            f"{first['label']} can be foretold the longest",
+            figure + f"{second['parted'][1]:.2f} s",
+            HOLDS if sure else TIE,
+        )
+    ]
+
+
+CHART = Chart(
+    11,
+    "chaos",
+    "How long a run can be foretold",
+    f"Runs that begin {NUDGE:g} px apart: when do they part by a pixel, and how far do they come apart?",
+    "none: chaos has no reference; bars reach from the 5th to the 95th percentile of the runs",
+    (
+        Panel(
+            "when",
+            Axis("us a step", time("cost")),
+            Axis("parted by 1 px after [s]", value("parted"), log=False),
+            panel_is("chaos"),
+            "",
+        ),
+        Panel(
+            "how far",
+            Axis("us a step", time("cost")),
+            Axis("apart after 3 s [px]", value("spread"), mark=1.0),
+            panel_is("chaos"),
+            "",
+        ),
+    ),
+    _jobs,
+    _claims,
+)

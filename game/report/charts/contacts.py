@@ -1,0 +1,151 @@
+"""Chart 2: what a contact costs, and how far its normal and its depth are off.
+
+The truth is analytic: discs and upright squares, whose pixels the tiers are made from, met by a disc. The outline of
+pixels is never the truth of a normal: it has four directions.
+"""
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+
+from game.measure.timing import timed_in_turns
+from game.report.chart import Axis, Chart, Panel, panel_is, time, value
+from game.report.claim import Claim, ordering, pair
+from game.report.job import Job, Plan, Row, spread
+from physics import TIERS, Circle, PixelMask, Polygon, fit
+from physics.queries.pair_batch import PairBatch
+
+RADIUS = 12.0  # [px] of the disc, half the width of the square
+POSES, POSES_QUICK = 4000, 1200
+DEEPEST = 0.2  # of the least extent: what lies deeper has no one way out
+REPEATS = 3
+
+
+def disc_mask() -> PixelMask:
+    """The pixels whose centres lie in the disc."""
+    side = int(2 * RADIUS)
+    at = np.arange(side) + 0.5 - RADIUS
+    return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= RADIUS**2, origin=(RADIUS, RADIUS))
+
+
+def square_mask() -> PixelMask:
+    """All pixels."""
+    side = int(2 * RADIUS)
+    return PixelMask(np.ones((side, side), bool), origin=(RADIUS, RADIUS))
+
+
+def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(normals (n, 2) from a disc to another at offset, depths (n,))."""
+    length = np.hypot(*offset.T)
+    return offset / length[:, None], 2.0 * RADIUS - length
+
+
+def of_square(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(normals from an upright square to a disc whose centre, beside it, is at offset, depths)."""
+    nearest = np.clip(offset, -RADIUS, RADIUS)
+    away = offset - nearest
+    length = np.hypot(*away.T)
+    return away / length[:, None], RADIUS - length
+
+
+BODIES = {
+    "disc against disc": (disc_mask, Circle(RADIUS), of_disc, True),
+    "square against disc": (square_mask, Polygon.box(2 * RADIUS, 2 * RADIUS), of_square, False),
+}
+
+
+def offsets(truth, count: int) -> np.ndarray:
+    """(count, 2) offsets of shallow true contacts, evenly by place."""
+    chance, found = np.random.default_rng(4), np.zeros((0, 2))
+    while len(found) < count:
+        tried = chance.uniform(-2.0 * RADIUS, 2.0 * RADIUS, (4 * count, 2))
+        tried = tried[np.abs(tried).max(axis=1) > RADIUS]  # the disc's centre is beside the square
+        depth = truth(tried)[1]
+        found = np.concatenate([found, tried[(depth > 0.0) & (depth < DEEPEST * 2.0 * RADIUS)]])
+    return found[:count]
+
+
+def measure(body: str, count: int) -> list[Row]:
+    """A row per tier of both sprites, and one of the shapes themselves."""
+    make, shape, truth, turned = BODIES[body]
+    first, second = make(), disc_mask()
+    offset = offsets(truth, count)
+    chance = np.random.default_rng(5)
+    base, turns = chance.uniform(-500.0, 500.0, (count, 2)), chance.uniform(0.0, 2.0 * pi, (2, count))
+    poses = [
+        np.column_stack([base, turns[0] if turned else np.zeros(count)]),
+        np.column_stack([base + offset, turns[1]]),
+    ]
+    shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in TIERS} | {
+        "closed form": ((shape,), (Circle(RADIUS),))
+    }
+    batches = {name: PairBatch(a, poses[0], b, poses[1]) for name, (a, b) in shapes.items()}
+    rows = [_row(body, name, batch, *truth(offset)) for name, batch in batches.items()]
+    works = {name: lambda batch=batch: [batch.test() for _ in range(REPEATS)] for name, batch in batches.items()}
+    costs = timed_in_turns(works, {name: REPEATS * len(batch) for name, batch in batches.items()})
+    return [row | {"cost": spread(costs[row["series"]])} for row in rows]
+
+
+def _row(body, name, batch, normals, depths):
+    """Errors of the deepest manifold of each pair."""
+    batch.test()
+    pairs = batch.pair_of[batch.found["candidate"]]
+    order = np.lexsort((batch.found["separation_1"], pairs))
+    first = order[np.unique(pairs[order], return_index=True)[1]]
+    told, which = batch.found[first], pairs[first]
+    normal = np.stack([told["normal_x"], told["normal_y"]], axis=1)  # from the first to the second, as its shapes are
+    cosine = np.clip((normal * normals[which]).sum(axis=1), -1.0, 1.0)
+    degrees = np.degrees(np.arccos(cosine))
+    deep = np.maximum(-np.minimum(told["separation_1"], np.where(told["count"] > 1, told["separation_2"], np.inf)), 0.0)
+    wrong = np.abs(deep - depths[which])
+    return {
+        "series": name,
+        "label": name,
+        "panel": body,
+        "found": [len(first), len(depths)],
+        "normal_error": [float(each) for each in np.percentile(degrees, (5, 50, 95))],
+        "wrong_side": [int((degrees > 90.0).sum()), len(degrees)],
+        "depth_error": [float(each) for each in np.percentile(wrong, (5, 50, 95))],
+    }
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    count = POSES_QUICK if plan.quick else POSES
+    return [
+        Job(
+            f"contacts/{body}".replace(" ", "-"),
+            "game.report.charts.contacts:measure",
+            {"body": body, "count": count},
+            2.0,
+        )
+        for body in BODIES
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    return [
+        ordering(f"a contact, {body}", {r["series"]: pair(r["cost"]) for r in rows if r["panel"] == body}, 1e9, "ns")
+        for body in dict.fromkeys(row["panel"] for row in rows)
+    ]
+
+
+CHART = Chart(
+    2,
+    "contacts",
+    "Contacts: normals and depths over their time",
+    "Which way, and how far, does a tier push what its sprite touches?",
+    "closed forms of discs and squares; the bars reach from the 5th to the 95th percentile of the poses",
+    tuple(
+        Panel(
+            f"{word}, {body}",
+            Axis("ns per contact", time("cost", "ns")),
+            Axis(f"{word} off by [{unit}]", value(key), mark=1.0),
+            panel_is(body),
+        )
+        for body in BODIES
+        for word, key, unit in (("normal", "normal_error", "degrees"), ("depth", "depth_error", "px"))
+    ),
+    _jobs,
+    _claims,
+)

@@ -1,0 +1,249 @@
+"""Charts 6 and 7: fast discs at a thin plate: how many pass unseen, how late the rest are told, and what it costs.
+
+The truth is a line: a disc that flies straight meets an upright plate exactly where its centre comes within a radius
+of it. Who is only looked at between steps misses max(0, 1 - (w + 2r) / (v dt)) of what flies at the plate's face.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from game.measure.rates import Rate
+from game.measure.timing import Cost, clock, undisturbed
+from game.report.chart import Axis, Chart, Panel, percent, time, value
+from game.report.claim import FAILS, HOLDS, TIE, Claim, ordering, pair
+from game.report.job import Job, Plan, Row, counted, spread
+from physics import Circle, Effects, Polygon, World
+
+RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
+APART = 80.0  # [px] between two lanes
+RUN_UP, STEPS, RUNS = 2, 60, 5  # steps before the plate; 300 timed steps
+RATIOS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # of a disc's size, flown in a step
+WAYS = (("off", 1), ("ray", 1), ("swept", 1), ("toi", 1), ("auto", 1), *(("off", k) for k in (2, 4, 8, 16, 32)))
+VISIBLE = 1.0  # [px]
+COUNTS = (1, 10, 100, 1000)  # discs
+EFFECTS = Effects(response=True, continuous=True)
+
+
+def name_of(way: str, divided: int) -> str:
+    """A way in words."""
+    return way if divided == 1 else f"{divided} steps in one"
+
+
+def starts(lanes: int, step: float) -> np.ndarray:
+    """(lanes, 2) where discs start: anywhere within a step's way, at the plate's face, its ends or past it."""
+    chance = np.random.default_rng(8)
+    x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
+    aside = chance.uniform(-1.2, 1.2, lanes) * (HALF + RADIUS)
+    return np.column_stack([x, APART * np.arange(lanes) + aside])
+
+
+def first_touch(aside: np.ndarray) -> np.ndarray:
+    """x [px] of a disc's centre where it first touches the plate, for centres so far aside; nan where it never does."""
+    beyond = np.maximum(np.abs(aside) - HALF, 0.0)
+    reach = np.full(len(aside), np.nan)
+    meets = beyond < RADIUS
+    reach[meets] = -WIDTH / 2 - np.sqrt(RADIUS**2 - beyond[meets] ** 2)
+    return reach
+
+
+def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
+    """Lanes with a disc and a plate each."""
+    step = ratio * 2.0 * RADIUS
+    world = World(EFFECTS, dt=1.0 / 60.0 / divided)
+    if plates:
+        middles = np.column_stack([np.zeros(lanes), APART * np.arange(lanes)])
+        world.add_bodies(Polygon.box(WIDTH, 2 * HALF), middles, kind="static")
+    world.add_bodies(Circle(RADIUS), starts(lanes, step), np.full((lanes, 2), (60.0 * step, 0.0)), continuous=way)
+    return world
+
+
+def measure(ratio: float, lanes: int) -> list[Row]:
+    """A row per way: misses, hits that are none, and how far behind the first touch a disc was told."""
+    step = ratio * 2.0 * RADIUS
+    begin = starts(lanes, step)
+    touch = first_touch(begin[:, 1] - APART * np.arange(lanes))
+    meets = ~np.isnan(touch)
+    depth = RADIUS - np.maximum(np.abs(begin[:, 1] - APART * np.arange(lanes)) - HALF, 0.0)
+    rows = []
+    for way, divided in WAYS:
+        world = world_of(way, divided, lanes, ratio)
+        discs = {int(row["id"]): k for k, row in enumerate(world.bodies[lanes:])}
+        late = np.full(lanes, np.nan)
+        failures = 0
+        flown = int(np.ceil((2.0 * (RADIUS + WIDTH) - begin[:, 0].min()) / step)) + 1
+        for _ in range(flown * divided):
+            world.step()
+            failures += world.profile.counters["cap_hits"]
+            for event in world.events.begin:
+                identity = int(event["body_a"]) if int(event["body_a"]) in discs else int(event["body_b"])
+                lane = discs[identity]
+                if np.isnan(late[lane]):
+                    late[lane] = abs(float(world.body(identity).position.x) - touch[lane]) if meets[lane] else 0.0
+        told = ~np.isnan(late)
+        missed = Rate(int((meets & ~told).sum()), int(meets.sum()))
+        ghost = Rate(int((told & ~meets).sum()), int(told.sum()))
+        found = late[meets & told]
+        rows.append(
+            {
+                "series": name_of(way, divided),
+                "label": f"{name_of(way, divided)}, {ratio:g} sizes a step",
+                "panel": "miss",
+                "ratio": ratio,
+                "missed": counted(missed),
+                "ghost": counted(ghost),
+                "deepest_missed": float(depth[meets & ~told].max(initial=0.0)),
+                "late": [float(each) for each in np.percentile(found, (5, 50, 95))] if len(found) else None,
+                "failures": {"cap_hits": failures},
+            }
+        )
+    return rows
+
+
+def measure_times(count: int) -> list[Row]:
+    """A row per way: what a step of 1/60 s takes with so many discs, one in ten near a plate, at ten sizes a step."""
+    ratio, spent = 10.0, {}  # sizes a step
+    rates = {row["series"]: row for row in measure(ratio, 200)}
+    with undisturbed():
+        for turn in range(RUNS + 1):
+            for way, divided in WAYS:
+                world = _traffic(way, divided, count, ratio)
+                started = clock()
+                for _ in range(STEPS * divided):
+                    world.step()
+                if turn:  # the first compiles what is missing
+                    spent.setdefault((way, divided), []).append((clock() - started) / STEPS)
+    return [
+        {
+            "series": name_of(way, divided),
+            "label": f"{name_of(way, divided)}, {count} discs",
+            "panel": "time",
+            "n": count,
+            "ratio": ratio,
+            "missed": rates[name_of(way, divided)]["missed"],
+            "deepest_missed": rates[name_of(way, divided)]["deepest_missed"],
+            "cost": spread(Cost.of(times, STEPS)),
+        }
+        for (way, divided), times in spent.items()
+    ]
+
+
+def _traffic(way, divided, count, ratio):
+    """Discs that fly on for ever over a field of plates that most pass."""
+    step = ratio * 2.0 * RADIUS
+    world = World(EFFECTS, dt=1.0 / 60.0 / divided)
+    chance = np.random.default_rng(9)
+    lanes = APART * np.arange(count)
+    plates = np.column_stack([chance.uniform(0.0, STEPS * step, count), lanes])[::10]
+    world.add_bodies(Polygon.box(WIDTH, 2 * HALF), plates, kind="static")
+    world.add_bodies(
+        Circle(RADIUS),
+        np.column_stack([np.zeros(count), lanes]),
+        np.full((count, 2), (60.0 * step, 0.0)),
+        continuous=way,
+    )
+    world.step()
+    return world
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    lanes = 200 if plan.quick else 1000
+    ratios = RATIOS[::2] if plan.quick else RATIOS
+    counts = COUNTS[1:3] if plan.quick else COUNTS
+    work = "game.report.charts.continuous"
+    return [
+        *(Job(f"continuous/miss-{r:g}", f"{work}:measure", {"ratio": r, "lanes": lanes}, lanes / 200) for r in ratios),
+        *(Job(f"continuous/time-{n}", f"{work}:measure_times", {"count": n}, 2.0 + n / 50) for n in counts),
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for row in rows:
+        if row["panel"] == "miss" and row["series"] == "off":
+            rate, expected = Rate(*row["missed"]), _expected(row["ratio"])
+            low, high = rate.interval
+            found.append(
+                Claim(
+                    f"looked at between steps only, {row['ratio']:g} sizes a step: {100 * expected:.1f} % are missed",
+                    f"{100 * rate.share:.1f} % ({100 * low:.1f} to {100 * high:.1f})",
+                    HOLDS if low <= expected <= high else FAILS,
+                    "1 - chord / (v dt), averaged over where it flies",
+                )
+            )
+    timed = [row for row in rows if row["panel"] == "time"]
+    for count in dict.fromkeys(row["n"] for row in timed):
+        sure = {
+            row["series"]: pair(row["cost"]) for row in timed if row["n"] == count and row["deepest_missed"] < VISIBLE
+        }
+        if len(sure) > 1:
+            found.append(ordering(f"{count} discs at ten sizes a step, none missed that was in by a pixel", sure))
+    most = max((row["n"] for row in timed), default=0)
+    by = {row["series"]: row["cost"]["seconds"] for row in timed if row["n"] == most}
+    if {"off", "toi"} <= set(by):
+        low, middle, high = (by["toi"][k] / by["off"][2 - k] for k in range(3))
+        found.append(
+            Claim(
+                "continuous collision costs 2 to 5 times a body",
+                f"toi / off {middle:.2f} ({low:.2f} to {high:.2f})",
+                HOLDS if low >= 2.0 and high <= 5.0 else TIE if high >= 2.0 and low <= 5.0 else FAILS,
+                "common advice in engines' manuals",
+            )
+        )
+    return found
+
+
+def _expected(ratio):
+    """The share that is missed between steps, over all asides: what lies in the plate's reach is a chord long."""
+    step = ratio * 2.0 * RADIUS
+    aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]
+    beyond = np.maximum(aside - HALF, 0.0)
+    chord = WIDTH + 2.0 * np.sqrt(RADIUS**2 - beyond**2)
+    return float(np.maximum(0.0, 1.0 - chord / step).mean())
+
+
+_missed = Axis("missed hits [%]", percent("missed"), log=False)
+CHART = Chart(
+    6,
+    "continuous",
+    "Fast bodies: what passes unseen",
+    "How many hits are missed as bodies fly further in a step, and how late are the others told?",
+    "a straight way past an upright plate, in closed form",
+    (
+        Panel("missed", Axis("v dt / size", value("ratio")), _missed, lambda r: r["panel"] == "miss", "series"),
+        Panel(
+            "how deep what was missed would have been",
+            Axis("v dt / size", value("ratio")),
+            Axis("missed, in by at most [px]", value("deepest_missed"), log=False, mark=VISIBLE),
+            lambda r: r["panel"] == "miss",
+            "series",
+        ),
+        Panel(
+            "told how far from the first touch",
+            Axis("v dt / size", value("ratio")),
+            Axis("off by [px]", value("late"), mark=1.0),
+            lambda r: r["panel"] == "miss",
+            "series",
+        ),
+    ),
+    _jobs,
+    _claims,
+)
+TIME_CHART = Chart(
+    7,
+    "continuous-time",
+    "Fast bodies: what seeing them costs",
+    "What does a step take with discs at ten sizes a step, and how many does it miss?",
+    "as chart 6",
+    tuple(
+        Panel(
+            f"{count} discs",
+            Axis("us a step", time("cost")),
+            _missed,
+            lambda r, n=count: r["panel"] == "time" and r["n"] == n,
+        )
+        for count in COUNTS
+    ),
+    lambda plan: [],
+    of="continuous",
+)

@@ -1,0 +1,167 @@
+"""Chart 5: what a second of motion costs, and how far it ends from its closed form, over the length of a step.
+
+Slopes are level ground under a gravity that leans. The length of a step is the setting; errors of the first order
+halve with it, of the second they are a quarter.
+"""
+
+from collections.abc import Callable, Sequence
+from math import cos, radians, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from game.measure.timing import Cost, clock, undisturbed
+from game.report.chart import Axis, Chart, Panel, panel_is, time, value
+from game.report.claim import HOLDS, TIE, Claim
+from game.report.job import Job, Plan, Row, spread
+from physics import Circle, Effects, Material, Polygon, Vec2, World
+
+G, SECONDS, RUNS = 320.0, 1.0, 5
+RATES = (30, 60, 120, 240, 480)  # steps a second
+SLOPE, FRICTION, SIZE = radians(30.0), 0.3, 16.0
+COPIES = 32  # side by side: one body alone costs the call
+SOLVERS = ("projection", "sequential_impulse", "soft_step")
+
+
+class Case(NamedTuple):
+    """How a body starts, and where it is after SECONDS in closed form. ends: (position, velocity) of a copy whose start
+    was at 0 to the error [px]."""
+
+    effects: Effects
+    solvers: tuple[str, ...]
+    slope: float
+    shape: Polygon | Circle
+    material: Material
+    above: float  # [px] the ground
+    error: Callable[[Vec2, Vec2], float]
+
+
+def _fall(position, velocity):
+    return abs(position.y - 0.5 * G * SECONDS**2)
+
+
+def _slide(position, velocity):
+    return abs(position.x - 0.5 * G * (sin(SLOPE) - FRICTION * cos(SLOPE)) * SECONDS**2)
+
+
+def _roll(position, velocity):
+    return abs(position.x - 0.5 * (2.0 / 3.0) * G * sin(SLOPE) * SECONDS**2)
+
+
+DROP = 40.0  # [px]
+
+
+def _bounce(position, velocity):
+    """A ball that loses nothing is as high, with its speed, as it was let go."""
+    return abs(position.y - 0.5 * velocity.y**2 / G)
+
+
+STACKS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
+CASES = {
+    "free fall": Case(STACKS, SOLVERS, 0.0, Circle(SIZE / 2), Material(), 1e6, _fall),
+    "slide down 30 degrees": Case(
+        STACKS, SOLVERS[1:], SLOPE, Polygon.box(SIZE, SIZE), Material(friction=FRICTION), 0.0, _slide
+    ),
+    "roll down 30 degrees": Case(STACKS, SOLVERS[1:], SLOPE, Circle(SIZE / 2), Material(friction=1.0), 0.0, _roll),
+    "bounce of 1": Case(STACKS, SOLVERS, 0.0, Circle(SIZE / 2), Material(restitution=1.0), DROP, _bounce),
+}
+
+
+def world_of(case: Case, solver: str, rate: int) -> World:
+    """COPIES bodies in a row, so far apart that none meets another, over ground or far above it."""
+    gravity = (G * sin(case.slope), G * cos(case.slope))
+    world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)
+    far = 40.0 * SIZE
+    ground = Polygon.box(far * (COPIES + 2), 64.0, center=(0.5 * far * COPIES, case.above + SIZE / 2 + 32.0))
+    world.add_body(ground, kind="static", material=case.material)
+    world.add_bodies(case.shape, np.column_stack([far * np.arange(COPIES), np.zeros(COPIES)]), material=case.material)
+    return world
+
+
+def measure(case: str) -> list[Row]:
+    """A row per solver and step."""
+    made, rows, spent = CASES[case], {}, {}
+    ways = [(solver, rate) for solver in made.solvers for rate in RATES]
+    for solver, rate in ways:
+        world = world_of(made, solver, rate)
+        steps = round(SECONDS * rate)
+        for _ in range(steps):
+            world.step()
+        first = next(each for each in world if each.kind == "dynamic")
+        rows[solver, rate] = {
+            "series": solver,
+            "label": f"{solver}, {rate} steps a second",
+            "panel": case,
+            "dt": 1.0 / rate,
+            "error": float(made.error(first.position, first.velocity)),
+        }
+    with undisturbed():
+        for _ in range(RUNS):
+            for solver, rate in ways:
+                world, steps = world_of(made, solver, rate), round(SECONDS * rate)
+                started = clock()
+                for _ in range(steps):
+                    world.step()
+                spent.setdefault((solver, rate), []).append((clock() - started) / SECONDS)
+    return [row | {"cost": spread(Cost.of(spent[way], way[1]))} for way, row in rows.items()]
+
+
+def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
+    """(power of dt by which an error grows, its standard error) by least squares on logarithms; None where it is exact
+    but for rounding, or told by fewer than three steps."""
+    points = [(np.log(row["dt"]), np.log(row["error"])) for row in rows if row["error"] > 1e-9 * G]
+    if len(points) < 3:
+        return None
+    x, y = np.array(points).T
+    slope, offset = np.polyfit(x, y, 1)
+    left = y - slope * x - offset
+    return float(slope), float(np.sqrt(left @ left / (len(x) - 2) / ((x - x.mean()) ** 2).sum()))
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    return [
+        Job(f"integration/{case}".replace(" ", "-"), "game.report.charts.integration:measure", {"case": case}, 4.0)
+        for case in CASES
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for case in dict.fromkeys(row["panel"] for row in rows):
+        for solver in SOLVERS:
+            mine = [row for row in rows if row["panel"] == case and row["series"] == solver]
+            if not mine:
+                continue
+            order, worst = order_of(mine), max(row["error"] for row in mine)
+            text = f"{case}, {solver}: "
+            if order is None:
+                found.append(Claim(text + "exact at every length of a step", f"at most {worst:.2g} px", HOLDS))
+            else:
+                sure = abs(order[0]) > 2.0 * order[1] + 0.25
+                found.append(
+                    Claim(
+                        text + "a shorter step is closer",
+                        f"error grows with dt^{order[0]:.2f} +- {order[1]:.2f}",
+                        HOLDS if sure and order[0] > 0 else TIE,
+                    )
+                )
+    return found
+
+
+CHART = Chart(
+    5,
+    "integration",
+    "Lengths of a step",
+    "What does a second of motion cost, and how far does it end from where it should?",
+    "closed forms of fall, sliding, rolling and bouncing",
+    tuple(
+        Panel(f"{case}: {word}", x, Axis("off after 1 s by [px]", value("error"), mark=1.0), panel_is(case), line)
+        for case in CASES
+        for word, x, line in (
+            ("over time", Axis(f"us a second of {COPIES} bodies", time("cost")), "front"),
+            ("over dt", Axis("step [s]", value("dt")), "series"),
+        )
+    ),
+    _jobs,
+    _claims,
+)

@@ -1,0 +1,272 @@
+"""Chart 14: the same work done by what people use today: pygame's rectangles and masks, pymunk's solver.
+
+pygame compares whole pixels, so places are whole here; the truth is which masks share a pixel, found for every pair.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+import pygame
+
+from game.drawing.sprites import load_atlas
+from game.measure.rates import Rate
+from game.measure.timing import Cost, clock, timed_in_turns, undisturbed
+from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
+from game.report.charts.solvers import times_of
+from game.report.claim import FAILS, HOLDS, TIE, Claim, ordering, pair
+from game.report.job import Job, Plan, Row, counted, spread
+from game.report.piles import BOX, FRICTION, GRAVITY, overlap, pyramid, world_of
+from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
+
+SPRITES = ("player", "saucer_0", "gunship_0")
+SPACING = 30.0  # [px] a sprite: about one overlap each
+STEPS, RUNS = 60, 5
+ITERATIONS = (2, 5, 10, 20, 40)  # of pymunk's solver
+SUBSTEPS = (1, 2, 4, 8, "auto")
+SETTLE = 120
+PYMUNK_SLOP = 0.1  # [px] its default, which it lets bodies overlap by
+
+
+class Traffic:
+    """Sprites at whole places, as pygame has them and as a world of ours has."""
+
+    def __init__(self, count: int) -> None:
+        atlas, chance = load_atlas("planes"), np.random.default_rng(6)
+        self.which = chance.integers(0, len(SPRITES), count).tolist()
+        self.corners = chance.integers(0, int(SPACING * count**0.5), (count, 2)).tolist()
+        self.kinds = [PixelMask(atlas.mask(name).solid, origin=(0, 0)) for name in SPRITES]
+        masks = [_pygame_mask(kind) for kind in self.kinds]
+        self.masks = [masks[k] for k in self.which]
+        self.rects = [
+            pygame.Rect(x, y, *masks[k].get_size()) for k, (x, y) in zip(self.which, self.corners, strict=True)
+        ]
+        self.group = pygame.sprite.Group(*(_sprite(*each) for each in zip(self.masks, self.rects, strict=True)))
+
+    def rects_only(self) -> set[tuple[int, int]]:
+        """Who overlaps as rectangles: what is written first."""
+        rects = self.rects
+        return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
+
+    def masks_after_rects(self) -> set[tuple[int, int]]:
+        """The fastest exact way in pygame alone."""
+        rects, masks, found = self.rects, self.masks, set()
+        for k, rect in enumerate(rects):
+            for j in rect.collidelistall(rects):
+                if j > k and masks[k].overlap(masks[j], (rects[j].x - rect.x, rects[j].y - rect.y)):
+                    found.add((k, j))
+        return found
+
+    def group_collide(self) -> set:
+        """What tutorials show."""
+        collide = pygame.sprite.collide_mask
+        # The stubs ask for a bool where pygame documents this very function, which returns a point or None.
+        return set(pygame.sprite.groupcollide(self.group, self.group, False, False, collide))  # pyright: ignore
+
+    def all_pairs(self) -> set[tuple[int, int]]:
+        """Every pair of masks, without a rectangle: slow, and beyond doubt."""
+        return {
+            (k, j)
+            for k in range(len(self.masks))
+            for j in range(k + 1, len(self.masks))
+            if self.masks[k].overlap_area(self.masks[j], tuple(np.subtract(self.corners[j], self.corners[k]).tolist()))
+        }
+
+    def world(self, strategy: object, tier: str) -> World:
+        """All of them in a world, standing."""
+        world = World(Effects(), strategy)
+        for k, (x, y) in zip(self.which, self.corners, strict=True):
+            world.add_body(self.kinds[k], position=(x, y), kind="kinematic", tier=tier)
+        world.step()
+        return world
+
+
+def _pygame_mask(mask):
+    made = pygame.Mask(mask.solid.shape[::-1])
+    for y, x in np.argwhere(mask.solid).tolist():
+        made.set_at((x, y))
+    return made
+
+
+def _sprite(mask, rect):
+    sprite = pygame.sprite.Sprite()
+    sprite.mask, sprite.rect = mask, rect
+    return sprite
+
+
+def measure_sprites(count: int) -> list[Row]:
+    """A row per way: what finding all hits takes once, and how many are none or are missed."""
+    traffic = Traffic(count)
+    truth = traffic.all_pairs()
+    ways: dict[str, Callable[[], set]] = {
+        "pygame: Rect": traffic.rects_only,
+        "pygame: Rect, then Mask": traffic.masks_after_rects,
+        "pygame: groupcollide": traffic.group_collide,
+    }
+    told = {"pygame: Rect": traffic.rects_only(), "pygame: Rect, then Mask": traffic.masks_after_rects()}
+    told["pygame: groupcollide"] = truth  # it tells sprites, not pairs: the same masks, asked one by one
+    works: dict[str, Callable[[], object]] = dict(ways)
+    for name, make, tier in (
+        ("ours: grid, boxes", SpatialHashGrid, "aabb"),
+        ("ours: grid, pixels", SpatialHashGrid, "pixels"),
+        ("ours: tree, pixels", DynamicTree, "pixels"),
+        ("ours: grid, outline", SpatialHashGrid, "outline"),
+    ):
+        world = traffic.world(make(), tier)
+        rows = {int(identity): k for k, identity in enumerate(world.bodies["id"])}
+        found = world.contacts
+        hits = found[found["separation"] <= 0.0]
+        told[name] = {
+            tuple(sorted((rows[a], rows[b])))
+            for a, b in zip(hits["body_a"].tolist(), hits["body_b"].tolist(), strict=True)
+        }
+        # All move, so that all boxes are made anew and nothing is found by memory; there and back again.
+        speeds = np.random.default_rng(7).uniform(-60.0, 60.0, (count, 2))
+        works[name] = partial(_step, world, speeds)
+    costs = timed_in_turns(works, dict.fromkeys(works, 1), RUNS)
+    return [
+        {
+            "series": name,
+            "label": name,
+            "panel": "sprites",
+            "n": count,
+            "wrong": counted(Rate(len(told[name] - truth), len(told[name]))),
+            "missed": counted(Rate(len(truth - told[name]), len(truth))),
+            "cost": spread(costs[name]),
+        }
+        for name in works
+    ]
+
+
+def _step(world, speeds):
+    speeds *= -1.0
+    world.bodies["vx"], world.bodies["vy"] = speeds.T
+    world.step()
+
+
+def measure_piles(rows: int) -> list[Row]:
+    """A row per engine and effort: a pyramid that stands since two seconds. ModuleNotFoundError: no pymunk."""
+    import pymunk
+
+    made, found = pyramid(rows), {}
+    worlds = {}
+    for substeps in SUBSTEPS:
+        world = world_of(made, "soft_step", substeps)
+        for _ in range(SETTLE):
+            world.step()
+        label = f"ours: {substeps} substeps"
+        worlds[label], found[label] = world, ("ours", overlap(world))
+    costs = times_of(worlds)
+    spent: dict[str, list[float]] = {}
+    spaces = {f"pymunk: {count} iterations": _space(pymunk, made, count) for count in ITERATIONS}
+    for label, space in spaces.items():
+        for _ in range(SETTLE):
+            space.step(1 / 60)
+        found[label] = "pymunk", _depth(space)
+    with undisturbed():
+        for _ in range(RUNS):
+            for label, space in spaces.items():
+                started = clock()
+                for _ in range(STEPS):
+                    space.step(1 / 60)
+                spent.setdefault(label, []).append((clock() - started) / STEPS)
+    costs |= {label: Cost.of(each, STEPS) for label, each in spent.items()}
+    return [
+        {
+            "series": engine,
+            "label": label,
+            "panel": f"pyramid of {len(made.places)}",
+            "overlap": deep,
+            "cost": spread(costs[label]),
+        }
+        for label, (engine, deep) in found.items()
+    ]
+
+
+def _space(pymunk, pile, iterations):
+    space = pymunk.Space()
+    space.gravity, space.iterations, space.collision_slop = (0.0, GRAVITY), iterations, PYMUNK_SLOP
+    width = 60.0 * BOX
+    ground = pymunk.Poly(space.static_body, [(-width, 0), (width, 0), (width, 64), (-width, 64)])
+    ground.friction = FRICTION
+    space.add(ground)
+    for x, y in pile.places:
+        body = pymunk.Body(BOX * BOX, pymunk.moment_for_box(BOX * BOX, (BOX, BOX)))
+        body.position = x, y
+        shape = pymunk.Poly.create_box(body, (BOX, BOX))
+        shape.friction = FRICTION
+        space.add(body, shape)
+    return space
+
+
+def _depth(space):
+    """By its own contact points, at the poses of now [px]."""
+    found = 0.0
+    for shape in space.shapes:
+        if shape.body is not space.static_body:
+            for each in space.shape_query(shape):
+                found = max([found, *(-point.distance for point in each.contact_point_set.points)])
+    return found
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    work = "game.report.charts.peers"
+    counts, rows = ((300,), (10,)) if plan.quick else ((100, 500, 1500), (10, 20, 45))
+    return [
+        *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, n / 150) for n in counts),
+        *(Job(f"peers/pyramid-{n}", f"{work}:measure_piles", {"rows": n}, n * n / 50) for n in rows),
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for count in dict.fromkeys(row["n"] for row in rows if row["panel"] == "sprites"):
+        exact = {
+            row["series"]: pair(row["cost"])
+            for row in rows
+            if row.get("n") == count and row["wrong"][0] == 0 and row["missed"][0] == 0
+        }
+        found.append(ordering(f"{count} sprites, every hit right", exact))
+    for panel in dict.fromkeys(row["panel"] for row in rows if row["panel"] != "sprites"):
+        mine = {row["label"]: row["cost"]["seconds"] for row in rows if row["panel"] == panel}
+        ours, theirs = mine["ours: 4 substeps"], mine["pymunk: 10 iterations"]
+        low, middle, high = (ours[k] / theirs[2 - k] for k in range(3))
+        found.append(
+            Claim(
+                f"{panel} boxes: ours at 4 substeps is faster than pymunk at 10 iterations",
+                f"{middle:.2f} x the time ({low:.2f} to {high:.2f})",
+                HOLDS if high < 0.9 else FAILS if low > 1.1 else TIE,
+            )
+        )
+    return found
+
+
+def _panels(rows: Sequence[Row]) -> list[Panel]:
+    cost = Axis("us, all of them", time("cost"))
+    sprites = [
+        Panel(
+            f"{count} sprites: {word}",
+            cost,
+            Axis(f"{word} [%]", percent(key), log=False),
+            lambda row, n=count: row["panel"] == "sprites" and row["n"] == n,
+        )
+        for count in dict.fromkeys(row["n"] for row in rows if row["panel"] == "sprites")
+        for word, key in (("wrong hits", "wrong"), ("missed hits", "missed"))
+    ]
+    piles = [
+        Panel(panel, Axis("us a step", time("cost")), Axis("overlap [px]", value("overlap"), mark=1.0), panel_is(panel))
+        for panel in dict.fromkeys(row["panel"] for row in rows if row["panel"] != "sprites")
+    ]
+    return [*sprites, *piles]
+
+
+CHART = Chart(
+    14,
+    "peers",
+    "Beside pygame and pymunk",
+    "What does the same work cost with the ways people use today, and is it as exact?",
+    "sprites: which masks share a pixel, asked for every pair; piles: no box overlaps another",
+    _panels,
+    _jobs,
+    _claims,
+)

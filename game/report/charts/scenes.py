@@ -1,0 +1,100 @@
+"""Chart 13: every setting of a scene, at a moment of its bot's run, as the plot in the game shows it live."""
+
+from collections.abc import Sequence
+
+from game.measure.advice import measure_settings
+from game.measure.moment import Moment
+from game.measure.setting import settings_around
+from game.measure.survey import Survey, told
+from game.report.chart import Axis, Chart, Panel, panel_is, time, value
+from game.report.charts.latency import scene_class
+from game.report.claim import Claim, ordering, pair
+from game.report.job import Job, Plan, Row, counted, spread
+from game.run.headless import start_dummy_display
+from game.run.session import Session
+from game.run.sources import BotSource
+from game.run.warmup import warm_up_scene
+
+FRAME = 300  # of the moment: five seconds into the bot's run
+VISIBLE = 1.0  # [px]
+FEW = ("shooter", "lab/pyramid")
+
+
+def measure(scene: str, where: str) -> list[Row]:
+    """A row per setting and kind of error."""
+    start_dummy_display()
+    made = scene_class(where)
+    warm_up_scene(made, None, None)
+    session = Session(made(0), BotSource())
+    for _ in range(FRAME):
+        session.step()
+    world = session.scene.views()[0][0]
+    moment, survey = Moment(world.snapshot(), world.broadphase.name), Survey()
+    measure_settings(survey, [moment], settings_around(moment.here, moment.effects), lambda done, of: None, 0)
+    rows = []
+    for kind in survey.kinds:
+        for setting, (cost, error) in survey.known(kind).items():
+            rows.append(
+                {
+                    "series": " ".join(setting.differs(moment.here)) or "as it is",
+                    "label": setting.label(moment.here),
+                    "panel": f"{scene}, {kind}",
+                    "setting": setting._asdict(),
+                    "error": [max(0.0, error.value - error.floor), told(error), error.value + error.floor],
+                    "floor": error.floor,
+                    "wrong": None if error.wrong is None else counted(error.wrong),
+                    "missed": None if error.missed is None else counted(error.missed),
+                    "failures": dict(error.failures),
+                    "cost": spread(cost),
+                }
+            )
+    return rows
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    return [
+        Job(
+            f"scenes/{name}".replace("lab/", "lab-"),
+            "game.report.charts.scenes:measure",
+            {"scene": name, "where": plan.scenes[name]},
+            15.0,
+        )
+        for name in (FEW if plan.quick else plan.scenes)
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for panel in dict.fromkeys(row["panel"] for row in rows):
+        good = {
+            row["label"]: pair(row["cost"])
+            for row in rows
+            if row["panel"] == panel and row["error"][1] <= VISIBLE and not any(row["failures"].values())
+        }
+        if len(good) > 1:
+            found.append(ordering(f"{panel} within a pixel", good))
+    return found
+
+
+def _panels(rows: Sequence[Row]) -> list[Panel]:
+    return [
+        Panel(
+            panel.replace(",", ":"),
+            Axis("us a step", time("cost")),
+            Axis(f"{panel.split(', ')[1]} [px]", value("error"), mark=VISIBLE),
+            panel_is(panel),
+        )
+        for panel in dict.fromkeys(row["panel"] for row in rows)
+    ]
+
+
+CHART = Chart(
+    13,
+    "scenes",
+    "Every setting of every scene",
+    "What would another broad phase, tier, solver or count of substeps cost here, and how wrong would it be?",
+    "finer runs of the same moment, as far as two of them agree; exact pixels for verdicts; no overlap for piles",
+    _panels,
+    _jobs,
+    _claims,
+)

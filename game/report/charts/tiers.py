@@ -1,0 +1,168 @@
+"""Charts 1 and 3: what each tier of a sprite costs a pair, how often it is wrong, what it weighs and how well it fits.
+
+Poses in three sets, as the share of hits and how near they are decide every rate: evenly around each other, half of
+them hits; within two pixels of touching, where tiers differ; and the shooter's own traffic (charts/traffic.py).
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from game.measure.rates import Rate
+from game.measure.tiers import Poses, TierFigures, measure_at, poses_around
+from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
+from game.report.claim import FAILS, HOLDS, Claim, ordering, pair
+from game.report.job import Job, Plan, Row, counted, spread
+from game.report.sprites import FEW, SPRITES, mask_of
+from physics import PixelMask, distance, fit
+
+BAND = 2.0  # [px] apart or deep: where tiers differ
+TRIED, TRIED_QUICK = 2000, 500  # poses whose distance is measured, of which some lie within the band
+LEAST_EACH = 20  # hits, and misses, that a set must have
+AROUND, NEAR = "poses all around", "within 2 px of touching"
+
+
+def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
+    """Poses whose exact distance is less than BAND. Raises ValueError for too few of either kind."""
+    poses = poses_around(first, second, tried, seed=1)
+    a, b = fit(first, "mask")[0], fit(second, "mask")[0]
+    gaps = np.array(
+        [distance(a, tuple(p), b, tuple(q)).distance for p, q in zip(*map(np.ndarray.tolist, poses[:2]), strict=True)]
+    )
+    near = np.abs(gaps) < BAND
+    found = Poses(poses.first[near], poses.second[near], poses.met[near])
+    hits = int(found.met.sum())
+    if min(hits, len(found.met) - hits) < LEAST_EACH:
+        raise ValueError(f"too few poses near touching: {hits} hits of {len(found.met)}")
+    return found
+
+
+def measure(atlas: str, name: str, tried: int) -> list[Row]:
+    """Two rows per tier, one per set of poses, of a sprite against itself."""
+    mask, rows = mask_of(atlas, name), []
+    for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
+        measure_at(mask, mask, poses, lambda figures, panel=panel: rows.append(_row(name, panel, figures)))
+    return rows
+
+
+def _row(name, panel, figures: TierFigures) -> Row:
+    fitted = figures.fit
+    return {
+        "series": figures.tier,
+        "label": f"{figures.tier}, {name}",
+        "panel": panel,
+        "sprite": name,
+        "shapes": figures.shapes,
+        "wrong": counted(figures.wrong),
+        "missed": counted(figures.missed),
+        "bytes": fitted.bytes,
+        "lost": 1.0 - fitted.iou,
+        "hausdorff": fitted.hausdorff,
+        "area_error": fitted.area_error,
+        "center_error": fitted.center_error,
+        "inertia_error": fitted.inertia_error,
+        "hit_cost": spread(figures.hit),
+        "miss_cost": spread(figures.miss),
+        "build_cost": spread(figures.build),
+    }
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    chosen, tried = (FEW, TRIED_QUICK) if plan.quick else (SPRITES, TRIED)
+    return [
+        Job(
+            f"tiers/{name}",
+            "game.report.charts.tiers:measure",
+            {"atlas": atlas, "name": name, "tried": tried},
+            4.0 if plan.quick else 15.0,
+        )
+        for atlas, name in chosen
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for sprite in dict.fromkeys(row["sprite"] for row in rows):
+        mine = [row for row in rows if row["sprite"] == sprite and row["panel"] == AROUND]
+        for kind in ("hit", "miss"):
+            costs = {row["series"]: pair(row[f"{kind}_cost"]) for row in mine}
+            found.append(ordering(f"{sprite}, a {kind}", costs, 1e9, "ns"))
+    boxes = [Rate(*row["wrong"]) for row in rows if row["series"] == "aabb" and row["panel"] == AROUND]
+    if boxes:
+        wrong = Rate(sum(rate.count for rate in boxes), sum(rate.total for rate in boxes))
+        low, high = wrong.interval
+        found.append(
+            Claim(
+                "boxes say hit where pixels do not",
+                f"{100 * wrong.share:.1f} % of their hits ({100 * low:.1f} to {100 * high:.1f})",
+                HOLDS if low > 0.0 else FAILS,
+                "why pygame.mask exists",
+            )
+        )
+    return found
+
+
+def _rates(kind, wrong, word, panel):
+    return Panel(
+        f"{word}, {panel}",
+        Axis(f"ns per pair that is a {kind}", time(f"{kind}_cost", "ns")),
+        Axis(f"{word} [%]", percent(wrong), log=False),
+        panel_is(panel),
+        "medians",
+    )
+
+
+_built = panel_is(AROUND)  # what a tier weighs has nothing to do with poses
+CHART = Chart(
+    1,
+    "tiers",
+    "Tiers: wrong verdicts over the time of a pair",
+    "How often does a cheaper shape say hit where no pixels meet, and miss where they do, and what does it save?",
+    "the exact test of the sprites' pixel squares at their poses, turned and between pixels",
+    tuple(
+        _rates(kind, wrong, word, panel)
+        for panel in (AROUND, NEAR)
+        for kind, wrong, word in (("hit", "wrong", "wrong hits"), ("miss", "missed", "missed hits"))
+    ),
+    _jobs,
+    _claims,
+)
+FIT_CHART = Chart(
+    3,
+    "fit",
+    "Tiers: what they weigh, and how well they fit",
+    "How many bytes and how much time to make buy how close a shape?",
+    "the union of the sprite's pixel squares; areas, centres, moments and distances by exact geometry",
+    (
+        Panel(
+            "area not shared",
+            Axis("bytes", value("bytes")),
+            Axis("1 - IoU [%]", value("lost", 100.0)),
+            _built,
+            "medians",
+        ),
+        Panel(
+            "area not shared", Axis("us to make", time("build_cost")), Axis("1 - IoU [%]", value("lost", 100.0)), _built
+        ),
+        Panel(
+            "largest distance",
+            Axis("bytes", value("bytes")),
+            Axis("Hausdorff [px]", value("hausdorff"), mark=1.0),
+            _built,
+        ),
+        Panel(
+            "centre of area",
+            Axis("bytes", value("bytes")),
+            Axis("off by [px]", value("center_error"), mark=1.0),
+            _built,
+        ),
+        Panel(
+            "moment of inertia",
+            Axis("bytes", value("bytes")),
+            Axis("off by [%]", value("inertia_error", 100.0)),
+            _built,
+        ),
+    ),
+    lambda plan: [],
+    of="tiers",
+)

@@ -1,0 +1,53 @@
+"""A sentence that the measurements bear out, contradict, or leave open."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from game.measure.front import cheaper
+
+HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
+
+
+class Claim(NamedTuple):
+    """text: what is claimed; figure: what was measured; verdict: HOLDS, FAILS or TIE; source: who claims it."""
+
+    text: str
+    figure: str
+    verdict: str
+    source: str = ""
+    order: tuple[str, ...] = ()  # what is claimed to be cheaper, then than what; () where it is no ordering
+
+
+def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
+    """Which of several works is the cheapest: claimed where it is sure, else a tie of all that may be.
+
+    costs: {name: (least, median) seconds}; a tie where intervals overlap or costs differ by less than 10 %. Raises
+    ValueError for fewer than two."""
+    if len(costs) < 2:
+        raise ValueError(f"an ordering needs two costs at least (got {len(costs)})")
+    ordered = sorted(costs, key=lambda name: costs[name][1])
+    best = ordered[0]
+    alike = [name for name in ordered if name == best or not cheaper(costs[best], costs[name])]
+    rest = [name for name in ordered if name not in alike]
+    told = ", ".join(f"{name} {costs[name][1] * unit:.3g} {word}" for name in ordered[:3])
+    if len(alike) > 1:
+        return Claim(f"{what}: {' and '.join(alike)} are the cheapest", told, TIE, "", tuple(sorted(alike)))
+    return Claim(f"{what}: {best} is the cheapest", told, HOLDS, "", (best, *rest[:1]))
+
+
+def compared(text: str, ratio: tuple[float, float, float], holds: bool | None, source: str, word: str = "x") -> Claim:
+    """A claim about a ratio (low, middle, high); holds None: the measurements do not decide."""
+    low, middle, high = ratio
+    verdict = TIE if holds is None else HOLDS if holds else FAILS
+    return Claim(text, f"{middle:.3g} {word} ({low:.3g} to {high:.3g})", verdict, source)
+
+
+def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:
+    """How one cost (as a row holds it) stands to another: low, middle, high, going by least, median and upper."""
+    first, second = a["seconds"], b["seconds"]
+    return first[0] / second[2], first[1] / second[1], first[2] / second[0]
+
+
+def pair(cost: Mapping) -> tuple[float, float]:
+    """(least, median) of a cost as a row holds it."""
+    return cost["seconds"][0], cost["seconds"][1]

@@ -1,0 +1,157 @@
+"""The report as one HTML page that needs nothing else: plots with what stands behind each dot, tables, raw data."""
+
+import csv
+import io
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from game import VERSION
+from game.report.chart import Chart
+from game.report.claim import Claim
+from game.report.job import Row
+from game.report.plots import draw, shown
+
+PAGE = Path(__file__).with_name("page.html")
+
+
+class Measured(NamedTuple):
+    """A chart with what its jobs found. failed: {job: why}; left: jobs that are not done yet."""
+
+    chart: Chart
+    rows: list[Row]  # each with "job"
+    failed: Mapping[str, str]
+    left: int
+
+
+def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
+    """The page's text. folder: as the command line named it, for the commands that measure a dot again."""
+    told: dict[str, Any] = {}
+    charts = "\n".join(_chart(each, told, folder, bool(manifest["quick"])) for each in measured)
+    rows = {each.chart.key: each.rows for each in measured}
+    parts = {
+        "version": VERSION,
+        "kind": "quick" if manifest["quick"] else "full",
+        "machine": _machine(manifest["machine"], spent),
+        "contents": "".join(
+            f'<li><a href="#{each.chart.key}">{each.chart.number}. {escape(each.chart.title)}</a></li>'
+            for each in measured
+        ),
+        "failures": _failures(measured),
+        "claims": _claims([claim for each in measured for claim in each.chart.claims(each.rows)]),
+        "charts": charts,
+        "told": _script(told),
+        "data": _script(rows),
+    }
+    page = PAGE.read_text(encoding="utf-8")
+    for name, text in parts.items():
+        page = page.replace("{{" + name + "}}", text)
+    return page
+
+
+def _script(value):
+    """JSON that cannot end the element that it stands in."""
+    return json.dumps(value).replace("</", "<\\/")
+
+
+def _chart(measured, told, folder, quick):
+    chart, rows = measured.chart, measured.rows
+    panels = []
+    for number, panel in enumerate(chart.panels(rows) if callable(chart.panels) else chart.panels):
+        name = f"{chart.key}-{number}"
+        svg, dots = draw(panel, rows, name)
+        if not svg:
+            continue
+        for k, dot in enumerate(dots):
+            told[f"{name}-{k}"] = {**shown(dot, panel), "again": command(dot.row, folder, quick)}
+        panels.append(f"<figure><figcaption>{escape(panel.title)}</figcaption>{svg}</figure>")
+    text = "".join(panels) or "<p>Nothing of this is measured.</p>"
+    return (
+        f'<section id="{chart.key}"><h2>{chart.number}. {escape(chart.title)}</h2>'
+        f"<p>{escape(chart.question)}</p><p class=truth>Truth: {escape(chart.truth)}</p>"
+        f"<div class=panels>{text}</div>{_claims(chart.claims(rows))}"
+        f"<details><summary>{len(rows)} rows, and the commands that measure them again</summary>"
+        f'<button data-key="{chart.key}" data-as=csv>CSV</button> '
+        f'<button data-key="{chart.key}" data-as=json>JSON</button>'
+        f"{_table(rows, folder, quick)}</details></section>"
+    )
+
+
+def command(row: Row, folder: str, quick: bool) -> str:
+    """What measures a row again."""
+    return f"python main.py --report {folder}{' --quick' if quick else ''} --only {row['job']}"
+
+
+def _claims(claims: Iterable[Claim]):
+    lines = [
+        f"<tr class={claim.verdict.replace(' ', '-')}><td>{escape(claim.text)}</td><td>{escape(claim.figure)}</td>"
+        f"<td>{escape(claim.verdict)}</td><td>{escape(claim.source)}</td></tr>"
+        for claim in claims
+    ]
+    if not lines:
+        return ""
+    head = "<tr><th>claim</th><th>measured</th><th>verdict</th><th>whose</th></tr>"
+    return f"<table class=claims>{head}{''.join(lines)}</table>"
+
+
+def _failures(measured):
+    lines = [f"<li>{escape(job)}: {escape(why)}</li>" for each in measured for job, why in each.failed.items()]
+    left = sum(each.left for each in measured)
+    text = f"<h2>What failed</h2><ul>{''.join(lines)}</ul>" if lines else ""
+    return text + (f"<p>{left} jobs are not done yet: the same command goes on with them.</p>" if left else "")
+
+
+def _machine(machine, spent):
+    facts = ", ".join(f"{escape(str(name))} {escape(str(value))}" for name, value in machine.items())
+    return f"{facts}; measured in {spent:.0f} s"
+
+
+def _table(rows, folder, quick):
+    names = columns(rows)
+    head = "".join(f"<th>{escape(name)}</th>" for name in [*names, "command"])
+    body = "".join(
+        "<tr>"
+        + "".join(f"<td>{escape(cell(row.get(name)))}</td>" for name in names)
+        + f"<td><code>{escape(command(row, folder, quick))}</code></td></tr>"
+        for row in rows
+    )
+    return f"<div class=wide><table><tr>{head}</tr>{body}</table></div>"
+
+
+def columns(rows: Iterable[Row]) -> list[str]:
+    """The keys of all rows, in the order in which they come."""
+    return list(dict.fromkeys(name for row in rows for name in row))
+
+
+def cell(value: Any) -> str:
+    """A value of a row as text."""
+    if value is None:
+        return ""
+    if isinstance(value, dict) and "seconds" in value:
+        return " / ".join(f"{each:.4g}" for each in value["seconds"]) + " s"
+    if isinstance(value, float):
+        return f"{value:.5g}"
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def as_csv(rows: Sequence[Row]) -> str:
+    """The rows as CSV; times are three columns of seconds: least, median, upper quartile."""
+    flat = []
+    for row in rows:
+        line: Row = {}
+        for name, value in row.items():
+            if isinstance(value, dict) and "seconds" in value:
+                line |= {
+                    f"{name}_{part}": each
+                    for part, each in zip(("least", "median", "upper"), value["seconds"], strict=True)
+                }
+            else:
+                line[name] = json.dumps(value) if isinstance(value, (dict, list)) else value
+        flat.append(line)
+    file = io.StringIO()
+    writer = csv.DictWriter(file, columns(flat))
+    writer.writeheader()
+    writer.writerows(flat)
+    return file.getvalue()

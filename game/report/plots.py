@@ -1,0 +1,168 @@
+"""Panels drawn as SVG, by matplotlib: light or dark by the page's colours, a dot each that a pointer can find.
+
+Raises UsageError where matplotlib is not installed.
+"""
+
+import io
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from math import isfinite
+from statistics import median
+from typing import Any, NamedTuple
+
+from game.errors import UsageError
+from game.measure.front import pareto
+from game.report.chart import Axis, Interval, Panel
+from game.report.job import Row
+
+SIZE = (6.4, 4.0)  # [inch]
+DECADES = 6  # of a logarithmic axis
+# Inks that no drawing has by chance, and what the page calls them.
+INKS = {"#010203": "var(--ink)", "#040506": "var(--paper)", "#070809": "var(--faint)"}
+INK, PAPER, FAINT = INKS
+# Okabe and Ito's colours, which most who see colours otherwise can tell apart, dark enough for both papers.
+COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56a0d9", "#8064c8", "#7a7a7a", "#c0392b", "#4d8f1f")
+MARKERS = "osD^vP*X<>"
+
+
+class Dot(NamedTuple):
+    """A row in a panel."""
+
+    row: Row
+    x: Interval
+    y: Interval
+
+
+@cache
+def library() -> Any:
+    """matplotlib's figures, without a window."""
+    try:
+        import matplotlib
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise UsageError('--report needs matplotlib; it comes with: pip install -e ".[bench]"') from error
+    matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "hitbox", "font.family": "sans-serif"})
+    return Figure
+
+
+def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
+    """What a panel shows of the rows: those with both figures, which are finite."""
+    found = []
+    for row in rows:
+        if not panel.shows(row):
+            continue
+        x, y = panel.x.read(row), panel.y.read(row)
+        if x is not None and y is not None and all(map(isfinite, (*x, *y))):
+            found.append(Dot(row, x, y))
+    return found
+
+
+def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
+    """(the SVG of a panel, its dots); dot k has the id NAME-k. "" where nothing is to be shown."""
+    figure = library()(figsize=SIZE, layout="constrained")
+    dots = dots_of(panel, rows)
+    if not dots:
+        return "", []
+    axes = figure.add_subplot()
+    figure.patch.set_alpha(0.0)
+    axes.set_facecolor(PAPER)
+    for number, (series, members) in enumerate(_series(dots)):
+        color, marker = COLORS[number % len(COLORS)], MARKERS[number % len(MARKERS)]
+        if panel.line == "series":
+            ordered = sorted(members, key=lambda pair: pair[1].x[1])
+            axes.plot([d.x[1] for _, d in ordered], [d.y[1] for _, d in ordered], color=color, linewidth=1.2, alpha=0.7)
+        for k, dot in members:
+            _bars(axes, dot, color)
+            failed = any(dot.row.get("failures", {}).values())
+            axes.plot(
+                [dot.x[1]], [dot.y[1]], marker, color=color, markersize=6, gid=f"{name}-{k}",
+                markerfacecolor="none" if failed else color, zorder=3,
+            )  # fmt: skip
+        axes.plot([], [], marker, color=color, label=series)
+    if panel.line in ("front", "medians"):
+        points = {str(k): (dot.x[1], dot.y[1]) for k, dot in enumerate(dots)}
+        if panel.line == "medians":
+            points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots)}
+        axes.plot(*zip(*(points[each] for each in pareto(points)), strict=True), color=INK, linewidth=1.0, zorder=2)
+    _scale(axes, "x", panel.x, [dot.x for dot in dots])
+    _scale(axes, "y", panel.y, [dot.y for dot in dots])
+    _dress(axes, panel)
+    return _page_colors(figure), dots
+
+
+def _series(dots) -> Iterator[tuple[str, list[tuple[int, Dot]]]]:
+    groups: dict[str, list[tuple[int, Dot]]] = {}
+    for k, dot in enumerate(dots):
+        groups.setdefault(str(dot.row["series"]), []).append((k, dot))
+    yield from groups.items()
+
+
+def _middle(dots):
+    return median(dot.x[1] for dot in dots), median(dot.y[1] for dot in dots)
+
+
+def _bars(axes, dot, color):
+    for values, flat in ((dot.x, True), (dot.y, False)):
+        low, _, high = values
+        if high > low:
+            at = (values[0], values[2]), (dot.y[1], dot.y[1])
+            if not flat:
+                at = (dot.x[1], dot.x[1]), (values[0], values[2])
+            axes.plot(*at, color=color, linewidth=1.0, alpha=0.5)
+
+
+def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
+    """Logarithmic where that is asked for; what is DECADES below the largest lies at the foot, with zero. Told after
+    all is drawn."""
+    positive = [high for _, _, high in values if high > 0.0]
+    if not axis.log or not positive:
+        return
+    set_scale, set_limits = getattr(axes, f"set_{which}scale"), getattr(axes, f"set_{which}lim")
+    floor = max(positive) * 10.0**-DECADES
+    if all(low > floor for low, _, _ in values):
+        set_scale("log")
+        return
+    least = min(middle for _, middle, _ in values if middle > floor) if any(v[1] > floor for v in values) else floor
+    set_scale("symlog", linthresh=least, linscale=0.3)
+    set_limits(-0.1 * least, max(positive) * 1.6)
+
+
+def _dress(axes, panel):
+    axes.set_xlabel(panel.x.label, color=INK)
+    axes.set_ylabel(panel.y.label, color=INK)
+    axes.tick_params(which="both", color=FAINT, labelcolor=INK, labelsize=8)
+    for spine in axes.spines.values():
+        spine.set_color(FAINT)
+    axes.grid(color=FAINT, linewidth=0.5, alpha=0.5)
+    for axis, line in ((panel.x, axes.axvline), (panel.y, axes.axhline)):
+        if axis.mark is not None:
+            line(axis.mark, color=COLORS[1], linewidth=1.0, linestyle="--")
+    legend = axes.legend(
+        fontsize=7, labelcolor=INK, facecolor=PAPER, edgecolor=FAINT, loc="upper left", bbox_to_anchor=(1.01, 1.0)
+    )
+    legend.set_zorder(5)
+
+
+def _page_colors(figure) -> str:
+    file = io.StringIO()
+    figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+    text = file.getvalue()
+    text = text[text.index("<svg") :]
+    for ink, name in INKS.items():
+        text = text.replace(ink, name)
+    # Numbers of points say how large it is drawn; a page has its own width.
+    return re.sub(r'<svg ([^>]*?)width="[^"]*" height="[^"]*"', r"<svg \1", text, count=1)
+
+
+def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
+    """What is told of a dot under the pointer: both figures with their intervals, then what else the row knows."""
+    told = {
+        "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
+    }
+    for axis, (low, middle, high) in ((panel.x, dot.x), (panel.y, dot.y)):
+        told[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
+    failures = {key: count for key, count in dot.row.get("failures", {}).items() if count}
+    if failures:
+        told["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
+    return told

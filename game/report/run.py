@@ -1,0 +1,126 @@
+"""`--report DIR`: do the jobs that are not done, keep each, and write the page.
+
+Interrupted, it loses nothing but the job that it was at: the same command goes on.
+"""
+
+import json
+import sys
+from collections.abc import Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+from time import perf_counter
+
+from game import startup
+from game.errors import UsageError
+from game.files.data_folder import write_atomically
+from game.registry import Registry
+from game.report.charts import CHARTS
+from game.report.job import Job, Plan
+from game.report.page import Measured, as_csv, write_page
+from game.report.plots import library
+from game.report.runners import run_here, run_in_processes, run_on_dask
+from game.report.store import Store
+from game.run.headless import start_dummy_display
+from game.run.options import Options
+
+
+def run_report(options: Options, registry: Registry) -> int:
+    """Measure and write. Returns the exit code: 1 where a job failed. Raises UsageError for what cannot be begun."""
+    assert options.report is not None
+    library()  # what draws is looked for before anything is measured
+    start_dummy_display()
+    jobs = all_jobs(Plan(options.quick, registry.listing))
+    chosen = chosen_jobs(jobs, options.only)
+    store = Store(Path(options.report), options.quick)
+    done = {job.name for job in jobs if _is_done(store, job)}
+    due = [job for job in chosen if options.only is not None or job.name not in done]
+    if options.dask is not None:
+        results = run_on_dask(due, options.dask)
+    elif options.workers is not None and options.workers > 1:
+        results = run_in_processes(due, options.workers)
+    else:
+        results = run_here(due)
+    progress = Progress(due)
+    failed = 0
+    try:
+        for found in results:
+            store.keep(found)
+            failed += "failed" in found
+            progress(found)
+    except KeyboardInterrupt:
+        startup.say(f"what is measured is kept in {options.report}; the same command goes on")
+        raise
+    finally:
+        write(store, jobs, options)
+    print(f"{Path(options.report) / 'index.html'}: {len(jobs)} jobs, {failed} failed")
+    return 1 if failed else 0
+
+
+def all_jobs(plan: Plan) -> list[Job]:
+    """Of all charts, in their order."""
+    return [job for chart in CHARTS for job in chart.jobs(plan)]
+
+
+def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
+    """Those whose name the pattern fits, or begins: `broadphases` are all of that chart. Raises UsageError for none."""
+    if only is None:
+        return list(jobs)
+    found = [job for job in jobs if fnmatchcase(job.name, only) or job.name.startswith(f"{only}/")]
+    if not found:
+        names = ", ".join(dict.fromkeys(job.name.split("/")[0] for job in jobs))
+        raise UsageError(f"--only: no job is named {only}; charts: {names}; a job is chart/name, * stands for anything")
+    return found
+
+
+def _is_done(store, job):
+    found = store.result(job.name)
+    return found is not None and "failed" not in found
+
+
+def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
+    """What is kept, by chart."""
+    found = []
+    for chart in CHARTS:
+        rows, failed, left = [], {}, 0
+        for job in jobs:
+            if not job.name.startswith(f"{chart.of or chart.key}/"):
+                continue
+            result = store.result(job.name)
+            if result is None:
+                left += 1
+            elif "failed" in result:
+                failed[job.name] = result["failed"]
+            else:
+                rows += [{**row, "job": job.name} for row in result["rows"]]
+        found.append(Measured(chart, rows, {} if chart.of else failed, 0 if chart.of else left))  # told once
+    return found
+
+
+def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
+    """The page, and the rows beside it. Raises OSError."""
+    measured = gather(store, jobs)
+    spent = sum(found["spent"] for job in jobs if (found := store.result(job.name)) is not None)
+    page = write_page(measured, store.manifest, str(options.report), spent)
+    write_atomically(store.folder / "index.html", page)
+    for each in measured:
+        write_atomically(store.folder / "data" / f"{each.chart.key}.json", json.dumps(each.rows, indent=1))
+        write_atomically(store.folder / "data" / f"{each.chart.key}.csv", as_csv(each.rows))
+
+
+class Progress:
+    """A line on standard error for each job: how many are done, and about how long the others will take."""
+
+    def __init__(self, jobs: Sequence[Job]) -> None:
+        self.weights = {job.name: job.seconds for job in jobs}
+        self.total, self.done, self.count = sum(self.weights.values()), 0.0, 0
+        self.started = perf_counter()
+
+    def __call__(self, found: dict) -> None:
+        self.count += 1
+        self.done += self.weights[found["name"]]
+        left = (perf_counter() - self.started) * (self.total - self.done) / self.done
+        word = f"failed: {found['failed']}" if "failed" in found else f"{found['spent']:.1f} s"
+        print(
+            f"{self.count} of {len(self.weights)} jobs, about {left:.0f} s more; {found['name']} {word}",
+            file=sys.stderr, flush=True,
+        )  # fmt: skip

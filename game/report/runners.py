@@ -1,0 +1,102 @@
+"""Three ways to do the jobs of a report: here, in processes beside, on a Dask cluster. All yield the same results.
+
+A job whose process dies is done once more, and then told as failed.
+"""
+
+import json
+import queue
+import threading
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from game.errors import UsageError
+from game.processes import end_all, start_module
+from game.report.job import Job, Row, run_job
+
+TRIES = 2
+PATIENCE = "10s"  # until a scheduler answers
+DIED = "the process that did it ended, twice"
+
+
+def run_here(jobs: Sequence[Job]) -> Iterator[Row]:
+    """One after the other, in this process."""
+    for job in jobs:
+        yield run_job(*job[:3])
+
+
+def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
+    """As they are done, in so many processes; what they measure shares the machine's cores and caches."""
+    waiting: queue.SimpleQueue[tuple[Job, int]] = queue.SimpleQueue()
+    found: queue.SimpleQueue[Row | Exception] = queue.SimpleQueue()
+    for job in jobs:
+        waiting.put((job, 1))
+    running = []
+    stopped = threading.Event()
+    threads = [
+        threading.Thread(target=_serve, args=(waiting, found, running, stopped), daemon=True)
+        for _ in range(min(workers, len(jobs)))
+    ]
+    try:
+        for thread in threads:
+            thread.start()
+        for _ in jobs:
+            result = found.get()
+            if isinstance(result, Exception):
+                raise result
+            yield result
+    finally:
+        stopped.set()
+        end_all(running)
+        for thread in threads:
+            thread.join()
+
+
+def _serve(waiting, found, running, stopped):
+    """Do jobs in a process of its own, a new one after each that died."""
+    process: Any = None
+    while not stopped.is_set():
+        try:
+            job, attempt = waiting.get_nowait()
+        except queue.Empty:
+            break
+        line = ""
+        try:
+            if process is None:
+                process = start_module("game.report.worker")
+                running.append(process)
+                if stopped.is_set():
+                    end_all([process])
+            process.stdin.write(json.dumps(job._asdict()) + "\n")
+            process.stdin.flush()
+            line = process.stdout.readline()
+        except (OSError, ValueError) as error:
+            if process is None:
+                found.put(error)
+                return
+        if line:
+            found.put(json.loads(line))
+            continue
+        process = None  # it has ended, however
+        if attempt < TRIES:
+            waiting.put((job, attempt + 1))
+        else:
+            found.put({"name": job.name, "failed": DIED, "spent": 0.0})
+
+
+def run_on_dask(jobs: Sequence[Job], address: str) -> Iterator[Row]:
+    """As they are done, on the workers of a Dask cluster that has this program. Raises UsageError where there is no
+    Dask, or no scheduler at the address."""
+    try:
+        from dask.distributed import Client, as_completed  # pyright: ignore[reportMissingImports]
+    except ImportError as error:
+        raise UsageError('--dask needs Dask; it comes with: pip install -e ".[cluster]"') from error
+    try:
+        client = Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
+    with client:
+        futures = {client.submit(run_job, *job[:3], pure=False, retries=TRIES - 1): job for job in jobs}
+        for future in as_completed(list(futures)):
+            job = futures[future]
+            error = future.exception()
+            yield {"name": job.name, "failed": f"{DIED} ({error})", "spent": 0.0} if error else future.result()
