@@ -89,10 +89,12 @@ def limit_pushes(
 
 @kernel
 def store_pushes(pushes, manifolds_inout):
-    """Write the impulses back to the manifolds. O(pushes)."""
+    """Write the impulses back to the manifolds; who was pushed apart has met, wherever it is now. O(pushes)."""
     for i in range(len(pushes)):
         r = pushes[i]
         m = manifolds_inout[r.manifold]
+        if r.separation < 0.0:
+            m.swept = True
         if r.second:
             m.normal_impulse_2 = r.normal_impulse
             m.tangent_impulse_2 = r.tangent_impulse
