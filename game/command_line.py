@@ -157,7 +157,7 @@ def _check_report(options):
     """--report is a run of its own; what belongs to it stands beside it."""
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
-            if getattr(options, flag) not in (None, False):
+            if getattr(options, flag) is not None and getattr(options, flag) is not False:
                 raise UsageError(f"--{flag} needs --report")
         return
     others = ("scene", "advise", "record", "replay", "screenshot", "profile", "json", "headless", "bot", "frames")

@@ -41,7 +41,7 @@ class Chart(NamedTuple):
     title: str
     question: str
     truth: str
-    panels: Sequence[Panel] | Callable[[Sequence[Row]], Sequence[Panel]]  # of the rows that there are
+    panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # of the rows that there are
     jobs: Callable[[Plan], list[Job]]
     claims: Callable[[Sequence[Row]], list[Claim]] = lambda rows: []
     of: str = ""  # the key of the chart whose rows it shows; "" its own

@@ -35,11 +35,18 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
     return Claim(f"{what}: {best} is the cheapest", told, HOLDS, "", (best, *rest[:1]))
 
 
-def compared(text: str, ratio: tuple[float, float, float], holds: bool | None, source: str, word: str = "x") -> Claim:
-    """A claim about a ratio (low, middle, high); holds None: the measurements do not decide."""
+def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
+    """That a figure (low, middle, high) is above a limit: holds or not where it surely is, else a tie."""
     low, middle, high = ratio
-    verdict = TIE if holds is None else HOLDS if holds else FAILS
-    return Claim(text, f"{middle:.3g} {word} ({low:.3g} to {high:.3g})", verdict, source)
+    verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
+    return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
+
+
+def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
+    """That a figure (low, middle, high) is below a limit."""
+    low, middle, high = ratio
+    verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
+    return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:

@@ -59,7 +59,7 @@ def _script(value):
 def _chart(measured, told, folder, quick):
     chart, rows = measured.chart, measured.rows
     panels = []
-    for number, panel in enumerate(chart.panels(rows) if callable(chart.panels) else chart.panels):
+    for number, panel in enumerate(chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)):
         name = f"{chart.key}-{number}"
         svg, dots = draw(panel, rows, name)
         if not svg:

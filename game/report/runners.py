@@ -96,7 +96,7 @@ def run_on_dask(jobs: Sequence[Job], address: str) -> Iterator[Row]:
         raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
     with client:
         futures = {client.submit(run_job, *job[:3], pure=False, retries=TRIES - 1): job for job in jobs}
-        for future in as_completed(list(futures)):
+        for future in as_completed(list(futures), loop=client.loop):
             job = futures[future]
             error = future.exception()
             yield {"name": job.name, "failed": f"{DIED} ({error})", "spent": 0.0} if error else future.result()

@@ -5,13 +5,14 @@ all n (n - 1) / 2 pairs in every step; what the strategies are compared with is 
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from game.measure.timing import Cost, undisturbed
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
-from game.report.claim import Claim, ordering, pair
+from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
 from game.report.job import Job, Plan, Row, spread
 from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, SweepAndPrune, World
 
@@ -19,7 +20,7 @@ SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
 STEPS, RUNS = 60, 5  # 300 steps in all
 SIZES = (10, 100, 1000, 10_000)
 NAIVE_LIMIT = 1000  # above, a step of every pair takes seconds in all
-WAYS: dict[str, Callable[[], object]] = {
+WAYS: dict[str, Callable[[], Any]] = {
     **BROADPHASES,
     "every pair": lambda: BruteForce(incremental=False),
     "sweep both axes": lambda: SweepAndPrune(axes="both"),
@@ -56,10 +57,17 @@ def point(rng, n):
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 
 
+QUICK = (
+    ("even", "all move"),
+    ("even", "one in twenty moves"),
+    ("line", "all move"),
+    ("mixed sizes", "all move"),
+    ("one point", "all move"),
+)
 LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixed, "one point": point}
 
 
-def world_of(strategy: object, layout: str, n: int, moving: float, seed: int = 5) -> World:
+def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -> World:
     """Discs as boxes, of which a share moves, each at the same speed in a direction of its own."""
     rng = np.random.default_rng(seed)
     places, radii = LAYOUTS[layout](rng, n)
@@ -129,14 +137,16 @@ def _jobs(plan: Plan) -> list[Job]:
     found = []
     for layout in LAYOUTS:
         for moving in MOVERS:
-            if plan.quick and (layout in ("line", "clusters") or (moving == "half move")):
+            if plan.quick and (
+                layout == "clusters" or moving == "half move" or (layout == "line" and moving != "all move")
+            ):
                 continue
             for n in sizes:
-                if layout == "one point" and (n > NAIVE_LIMIT or moving != "all move"):
+                if layout == "one point" and (n > (100 if plan.quick else NAIVE_LIMIT) or moving != "all move"):
                     continue
                 params = {"layout": layout, "n": n, "moving": moving}
                 name = f"broadphases/{layout}-{moving}-{n}".replace(" ", "-")
-                found.append(Job(name, "game.report.charts.broadphases:measure", params, 0.3 + n / 1000))
+                found.append(Job(name, "game.report.charts.broadphases:measure", params, 0.1 + n / 700))
     return found
 
 
@@ -163,7 +173,59 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         costs = {row["series"]: pair(row["cost"]) for row in mine if row["n"] == n}
         if len(costs) > 1:
             found.append(ordering(f"{n} bodies, {panel}", costs))
-    return found
+    return [*found, *_of_papers(rows), *_powers(rows)]
+
+
+def _of_papers(rows) -> Iterator[Claim]:
+    """What is said of strategies, at the largest size at which the naive one runs too."""
+    known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
+
+    def beside(first, second):
+        """How the cost of one row stands to that of another; None where either is not measured."""
+        return ratio_of(known[first]["cost"], known[second]["cost"]) if first in known and second in known else None
+
+    n, all_move, few = NAIVE_LIMIT, *list(MOVERS)[:: len(MOVERS) - 1]
+    for name in BROADPHASES:
+        row = known.get((name, "even", all_move, n))
+        if row:
+            removed = 100.0 * (1.0 - row["candidates"] / row["possible"])
+            yield at_least(
+                f"{name} leaves out 95 % of {n} bodies' pairs at least", (removed,) * 3, 95.0, "Cohen 1995", "%"
+            )
+            naive = beside((name, "even", all_move, n), ("every pair", "even", all_move, n))
+            if naive and name != "brute":
+                yield at_most(f"{name} is faster than every pair, every step, at {n} bodies", naive, 0.9)
+    moves = beside(("tree", "even", all_move, n), ("hash", "even", all_move, n))
+    stands = beside(("tree", "even", few, n), ("hash", "even", few, n))
+    if moves and stands:
+        gain = moves[0] / stands[2], moves[1] / stands[1], moves[2] / stands[0]
+        yield at_least("the tree gains on the grid where few move", gain, 1.1, "Catto 2019, Dynamic BVH")
+        yield at_most("the tree is faster than the grid where few move", stands, 0.9, "Catto 2019, Dynamic BVH")
+    along = beside(("sweep", "line", all_move, n), ("hash", "line", all_move, n))
+    if along:
+        yield at_most("the sweep suits what lies along its axis: faster there than the grid", along, 0.9, "Baraff 1992")
+    for name, text in (("hash", "mixed sizes hurt the grid"), ("tree", "mixed sizes hurt the tree")):
+        mixed_sizes = beside((name, "mixed sizes", all_move, n), (name, "even", all_move, n))
+        if mixed_sizes:
+            yield at_least(text + ", as dense and as many", mixed_sizes, 1.1, "Teschner 2003")
+    both = beside(("sweep both axes", "even", all_move, n), ("sweep", "even", all_move, n))
+    if both:
+        yield at_most("sweeping both axes is faster than one", both, 0.9, "Cohen 1995")
+
+
+def _powers(rows) -> Iterator[Claim]:
+    panel = f"even, {next(iter(MOVERS))}"
+    for name in WAYS:
+        found = growth(rows, name, panel)
+        if found:
+            power, unsure = found
+            limits = (power - 2.0 * unsure, power, power + 2.0 * unsure)
+            if name == "every pair":
+                yield at_least(
+                    "every pair, every step: the cost grows with the square of n", limits, 1.8, unit="power of n"
+                )
+            else:
+                yield at_most(f"{name}: the cost grows slower than the square of n", limits, 1.8, unit="power of n")
 
 
 def _panel(layout, moving):

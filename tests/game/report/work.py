@@ -1,0 +1,48 @@
+"""Jobs of the tests: what a report's jobs do in earnest, in milliseconds."""
+
+import os
+import time
+from pathlib import Path
+
+from game.measure.timing import timed_in_turns
+from game.report.job import spread
+from physics import BROADPHASES, Bounds, Circle, Effects, World
+
+
+def fall(bodies: int):
+    """A fact that any process finds, and a time that none finds again."""
+    world = World(Effects(gravity=True))
+    world.add_bodies(Circle(4.0), [(20.0 * k, 0.0) for k in range(bodies)])
+    world.step()
+    cost = timed_in_turns({"step": world.step}, {"step": 1})["step"]
+    return [{"series": "fall", "label": str(bodies), "digest": world.digest(), "n": bodies, "cost": spread(cost)}]
+
+
+def steps(name: str, bodies: int = 300):
+    """A broad phase's own time, as the chart measures it."""
+    world = World(Effects(narrowphase=False), BROADPHASES[name]())
+    world.add_bodies(Bounds(Circle(6.0)), [(15.0 * (k % 20), 15.0 * (k // 20)) for k in range(bodies)])
+    cost = timed_in_turns({"step": world.step}, {"step": 1})["step"]
+    return [{"series": name, "label": name, "panel": "p", "n": bodies, "cost": spread(cost)}]
+
+
+def fail():
+    """What goes wrong in a job is told."""
+    raise ValueError("nothing can be measured here")
+
+
+def die(path: str, times: int):
+    """End the process as a crash does, so many times."""
+    marks = Path(path)
+    count = len(list(marks.iterdir()))
+    if count < times:
+        (marks / str(count)).touch()
+        os._exit(9)
+    return [{"series": "s", "label": "came through", "n": count}]
+
+
+def wait(path: str):
+    """Note that it was run, and take a while."""
+    Path(path).touch()
+    time.sleep(0.05)
+    return [{"series": "s", "label": path, "n": 1}]
