@@ -6,19 +6,11 @@ import numpy as np
 import pytest
 
 from physics import JIT, Capsule, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World
-from physics.effects import NEEDS_RESPONSE
 
 EFFECTS = [field.name for field in fields(Effects)]
 ALL = Effects.named(EFFECTS)
 KINDS = (Circle(6), Polygon.box(12, 12), PixelMask(np.ones((10, 9), bool)), Capsule((-4, 0), (4, 0), 4))
 STEPS = 40 if JIT else 15
-
-
-def without(name):
-    """All effects but one, and those that need it."""
-    gone = [name]
-    gone += NEEDS_RESPONSE + ("sleeping",) if name == "response" else ("sleeping",) if name == "stacking" else ()
-    return ALL.with_(**dict.fromkeys(gone, False))
 
 
 def yard(effects):
@@ -42,8 +34,8 @@ def poses(world):
 
 @pytest.mark.parametrize("name", EFFECTS)
 def test_switched_before_the_first_step_it_is_the_world_made_so(name):
-    made, switched = yard(without(name)), yard(ALL)
-    switched.set_effects(without(name))
+    made, switched = yard(ALL.without(name)), yard(ALL)
+    switched.set_effects(ALL.without(name))
     assert switched.stages == made.stages and switched.solver == made.solver
     for _ in range(STEPS):
         made.step()
@@ -56,7 +48,7 @@ def test_switched_before_the_first_step_it_is_the_world_made_so(name):
 @pytest.mark.parametrize("name", EFFECTS)
 def test_an_effect_goes_and_comes_back_in_the_middle(name):
     world, made = yard(ALL), yard(ALL)
-    for effects in (ALL, without(name), ALL):
+    for effects in (ALL, ALL.without(name), ALL):
         world.set_effects(effects)
         for _ in range(STEPS):
             world.step()
@@ -81,7 +73,7 @@ def test_what_sleeps_wakes_where_sleep_goes():
     for _ in range(120):
         world.step()
     assert not box.awake and not len(world.contacts)
-    world.set_effects(without("sleeping"))
+    world.set_effects(ALL.without("sleeping"))
     world.step()
     assert box.awake and len(world.contacts) == 2
 
@@ -116,3 +108,14 @@ def test_characters_need_response():
     with pytest.raises(ValueError, match="response"):
         world.set_effects(Effects(gravity=True))
     assert world.effects.response
+
+
+def test_an_effect_goes_with_what_needs_it_and_comes_with_what_it_needs():
+    assert ALL.without("stacking") == ALL.with_(stacking=False, sleeping=False)
+    kept = [name for name in EFFECTS if name not in ("response", "friction", "restitution", "stacking", "one_way")]
+    assert ALL.without("response").names() == [name for name in kept if name not in ("conveyor", "sleeping")]
+    assert Effects().without("drag") == Effects() and ALL.without("drag") == ALL.with_(drag=False)
+    assert Effects().and_needed("sleeping").names() == ["narrowphase", "response", "stacking"]
+    assert Effects().and_needed("wind") == Effects()
+    with pytest.raises(TypeError, match="no effect magnetism"):
+        ALL.without("magnetism")
