@@ -104,6 +104,7 @@ class Scene:
     title = ""
     about = ""  # one sentence for the menu
     effects = Effects()
+    other_effects: tuple[Effects, ...] = ()  # that its worlds may be put under: compiled before the start
     broadphase = "hash"
     solver: str | None = None  # None: the World's own choice
     solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start

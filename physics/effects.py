@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from physics import checks
 
 NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor")
+NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}  # foundations
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,14 @@ class Effects:
                 f"no effect {', '.join(sorted(unknown))}; there are {', '.join(field.name for field in fields(self))}"
             )
         return replace(self, **changes)
+
+    def without(self, name: str) -> "Effects":
+        """A copy without an effect, and without all that needs it. Raises TypeError for one that there is not."""
+        return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
+
+    def and_needed(self, name: str) -> "Effects":
+        """A copy with all that an effect needs, itself as it is here."""
+        return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:
         """The declared effects, in the order of the fields."""

@@ -9,7 +9,9 @@ from physics.broadphase.proxies import Strategy
 from physics.checks import Pair
 from physics.dynamics import sleep
 from physics.dynamics.awake import Awake
+from physics.effects import Effects
 from physics.profile import Profile
+from physics.reshaping import rebuild_masks
 from physics.settings import ACCURACY
 from physics.step import SOLVERS, STACKING, Workspace, plans
 from physics.tables.body import DYNAMIC
@@ -30,6 +32,11 @@ def checked_substeps(value: Any) -> int | str:
 def checked_accuracy(value: Any) -> float | None:
     """A length [px], or None. Raises TypeError, ValueError."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
+
+
+def own_solver(effects: Effects) -> str:
+    """The solver of a World that is told none."""
+    return "soft_step" if effects.stacking else "projection"
 
 
 class Environment(WorldState):
@@ -72,10 +79,26 @@ class Environment(WorldState):
 
     def set_narrowphase(self, on: bool) -> None:
         """Switch between the narrow phase and plain AABBs, between steps."""
+        self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
+
+    def set_effects(self, effects: Effects) -> None:
+        """Live under other effects from the next step on, and wake. What bodies were given stays, and means nothing as
+        long as no effect calls for it: a spin, a bullet, a sensor, a material. The solver stays where they allow it,
+        else it is the World's own choice. Where `response` comes or goes, masks get other parts, and new shape ids.
+
+        Raises TypeError, and ValueError for effects without response in a world that has Characters."""
         self._unlocked()
-        self._effects = self._effects.with_(narrowphase=checks.flag("narrowphase", on))
+        if not isinstance(effects, Effects):
+            raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
+        if len(self.characters.rows) and not effects.response:
+            raise ValueError("effects must have response: this world has Characters, which need it")
+        before, self._effects = self._effects, effects
         sleep.wake_all(self)
+        if before.stacking != effects.stacking:
+            self._solver = own_solver(effects)
         self._plan()
+        if before.response != effects.response:
+            rebuild_masks(self)
 
     def _plan(self):
         self.workspace, self._plans = Workspace(self._effects, self._solver), plans(self._effects, self._solver)

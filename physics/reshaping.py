@@ -144,6 +144,20 @@ def _add(world, identity, shapes, new) -> np.ndarray:
     return ids
 
 
+def rebuild_masks(world: WorldState) -> None:
+    """Give masks the rows that the world's effects call for now: where bodies are pushed, the parts of their outlines.
+
+    Bodies keep their tiers; their shapes get new ids."""
+    for identity, shapes in [*world._shapes_of.items()]:
+        if any(isinstance(shape, PixelMask) for shape in shapes):
+            tier, source = world._tiers.get(identity), world._sources.get(identity)
+            sleep.disturb(world, [identity])
+            world._drop_shapes(world.shapes["body"] != identity)
+            _add(world, identity, shapes, shapes)
+            if tier is not None and source is not None:
+                world._tiers[identity], world._sources[identity] = tier, source
+
+
 def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
     """The shapes that stand for one PixelMask in a tier; as they are for None. Raises ValueError, TypeError."""
     if tier is None:

@@ -17,7 +17,7 @@ from physics.digest import digest
 from physics.dynamics.awake import Awake
 from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
-from physics.environment import Environment, checked_accuracy, checked_substeps
+from physics.environment import Environment, checked_accuracy, checked_substeps, own_solver
 from physics.events import Events, Pairs
 from physics.queries.index import QueryIndex
 from physics.questions import Questions
@@ -78,9 +78,7 @@ class World(Environment, Questions):
         self.random = np.random.default_rng(checks.whole("seed", seed, 0, 2**63 - 1))
         self._effects = effects
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
-        self._solver = self._checked_solver(
-            ("soft_step" if effects.stacking else "projection") if solver is None else solver
-        )
+        self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._bodies, self._given, self._shapes, self.characters = map(Table, (BODY, GIVEN, SHAPE, CHARACTER))
         self.library = Library()
         self._stepping = False

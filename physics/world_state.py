@@ -183,7 +183,7 @@ class WorldState:
 
     @property
     def effects(self) -> Effects:
-        """What the scene calls for. Declared once; `set_narrowphase` alone switches."""
+        """What the scene calls for; `set_effects` switches."""
         return self._effects
 
     @property

@@ -10,6 +10,8 @@ SCENES = {
     "lander": "scenes.lander.scene:Lander",
     # hard cases of all kinds
     "lab/gallery": "scenes.lab.gallery.scene:Gallery",
+    # what a scene asks for
+    "lab/effects": "scenes.lab.effects:EffectsLab",
     # finding what touches
     "lab/broadphases": "scenes.lab.broadphases:Broadphases",
     "lab/masks": "scenes.lab.masks:Masks",

@@ -54,6 +54,7 @@ SHOTS = {
     "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
     "lander": Shot(Moment("the canyon", landing("canyon", 60.0)), 90, 40),
     "lab/gallery": Shot(49, 160, 52, 1),
+    "lab/effects": Shot(410, 200, 150, 1),
     "lab/queries": Shot(101, 4, 18, 1),
     "lab/sleeping": Shot(330, 40, 118, 1),
     "lab/broadphases": Shot(60, 3, 158, 1, layers=("structure",)),

@@ -16,12 +16,12 @@ def warm_up_part(part, of):
     """Compile the kernels of every `of`-th scene, under all broad phases, with all its solvers."""
     import physics
     from game.registry import Registry
-    from game.run.warmup import solvers_of
+    from game.run.warmup import worlds_of
     from scenes import SCENES
 
     for scene_class in Registry(SCENES).all_classes()[part::of]:
-        for solver in solvers_of(scene_class):
-            physics.warmup(scene_class.effects, "all", solver)
+        for effects, solver in worlds_of(scene_class):
+            physics.warmup(effects, "all", solver)
 
 
 def warm_up_side_by_side(processes):

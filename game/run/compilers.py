@@ -17,7 +17,7 @@ import physics
 from game.errors import UsageError
 from game.processes import ROOT, end_all, start_module
 from game.registry import Registry
-from game.run.warmup import pieces_of, solvers_of, strategy_of
+from game.run.warmup import pieces_of, strategy_of, worlds_of
 from game.scene import Scene
 from physics.jit.folders import cache_home, source_stamp
 
@@ -29,12 +29,12 @@ def jobs_of(scene_class: type[Scene], broadphase: str | None = None, solver: str
     """What warm_up_scene would compile."""
     return [
         {
-            "effects": scene_class.effects.names(),
+            "effects": effects.names(),
             "broadphase": strategy_of(scene_class, broadphase),
             "solver": name,
             "pieces": pieces_of(scene_class),
         }
-        for name in solvers_of(scene_class, solver)
+        for effects, name in worlds_of(scene_class, solver)
     ]
 
 

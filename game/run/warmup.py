@@ -8,6 +8,7 @@ from typing import TextIO
 import physics
 from game.registry import Registry
 from game.scene import Scene
+from physics import Effects
 
 Progress = Callable[[int, int, str], None]  # done, total, name of the piece that is next
 
@@ -19,11 +20,9 @@ def warm_up_scene(
 ) -> None:
     """Compile what one scene needs at its start. progress(done, total, name) is called before each piece."""
     strategy = strategy_of(scene_class, broadphase)
-    names = solvers_of(scene_class, solver)
-    for index, name in enumerate(names):
-        physics.warmup(
-            scene_class.effects, strategy, name, part_of(progress, index, len(names)), pieces_of(scene_class)
-        )
+    worlds = worlds_of(scene_class, solver)
+    for index, (effects, name) in enumerate(worlds):
+        physics.warmup(effects, strategy, name, part_of(progress, index, len(worlds)), pieces_of(scene_class))
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
@@ -34,6 +33,13 @@ def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
     """Names of all solvers that a scene's worlds may use; None is the World's own choice."""
     return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
+
+
+def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
+    """(effects, solver) of all kinds of worlds that a scene may have; None is the World's own choice."""
+    names = solvers_of(scene_class, chosen)
+    others = [(each, name if each.stacking else None) for each in scene_class.other_effects for name in names]
+    return list(dict.fromkeys([*((scene_class.effects, name) for name in names), *others]))
 
 
 def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
@@ -60,9 +66,9 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
         def show(done, total, name, index=index, stream=stream):
             draw_bar(stream, (index + done / max(total, 1)) / len(classes), name)
 
-        names = solvers_of(scene_class)
-        for part, name in enumerate(names):
-            physics.warmup(scene_class.effects, "all", name, progress=part_of(show, part, len(names)))
+        worlds = worlds_of(scene_class)
+        for part, (effects, name) in enumerate(worlds):
+            physics.warmup(effects, "all", name, progress=part_of(show, part, len(worlds)))
     draw_bar(stream, 1.0, "ready")
     if stream.isatty():
         stream.write("\n")

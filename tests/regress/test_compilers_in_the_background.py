@@ -15,7 +15,7 @@ from game.registry import Registry
 from game.run import compilers as module
 from game.run.compilers import Compilers, cores_here, jobs_of, start_worker
 from game.run.kernel_work import try_claim
-from game.run.warmup import pieces_of, solvers_of
+from game.run.warmup import pieces_of, worlds_of
 from scenes import SCENES
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -112,7 +112,7 @@ def test_every_scene_is_asked_for_once(pair):
         both.turn(False)
     names = [order["job"]["effects"] for order in made[0].told if "job" in order]
     wanted = [Registry(SCENES).scene_class(name) for name in ("shooter", "lab/cradle")]
-    assert names == [each.effects.names() for each in wanted for _ in solvers_of(each)]
+    assert names == [effects.names() for each in wanted for effects, _ in worlds_of(each)]
     assert made[0].told[0]["job"]["pieces"] == list(pieces_of(wanted[0]))
 
 

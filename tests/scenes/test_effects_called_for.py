@@ -1,7 +1,8 @@
-"""The ledger: an effect that a scene declares changes what happens; of the others it says which would change nothing.
+"""The games' effects: what is declared changes what happens; of the others it is said which would change nothing.
 
 The same recorded keys are played with one effect taken out, or put in. An effect goes with all that needs it, and comes
-with what it needs. What cannot even be built without an effect is called for, and says so by the effect's name.
+with what it needs. What cannot even be built without an effect is called for, and says so by the effect's name. The
+labs, and what effects cost: see test_ledger.py.
 """
 
 import re
@@ -15,12 +16,11 @@ from game.run.digest import scene_digest
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
 from physics import Effects
-from physics.effects import NEEDS_RESPONSE
+from physics.effects import NEEDS
 from scenes import SCENES
 
 FRAMES = {"shooter": 2640, "platformer": 2400, "lander": 4200}
 EFFECTS = [field.name for field in fields(Effects)]
-NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}
 
 # What becomes of an effect that is taken out of a game that declares it, or put into one that does not.
 REFUSED = "the scene cannot be built, or played on, without it: the error names it"
@@ -100,16 +100,6 @@ class Noting:
         return self.frames[-1]
 
 
-class Echo:
-    """What was pressed last, once more."""
-
-    def __init__(self, noting):
-        self.noting = noting
-
-    def next(self, scene):
-        return self.noting.frames[-1]
-
-
 def digests(scene_class, source):
     """The digest after each frame, as it is played."""
     scene = scene_class(seed=1)
@@ -176,36 +166,3 @@ def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
         assert first_difference(found, standard) is None, f"{effect} changes what happens in {name}"
     else:
         assert first_difference(found, standard) is not None, f"{effect} changes nothing in {name}"
-
-
-LABS = [name for name in SCENES if name not in LEDGER]
-LONGEST = {"lab/broadphases": 60}  # steps within which an effect must have shown, where 600 take too long
-needs_speed = pytest.mark.skipif(not physics.JIT, reason="minutes")
-# Shows on the last of its pages: nine minutes without compiled kernels. Shows when a gunship has been shot down.
-SLOW = [("lab/gallery", "sleeping"), *(("lab/disagreement", name) for name in ("drag", "wind", "rotation", "carving"))]
-DECLARED = [
-    pytest.param(name, effect, marks=needs_speed if (name, effect) in SLOW else ())
-    for name in LABS
-    for effect in EFFECTS
-    if getattr(Registry(SCENES).scene_class(name).effects, effect)
-]
-
-
-@pytest.mark.parametrize("name, effect", DECLARED)
-def test_a_lab_declares_only_what_it_calls_for(name, effect):
-    """Without it the same keys lead elsewhere, or the lab cannot be built or played on, and the error names it."""
-    scene_class = Registry(SCENES).scene_class(name)
-    gone = [effect, *(each for each in EFFECTS if effect in NEEDS.get(each, ()))]
-    source = Noting()
-    standard = Session(scene_class(seed=1), source)
-    try:
-        changed = Session(with_effects(scene_class, gone, False)(seed=1), Echo(source))
-        for _ in range(LONGEST.get(name, 600)):
-            standard.step()
-            changed.step()
-            if scene_digest(standard.scene) != scene_digest(changed.scene):
-                return
-    except ValueError as error:
-        assert any(re.search(rf"\b{re.escape(each)}\b", str(error)) for each in gone), error
-        return
-    pytest.fail(f"{name} declares {effect} and does not call for it")

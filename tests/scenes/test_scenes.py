@@ -27,8 +27,14 @@ needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here d
 
 # Thin lines and an upright box: whoever touches their bounds touches them; a sprite that is alone.
 SAME_WITHOUT_NARROW_PHASE = {"lab/sensors", "lab/ladder"}
-# What these change is no matter of a world: the rules, the picture.
-BESIDE_THE_WORLDS = {("shooter", "hurts"), ("lab/shapes", "step"), ("lab/queries", "query"), ("lab/queries", "size")}
+# What these change is no matter of a world: the rules, the picture, which other world goes on beside it.
+BESIDE_THE_WORLDS = {
+    ("shooter", "hurts"),
+    ("lab/effects", "effect"),
+    ("lab/shapes", "step"),
+    ("lab/queries", "query"),
+    ("lab/queries", "size"),
+}
 
 
 def play(scene, frames, source=None):

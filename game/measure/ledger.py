@@ -1,0 +1,221 @@
+"""The ledger of a scene's effects: what each changes over the bot's run, and what it takes of a step.
+
+The scene is played twice side by side, by the same keys, with one effect taken out, or put in. An effect goes with all
+that needs it, and comes with what it needs. One that comes has nothing to do: it finds gravity 0, friction 0 and so on
+in both, so that it may change nothing, and what it takes is the price of having it there.
+"""
+
+from collections.abc import Callable
+from dataclasses import fields
+from itertools import pairwise
+from math import sqrt
+from statistics import median
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from game.input.inputs import InputFrame, InputState
+from game.scene import Scene
+from physics import Effects, World
+from physics.tables.body import CONTINUOUS
+
+EFFECTS = tuple(field.name for field in fields(Effects))
+AFTER = 120  # steps that a run goes on after the two have parted: two seconds
+TOLD = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
+WORK = ("bodies_integrated", "narrow_tests", "solver_rows")  # counters that stand for what there is to do
+# Have no value at which they do nothing: put in they may change what happens, and it is told what.
+NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
+
+
+class Entry(NamedTuple):
+    """One effect of one scene. Frames count from 1; None: never in the run."""
+
+    effect: str
+    declared: bool
+    changed: tuple[str, ...]  # the effects that were taken out with it, itself first; put in: itself
+    refused: str  # why the scene cannot be built or played on without it, "": it can
+    moved: int | None  # frame after which some body is elsewhere, or other bodies are there
+    told: int | None  # frame after which other events are told
+    ruled: int | None  # frame after which the scene's own state is another
+    parted: int | None  # frame after which the digests differ
+    apart: float  # [px] root mean square over bodies that both have, AFTER frames after they parted, or at the end
+    worked: int  # bodies moved, pairs tested and rows solved in the run with it …
+    worked_without: int  # … and without it
+    cost: float  # [s] median over the run's steps of what a step takes more with it; below 0: it saves
+
+    @property
+    def matters(self) -> bool:
+        """Whether the effect would be missed: of sleeping, whether it saves work."""
+        if self.refused:
+            return True
+        if self.effect == "sleeping":
+            return self.worked < self.worked_without
+        return any(frame is not None for frame in (self.moved, self.told, self.ruled))
+
+
+def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
+    """Play a scene for so many frames, with an effect and without it; after: frames to go on once it is known what the
+    effect changes. Raises ValueError for a scene that cannot be built though all that it declares is there."""
+    declared = getattr(scene_class.effects, effect)
+    if declared:
+        one = scene_class
+        left = scene_class.effects.without(effect)
+        changed = (
+            effect,
+            *(name for name in scene_class.effects.names() if name != effect and not getattr(left, name)),
+        )
+        other = variant(scene_class, left)
+    else:
+        needed, changed = scene_class.effects.and_needed(effect), (effect,)
+        one = variant(scene_class, needed.with_(**{effect: True}), effect)
+        other = variant(scene_class, needed, effect)
+    blank = Entry(effect, declared, changed, "", None, None, None, None, 0.0, 0, 0, 0.0)
+    return _compared(Side(one, seed), other, blank, frames, after)
+
+
+def _compared(one, other_class, found, frames, after):
+    """The Entry, once the other side was played beside the one."""
+    try:
+        other = Side(other_class, one.scene.seed)
+    except ValueError as error:
+        return found._replace(refused=str(error))
+    firsts: dict[str, int | None] = dict.fromkeys(("moved", "told", "ruled", "parted"))
+    costs, known = [], frames
+    for frame in range(1, frames + 1):
+        keys = one.bot()
+        try:
+            for side in (one, other) if frame % 2 else (other, one):  # who comes first finds the caches cold
+                side.step(keys)
+        except ValueError as error:
+            if side is one:
+                raise
+            return found._replace(refused=str(error))
+        costs.append(one.seconds - other.seconds)
+        for name in [name for name, first in firsts.items() if first is None]:
+            if getattr(one, name)() != getattr(other, name)():
+                firsts[name] = frame
+        now = found._replace(**firsts, worked=one.worked, worked_without=other.worked)
+        if now.matters if found.declared else now.parted is not None:
+            known = min(known, frame)
+        if frame >= known + after:
+            break
+    apart = root_mean_square(one.scene, other.scene)
+    cost = median((a + b) / 2 for a, b in pairwise(costs)) if len(costs) > 1 else 0.0
+    return found._replace(**firsts, apart=apart, worked=one.worked, worked_without=other.worked, cost=cost)
+
+
+class Side:
+    """A scene being played. `seconds`: what its last step took; `worked`: what there was to do so far."""
+
+    def __init__(self, scene_class: type[Scene], seed: int) -> None:
+        self.scene = scene_class(seed)
+        self.inputs = InputState()
+        self.seconds, self.worked = 0.0, 0
+
+    def bot(self) -> InputFrame:
+        """What the scene's own bot presses next."""
+        played = self.scene.bot()
+        return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
+
+    def step(self, keys: InputFrame) -> None:
+        """One step. Raises ValueError for what the scene asks of effects that are not there."""
+        self.inputs.set(keys)
+        self.scene.step(self.inputs)
+        self.seconds = sum(sum(world.profile.stages.values()) for world in self.scene.worlds)
+        self.worked += sum(world.profile.counters[name] for world in self.scene.worlds for name in WORK)
+
+    def moved(self) -> list[Any]:
+        """Who is where, bit by bit."""
+        return [
+            world.bodies[name].tobytes()
+            for world in self.scene.worlds
+            for name in ("id", "x", "y", "angle", "vx", "vy")
+        ]
+
+    def told(self) -> list[Any]:
+        """The events of the last step."""
+        return [
+            np.ascontiguousarray(getattr(world.events, name)).tobytes() for world in self.scene.worlds for name in TOLD
+        ]
+
+    def ruled(self) -> tuple[Any, ...]:
+        """What the scene knows besides its worlds."""
+        return self.scene.state()
+
+    def parted(self) -> list[Any]:
+        """The digests, and what the scene knows."""
+        return [*(world.digest() for world in self.scene.worlds), self.scene.state(), self.scene.random.getstate()]
+
+
+def root_mean_square(one: Scene, other: Scene) -> float:
+    """[px] how far the centres of the bodies that two scenes have, by world and id, are apart; 0 where none is."""
+    squares = []
+    for ours, theirs in zip(one.worlds, other.worlds, strict=False):
+        a, b = ours.bodies, theirs.bodies
+        _, rows_a, rows_b = np.intersect1d(a["id"], b["id"], return_indices=True)
+        dx, dy = (a[name][rows_a] - b[name][rows_b] for name in ("center_x", "center_y"))
+        squares.append(dx * dx + dy * dy)
+    together = np.concatenate(squares) if squares else np.zeros(0)
+    return sqrt(float(together.mean())) if len(together) else 0.0
+
+
+def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:
+    """The scene with other effects declared; idle: an effect that is left nothing to do in its worlds."""
+    defined: dict[str, Any] = {"effects": effects}
+    neutral = NEUTRAL.get(idle or "")
+    if neutral is not None:
+
+        def add_world(self, *arguments, **settings):
+            world = scene_class.add_world(self, *arguments, **settings)
+            step = world.step
+
+            def idle_step(dt=None):
+                neutral(world)
+                step(dt)
+
+            world.step = idle_step
+            return world
+
+        defined["add_world"] = add_world
+    return type(scene_class.__name__, (scene_class,), defined)
+
+
+def _no_gravity(world: World) -> None:
+    world.gravity = 0.0, 0.0
+
+
+def _no_drag(world: World) -> None:
+    world.drag = 0.0
+
+
+def _no_wind(world: World) -> None:
+    world.wind = 0.0, 0.0
+
+
+def _smooth(world: World) -> None:
+    world.shapes["friction"] = world.shapes["rolling_resistance"] = 0.0
+
+
+def _dull(world: World) -> None:
+    world.shapes["restitution"] = 0.0
+
+
+def _standing(world: World) -> None:
+    world.shapes["surface_speed"] = 0.0
+
+
+def _not_swept(world: World) -> None:
+    world.bodies["continuous"] = CONTINUOUS.index("off")
+    world.bodies["bullet"] = False
+
+
+# Of the others (sensors, persist, one_way, carving) a scene that does not declare them has none.
+NEUTRAL: dict[str, Callable[[World], None]] = {
+    "gravity": _no_gravity,
+    "drag": _no_drag,
+    "wind": _no_wind,
+    "friction": _smooth,
+    "restitution": _dull,
+    "conveyor": _standing,
+    "continuous": _not_swept,
+}

@@ -1,0 +1,173 @@
+"""The yard of lab/effects: so many kinds of things at once that each effect has something to do in it."""
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from game.drawing.sprites import load_atlas
+from physics import Capsule, Circle, Material, PixelMask, Polygon, TileGrid
+
+LEFT, RIGHT, FLOOR = 196.0, 480.0, 254.0  # [px] the inner sides of the walls, the floor
+DRAG, WIND = 0.35, (46.0, 0.0)  # [1/s], [px/s]
+TILE = 16
+PLANK = (304.0, 150.0)  # [px] upper left corner of four tiles that are open from below
+BELT = ((212.0, 108.0), (276.0, 108.0), 5.0)  # centres of its rollers, their radius
+TARGET = (458.0, 72.0)  # [px] middle of the thin wall that is shot at
+ZONE = (290.0, 222.0, 34.0, 62.0)  # middle and size of the zone that tells who is in it
+ROCK = (398.0, 222.0, 64, 32)  # upper left corner and size [px]
+BITE, BITES, BITE_EVERY = 4.0, 18, 20  # radius of the drill [px], bites to a rock, steps between them
+CRUMB = 8  # pixels
+GRIP, RUBBER = Material(friction=0.6), Material(friction=0.4, restitution=0.85)
+BRAKED = Material(friction=0.6, restitution=0.2, rolling_resistance=0.15)
+CRATE = Polygon.box(14, 14)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What comes by the clock: every so many steps, for so many."""
+
+    name: str
+    shape: Circle | Polygon | Capsule | PixelMask
+    ramp: str
+    place: tuple[float, float]  # [px]
+    velocity: tuple[float, float]  # [px/s]
+    every: int
+    first: int
+    life: int
+    material: Material = GRIP
+    spin: float = 0.0  # [rad/s], where bodies turn
+    weight: float = 1.0  # share of gravity
+
+
+KINDS = (
+    Kind("crate", CRATE, "wood", (222, 84), (0, 0), 70, 4, 420),
+    Kind("pill", Capsule((-5, 0), (5, 0), 5), "teal", (224, 82), (0, 0), 70, 39, 420, spin=2.0),
+    Kind("ball", Circle(6), "gold", (336, 240), (-14, -300), 40, 8, 330, BRAKED),
+    Kind("rubber", Circle(8), "coral", (386, 90), (0, 0), 110, 2, 330, RUBBER),
+    Kind("bullet", Circle(2), "steel", (206, 66), (2400, 0), 24, 1, 44, GRIP),
+    Kind("feather", Circle(4), "violet", (206, 190), (0, -20), 50, 20, 300, GRIP, weight=0.02),
+)
+STACKS = ((214.0, 5), (234.0, 4), (254.0, 3))  # x of a stack, crates in it
+STAR = (430.0, 206.0)
+ROOM = 34.0  # [px] over the rock, that the star needs
+PLACED = 1000000  # numbers from here on are of what is there from the start: the star first
+
+
+class BusyYard:
+    """A world and what is done in it by the clock. `ids`: {number: body id} of what moves.
+
+    A number stands for the same thing in every world that went out from one, whatever else happened in it."""
+
+    def __init__(self, world):
+        self.world = world
+        self.ids, self.kinds, self.ends = {}, {}, {}  # by number: body id; Kind or name; step at which it goes
+        self.rock = -1
+        self.told = np.zeros(6, np.int64)  # begin, persist, end, hits, sensor begin, sensor end
+        self.worked = 0  # bodies moved, pairs tested and rows solved, over all steps
+
+    def furnish(self):
+        """What stands, and what lies there from the start."""
+        world, middle = self.world, (LEFT + RIGHT) / 2
+        world.add_body(Polygon.box(800, 40), position=(middle, FLOOR + 20), kind="static", material=GRIP)
+        for x in (LEFT - 10, RIGHT + 10):
+            world.add_body(Polygon.box(20, 800), position=(x, 0), kind="static", material=GRIP)
+        start, end, radius = BELT
+        belt = Material(friction=0.6, surface_speed=60.0)
+        world.add_body(Capsule(start, end, radius), kind="static", material=belt)
+        planks = TileGrid(np.zeros((1, 4), bool), TILE, np.ones((1, 4), bool))
+        world.add_body(planks, position=PLANK, kind="static", material=GRIP)
+        world.add_body(Polygon.box(2, 40), position=TARGET, kind="static", material=GRIP)
+        if world.effects.sensors:
+            world.add_body(Polygon.box(*ZONE[2:]), position=ZONE[:2], kind="static", sensor=True)
+        self._lay_rock()
+        self._place("star", world.add_body(load_atlas("lab").mask("star_gold"), position=STAR, material=GRIP))
+        for x, count in STACKS:
+            for row in range(count):
+                self._place("crate", world.add_body(CRATE, position=(x, FLOOR - 7 - 14 * row), material=GRIP))
+
+    def _place(self, name, body):
+        number = PLACED + len(self.ids)
+        self.ids[number], self.kinds[number] = body.id, name
+
+    def _renew_rock(self):
+        """A whole one again: what lies in its place goes, and the star comes back."""
+        x, y, width, height = ROCK
+        star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
+        for body in self.world.query_aabb((x, y - ROOM), (x + width, y + height)):
+            if numbers.get(body.id, star) != star:
+                self._remove(numbers[body.id])
+        body = self.world.body(self.ids[star])
+        body.move_to(STAR, 0.0)
+        body.velocity = 0.0, 0.0
+        if self.world.effects.rotation:
+            body.angular_velocity = 0.0
+        self.world.remove_body(self.rock)
+        self._lay_rock()
+
+    def _lay_rock(self):
+        x, y, width, height = ROCK
+        mask = PixelMask(np.ones((height, width), bool), (0, 0))
+        self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
+
+    def beside(self, world):
+        """The same yard in another world, which has the same bodies."""
+        other = BusyYard(world)
+        other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
+        other.rock = self.rock
+        return other
+
+    def step(self, clock):
+        """Do what is due at a step of the clock, make the step, and count."""
+        world = self.world
+        for number in [number for number, end in self.ends.items() if end == clock]:
+            self._remove(number)
+        for place, kind in enumerate(KINDS):
+            if clock % kind.every == kind.first:
+                self._add(clock * len(KINDS) + place, kind, clock)
+        bite, due = divmod(clock % (BITE_EVERY * BITES), BITE_EVERY)
+        if due == 0 and world.effects.carving:
+            if bite == 0:
+                self._renew_rock()
+            x = ROCK[0] + BITE + (ROCK[2] - 2 * BITE) * (bite % 9) / 8
+            world.body(self.rock).carve(Circle(BITE), (x, ROCK[1] + 2 + 7 * (bite // 9)), crumb=CRUMB)
+        world.step()
+        self._count()
+
+    def _add(self, number, kind, clock):
+        body = self.world.add_body(
+            kind.shape,
+            position=kind.place,
+            velocity=kind.velocity,
+            angular_velocity=kind.spin if self.world.effects.rotation else 0.0,
+            material=kind.material,
+            gravity_scale=kind.weight,
+        )
+        self.ids[number], self.kinds[number], self.ends[number] = body.id, kind, clock + kind.life
+
+    def _remove(self, number):
+        for table in (self.kinds, self.ends):
+            table.pop(number, None)
+        self.world.remove_body(self.ids.pop(number))
+
+    def _count(self):
+        events, counters = self.world.events, self.world.profile.counters
+        found = (events.begin, events.persist, events.end, events.hits, events.sensor_begin, events.sensor_end)
+        self.told += [len(rows) for rows in found]
+        self.worked += sum(counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows"))
+
+    def places(self, numbers):
+        """(n, 2) centres [px] of things by number."""
+        rows = self.world.bodies[self.world.rows([self.ids[number] for number in numbers])]
+        return np.column_stack([rows["center_x"], rows["center_y"]])
+
+
+def apart(one, other):
+    """(numbers of what two yards both have, (n,) how far each thing is from itself in the other [px])."""
+    numbers = sorted(one.ids.keys() & other.ids.keys())
+    return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)
+
+
+def rms(values):
+    """The root of the mean square; 0 of nothing."""
+    return sqrt(float((values * values).mean())) if len(values) else 0.0

@@ -1,0 +1,278 @@
+"""Sixteen effects in one busy yard, each to be switched off while it runs: what would be missed, and what does it cost?
+
+What to see: choose an effect. From then on the yard goes on twice, gold with it and blue without, and what is elsewhere
+in the other is outlined in both. Switch it off: the solid picture is now the blue one, and the stage that only this
+effect called for vanishes from the time graph. After two seconds it is told how far apart both are, and what the effect
+takes of a step. Some move nothing: sensors and persist only tell, and sleep only saves.
+"""
+
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+
+from game.drawing.canvas import SMALL, wrap
+from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, SLATE
+from game.drawing.number_text import plain_name
+from game.drawing.typical import Typical
+from game.input.inputs import InputFrame
+from game.measure.errors import VISIBLE
+from game.scene import Goal, Scene, Slider
+from physics import Effects
+from scenes.lab.busy_picture import BusyPicture, draw_ghost
+from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
+from scenes.lab.piles import step_seconds
+from scenes.lab.yard import HEAD, draw_head, plate
+
+NAMES = tuple(field.name for field in fields(Effects))
+ALL = Effects.named(NAMES)
+SIDE = 190  # [px] wide: the list, and under it the time graph
+TOP, ROW = 29, 10  # [px] of the first line of the list; of a line
+WINDOW = 120  # steps after which both are compared
+AGAIN = 180  # steps after which both begin anew, as long as the effect is on
+BOT_OFF, BOT_NEXT = 124, 150  # steps of its turn at which the bot switches an effect off, and goes on
+BOX = (4, 6)  # [px] left side and size of a box to tick
+
+
+class Outcome(NamedTuple):
+    """What two seconds without an effect change."""
+
+    apart: float  # [px] root mean square over all that moves
+    events: int  # more that were told with it, of all kinds
+    kinds: int  # of events, whose number differs
+    work: int  # bodies moved, pairs tested and rows solved more with it; below 0: fewer
+
+    def shows(self, name):
+        """Whether the effect would be missed. Sleep moves nothing and tells less: it has to save work."""
+        return self.work < 0 if name == "sleeping" else self.apart > VISIBLE or self.kinds > 0
+
+
+class EffectsLab(Scene):
+    """`worlds` holds the world that is shown: with the marked effect, or without it."""
+
+    name = "lab/effects"
+    title = "Effects"
+    about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
+    effects = ALL
+    other_effects = tuple(ALL.without(name) for name in NAMES)
+    pieces = ("masks", "boxes", "circles", "capsules", "tiles")
+    features = (
+        "every effect switched off and on while it runs",
+        "the same yard with it and without, as two ghosts",
+        "pixels apart after two seconds, events and microseconds of each",
+    )
+    sliders = (
+        Slider("effect", 0, len(NAMES) - 1, NAMES.index("gravity"), choices=NAMES),
+        Slider("it is", 0, 1, 1, choices=("off", "on")),
+    )
+    actions = (("up down", "effect"), ("Space or click", "switch it"))
+    overlays = ("times",)
+    head = HEAD
+    hides_pointer = False
+    legend_at = (198, 60)
+
+    def build(self):
+        """The yard with all effects; its ghost begins with the first step."""
+        self.picture = BusyPicture()
+        self.real = BusyYard(self._new_world())
+        self.real.furnish()
+        self.clock = 0  # steps
+        self.found = {}  # name: Outcome, of the last time it was compared
+        self.costs = {}  # name: (typical seconds of a step with it, without), as last looked at
+        self._part()
+
+    def _new_world(self):
+        return self.add_world(drag=DRAG, wind=WIND)
+
+    @property
+    def marked(self):
+        """Name of the effect that the ghost is without."""
+        return NAMES[int(self.values["effect"])]
+
+    @property
+    def is_on(self):
+        """Whether the yard with it is shown."""
+        return bool(self.values["it is"])
+
+    def _part(self):
+        """From here on there are two: with the marked effect and without."""
+        world = self._new_world()
+        world.restore(self.real.world.snapshot())
+        self.real.world.set_effects(world.effects)  # all wake in both
+        world.set_effects(world.effects.without(self.marked))
+        self.other = self.real.beside(world)
+        self.began = self.real.told.copy(), self.real.worked
+        self.since = 0
+        self.costs[self.marked] = Typical(WINDOW), Typical(WINDOW)
+        self._show()
+
+    def _show(self):
+        self.worlds = [(self.real if self.is_on else self.other).world]
+
+    def solver_choices(self):
+        """None: without stacking a world has another one."""
+        return ()
+
+    def change(self, name, value):
+        """What is changed is changed in both worlds."""
+        self.worlds = [self.real.world, self.other.world]
+        try:
+            super().change(name, value)
+        finally:
+            self._show()
+
+    def change_slider(self, name, value):
+        """Another effect is on at first."""
+        super().change_slider(name, value)
+        if name == "effect":
+            self.values["it is"] = 1
+            self._part()
+
+    def update(self, inputs):
+        """Keys and the pointer, a step of both yards, and once what became of them."""
+        way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
+        row = (inputs.pointer[1] - TOP) // ROW
+        points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
+        if points and NAMES[row] != self.marked:
+            self.change("slider:effect", row)
+        elif points or inputs.pressed("fire"):
+            self.change("slider:it is", int(not self.is_on))
+        elif way:
+            self.change("slider:effect", (int(self.values["effect"]) + way) % len(NAMES))
+        if self.since == AGAIN and self.is_on:
+            self._part()
+        for yard in (self.real, self.other):
+            yard.step(self.clock)
+        self.clock += 1
+        self.since += 1
+        if self.since == WINDOW:
+            self.found[self.marked] = self._outcome()
+            self.play("coin", 80.0, 0.3)
+
+    def _outcome(self):
+        told, worked = self.began
+        more = self.real.told - told - self.other.told
+        _, gaps = apart(self.real, self.other)
+        return Outcome(
+            rms(gaps), int(more.sum()), int(np.count_nonzero(more)), self.real.worked - worked - self.other.worked
+        )
+
+    def observe(self):
+        """What the last step took with the effect, and without, until both are compared."""
+        if self.since <= WINDOW:
+            for yard, typical in zip((self.real, self.other), self.costs[self.marked], strict=True):
+                typical.note(step_seconds(yard.world))
+
+    def stages(self):
+        """(names of the stages that only the marked effect calls for, of those that take their place without it)."""
+        real, other = self.real.world.stages, self.other.world.stages
+        return [name for name in real if name not in other], [name for name in other if name not in real]
+
+    def price(self, name):
+        """[us] a step that an effect takes; below 0: it saves them. None before it was looked at."""
+        if name not in self.costs or not self.costs[name][0].last:
+            return None
+        real, other = self.costs[name]
+        return 1e6 * (real.value - other.value)
+
+    def finding(self):
+        """What the last two seconds with each effect and without it have shown; "" before all were looked at."""
+        if len(self.found) < len(self.effects.names()):
+            return f"looked at {len(self.found)} of {len(self.effects.names())}"
+        far = max(self.found, key=lambda name: self.found[name].apart)
+        prices = {name: price for name in self.found if (price := self.price(name)) is not None}
+        words = f"{plain_name(far)} moves most, {self.found[far].apart:.0f} px"
+        if not prices:
+            return words
+        dear, saver = max(prices, key=prices.__getitem__), min(prices, key=prices.__getitem__)
+        words += f"; {plain_name(dear)} costs most, {prices[dear]:,.0f} us"
+        return words + (f"; {plain_name(saver)} saves {-prices[saver]:,.0f}" if prices[saver] < 0.0 else "")
+
+    def draw(self, canvas, alpha):
+        """The yard that is shown, and the list."""
+        shown = self.real if self.is_on else self.other
+        runs = shown.world.effects.conveyor
+        self.picture.draw(canvas, shown, alpha, self.clock if runs else 0.0)
+        draw_head(canvas, "EFFECTS", "gold: with it, blue: without; what would be missed?")
+        canvas.surface.fill(NIGHT, (0, HEAD, SIDE, canvas.surface.get_height() - HEAD))
+        canvas.surface.fill(SLATE, (SIDE, HEAD, 1, canvas.surface.get_height() - HEAD))
+        canvas.reserve((SIDE, HEAD, 480 - SIDE, 270 - HEAD))  # the time graph goes under the list
+        canvas.text("after 2 s", 136, TOP - 9, FOG, SMALL, align="right")
+        canvas.text("us a step", SIDE - 6, TOP - 9, FOG, SMALL, align="right")
+        for row, name in enumerate(NAMES):
+            self._draw_row(canvas, name, TOP + ROW * row)
+        self._draw_words(canvas)
+
+    def _draw_row(self, canvas, name, y):
+        marked = name == self.marked
+        if marked:
+            canvas.surface.fill(DUSK, (1, y - 2, SIDE - 2, ROW))
+        x, size = BOX
+        on = self.is_on or not marked
+        canvas.surface.fill(SLATE, (x, y, size, size))
+        canvas.surface.fill((GREEN if on else INK), (x + 1, y + 1, size - 2, size - 2))
+        canvas.text(plain_name(name), 14, y, PAPER if on else FOG, SMALL)
+        outcome, price = self.found.get(name), self.price(name)
+        if outcome is not None:
+            canvas.text(short(outcome, name), 136, y, PAPER, SMALL, align="right")
+        if price is not None:
+            canvas.text(f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
+
+    def _draw_words(self, canvas):
+        """On a plate over the sky: the stage of the marked effect, and the finding."""
+        ours, theirs = self.stages()
+        if ours:
+            words = f"{plain_name(self.marked)} calls for {', '.join(map(plain_name, ours))}"
+            words += f" in place of {', '.join(map(plain_name, theirs))}" if theirs else ""
+        else:
+            words = f"{plain_name(self.marked)} has no stage of its own: it is a part of others' passes"
+        rect = pygame.Rect(SIDE + 5, HEAD + 4, 480 - SIDE - 10, 0)
+        lines = [(line, GOLD if self.is_on else SKY) for line in wrap(words, rect.width - 8, SMALL)]
+        lines += [(line, FOG) for line in wrap(self.finding(), rect.width - 8, SMALL)]
+        rect.height = 7 * len(lines) + 5
+        plate(canvas, rect)
+        for number, (line, color) in enumerate(lines):
+            canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
+
+    def draw_on_frame(self, frame):
+        """What is elsewhere in the other yard, in both."""
+        numbers, gaps = apart(self.real, self.other)
+        far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
+        frame.surface.set_clip(frame.from_canvas((SIDE + 1, HEAD, 480 - SIDE, 254)))
+        for yard, color in ((self.real, GOLD), (self.other, SKY)):
+            draw_ghost(frame, self.camera, yard, far, color)
+        frame.surface.set_clip(None)
+
+    def check(self):
+        """Each effect would be missed."""
+        goals = []
+        for turn, name in enumerate(self.effects.names(), 1):
+            outcome = self.found.get(name)
+            met = outcome is not None and outcome.shows(name)
+            detail = "" if outcome is None else short(outcome, name)
+            goals.append(Goal(f"without {plain_name(name)} something is missed", turn * BOT_NEXT, met, detail))
+        return goals
+
+    def bot(self):
+        """One effect after the other: two seconds beside its ghost, then off for a moment."""
+        turn, step = divmod(self.frame, BOT_NEXT)
+        if step == 0:
+            return InputFrame(changes=(("slider:effect", turn % len(NAMES)),))
+        return frozenset({"fire"} if step == BOT_OFF else ())
+
+    def state(self):
+        """Both clocks, the other world, and what was found."""
+        hidden = (self.other if self.is_on else self.real).world
+        found = (value for name in NAMES if name in self.found for value in self.found[name])
+        told = (*self.real.told.tolist(), *self.other.told.tolist())
+        return (self.frame, self.clock, self.since, *self.values.values(), hidden.digest(), *told, *found)
+
+
+def short(outcome, name):
+    """An outcome in a few words."""
+    if name == "sleeping":
+        return f"{-outcome.work:,} tasks saved"
+    if outcome.apart > VISIBLE:
+        return f"{outcome.apart:,.0f} px"
+    return f"{outcome.events:+,} events" if outcome.kinds else "the same"

@@ -1,0 +1,128 @@
+"""lab/effects: the yard goes on twice from one state, the shown one's stages come and go, each effect is missed."""
+
+import numpy as np
+import pytest
+
+import physics
+from game.input.inputs import InputFrame, InputState
+from game.run.session import Session
+from game.run.sources import BotSource
+from physics import Effects
+from scenes.lab.busy_yard import apart, rms
+from scenes.lab.effects import AGAIN, ALL, BOT_NEXT, NAMES, WINDOW, EffectsLab, Outcome, short
+
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps of two yards")
+FEW = WINDOW if physics.JIT else 30
+
+
+@pytest.fixture
+def lab():
+    return EffectsLab(1)
+
+
+def play(scene, frames=1, *actions, changes=(), pointer=None):
+    inputs = InputState()
+    for number in range(frames):
+        held = frozenset(actions if number == 0 else ())
+        inputs.set(InputFrame(held, pointer or (0, 0), pointer is not None and number == 0, changes=changes))
+        scene.step(inputs)
+        scene.observe()
+        changes = ()
+
+
+def choose(scene, name):
+    play(scene, changes=(("slider:effect", NAMES.index(name)),))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_ghost_lives_without_the_effect_and_what_needs_it(lab, name):
+    choose(lab, name)
+    assert lab.worlds == [lab.real.world] and lab.real.world.effects == ALL
+    assert lab.other.world.effects == ALL.without(name)
+    ours, theirs = lab.stages()
+    if name in ("sleeping", "continuous", "sensors", "stacking", "response"):
+        assert ours and set(ours) <= set(lab.world.profile.stages)
+    play(lab, 1, "fire")
+    assert lab.worlds == [lab.other.world] and not set(ours) & set(lab.world.profile.stages)
+    assert set(theirs) <= set(lab.world.profile.stages)
+    play(lab, 1, "fire")
+    assert lab.worlds == [lab.real.world]
+
+
+def test_both_go_out_from_one_state(lab):
+    play(lab, FEW)
+    choose(lab, "persist")  # tells more, and moves nothing
+    for _ in range(FEW):
+        play(lab)
+        numbers, gaps = apart(lab.real, lab.other)
+        assert len(numbers) == len(lab.real.ids) == len(lab.other.ids) and not gaps.any()
+    choose(lab, "gravity")
+    before = rms(apart(lab.real, lab.other)[1])
+    play(lab, 10)
+    assert before < 1.0 < rms(apart(lab.real, lab.other)[1])
+
+
+@needs_speed
+def test_each_effect_is_missed_and_the_finding_is_what_was_measured(lab):
+    session = Session(lab, BotSource())
+    for _ in range(BOT_NEXT * len(NAMES)):
+        session.step()
+    assert [goal.name for goal in lab.check() if not goal.met] == []
+    assert list(lab.found) == list(NAMES)
+    assert lab.found["sensors"].apart == lab.found["persist"].apart == 0.0, "they only tell"
+    assert lab.found["sleeping"].work < 0
+    far = max(NAMES, key=lambda name: lab.found[name].apart)
+    assert f"{far} moves most, {lab.found[far].apart:.0f} px" in lab.finding()
+
+
+@needs_speed
+def test_it_begins_anew_while_the_effect_is_on_and_not_while_it_is_off(lab):
+    choose(lab, "gravity")
+    play(lab, WINDOW)
+    assert "gravity" in lab.found
+    ghost = lab.other
+    play(lab, AGAIN - WINDOW)
+    assert lab.other is not ghost and lab.since <= 1
+    play(lab, 1, "fire")
+    ghost = lab.other
+    play(lab, 2 * AGAIN)
+    assert lab.other is ghost
+
+
+def test_a_click_marks_an_effect_and_another_one_switches_it(lab):
+    row = NAMES.index("friction")
+    for on in (True, False, True):
+        play(lab, 1, pointer=(20, 29 + 10 * row + 3))
+        play(lab)
+        assert lab.marked == "friction" and lab.is_on == on
+    play(lab, 1, "down")
+    assert lab.marked == NAMES[row + 1]
+
+
+def test_settings_go_to_both_worlds(lab):
+    play(lab, changes=(("substeps", 8), ("broadphase", "sweep"), ("narrowphase", False)))
+    for yard in (lab.real, lab.other):
+        world = yard.world
+        assert (world.substeps, world.broadphase.name, world.effects.narrowphase) == (8, "sweep", False)
+    assert len(lab.worlds) == 1
+    with pytest.raises(ValueError, match="not possible here"):
+        lab.change("solver", "projection")
+    assert len(lab.worlds) == 1
+
+
+def test_what_would_be_missed():
+    assert Outcome(2.0, 0, 0, 0).shows("gravity") and not Outcome(0.5, 0, 0, 5).shows("gravity")
+    assert Outcome(0.0, 0, 2, 0).shows("sensors"), "as many begin more as end less"
+    assert Outcome(0.0, 9, 1, -1).shows("sleeping") and not Outcome(9.0, 9, 9, 1).shows("sleeping")
+    assert short(Outcome(0.0, 0, 0, 0), "gravity") == "the same"
+
+
+def test_a_yard_without_rotation_sensors_or_carving_can_be_built():
+    class Plain(EffectsLab):
+        effects = Effects(response=True, gravity=True)
+        other_effects = ()
+
+    scene = Plain(1)
+    play(scene, 5)
+    assert np.isfinite(scene.world.bodies["x"]).all()
+    assert [goal.name.split()[1] for goal in scene.check()] == ["narrowphase", "response", "gravity"]
