@@ -23,7 +23,8 @@ from game.input.drag import Drag
 from game.input.inputs import CHANGES, InputFrame, InputState
 from game.invariants.lights import Lights
 from game.invariants.watch import WatchedWorld
-from physics import BROADPHASES, SOLVERS, Effects, PixelMask
+from game.wishes import Lanes, Sprites
+from physics import BROADPHASES, SOLVERS, Effects
 
 STEP_SECONDS = 1.0 / 60.0
 SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # that a player may choose from
@@ -146,9 +147,7 @@ class Scene:
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
-        self.tier_figures: dict[
-            str, Any
-        ] = {}  # of its measured_sprites(), by tier, as far as somebody has measured them
+        self.figures: dict[Any, Any] = {}  # of what is measured(), as far as somebody has
         self.substeps: int | str | None = None  # None: what each world was made with
         self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
         self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}
@@ -352,9 +351,18 @@ class Scene:
         """(world, camera) of each picture on the canvas: overlays look through them, step() begins their steps."""
         return [(self.world, self.camera)]
 
-    def measured_sprites(self) -> tuple[PixelMask, PixelMask] | None:
-        """Two sprites whose tiers are to be measured for `tier_figures`, beside the game; None: none."""
+    @property
+    def chosen(self) -> tuple:
+        """All that a player has chosen here, sliders and switches: what a lane that depends on it is named after."""
+        return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
+
+    def measured(self) -> Sprites | Lanes | None:
+        """What is to be measured for `figures`, beside the game; None: nothing now."""
         return None
+
+    def finding(self) -> str:
+        """What it has found, one sentence with a number that it measured; "" while there is none."""
+        return ""
 
     def draw_on_frame(self, frame: Frame) -> None:
         """Draw at window resolution, under the overlays (curves, thin lines). Most scenes have nothing here."""

@@ -11,9 +11,8 @@ import numpy as np
 
 from game.measure.setting import SUBSTEPPED, Setting
 from game.measure.timing import clock, undisturbed
+from game.wishes import STEPS
 from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
-
-STEPS = 60  # of a run: a second of play, five times 60 make the 300 that a cost is measured on
 
 
 class Moment:
@@ -44,14 +43,17 @@ class Moment:
             world.set_narrowphase(setting.narrowphase)
         return world
 
-    def time_run(self, setting: Setting, steps: int = STEPS) -> float:
-        """Seconds a step of one run from this moment on. The first run of a setting also compiles: leave it out."""
+    def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None) -> float:
+        """Seconds a step of one run from this moment on. The first run of a setting also compiles: leave it out.
+
+        stage: only what this stage took, 0 where the step has none of that name; None: the whole step.
+        """
         world, spent = self.world(setting), 0.0
         with undisturbed():
             for _ in range(steps):
                 started = clock()
                 world.step()
-                spent += clock() - started
+                spent += clock() - started if stage is None else world.profile.stages.get(stage, 0.0)
         return spent / steps
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import threading
 import weakref
+from collections.abc import Hashable
 from functools import partial
 from pathlib import Path
 from time import monotonic
@@ -15,12 +16,14 @@ from typing import Any
 import numpy as np
 
 from game.measure.errors import Error
+from game.measure.lanes import LaneFigures
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.processes import end_all, start_module
+from game.wishes import Lane, Lanes
 from physics import Fit, PixelMask, Snapshot
 
 
@@ -36,7 +39,11 @@ class Surveyor:
         self.busy = False
         self.trouble = ""
         self.revision = 0  # counts what was found
-        self.tiers: dict[str, TierFigures] = {}  # of the sprites that were asked for, as far as they are known
+        # Of the sprites or the lanes that were asked for, as far as they are known, by tier or by name.
+        self.figures: dict[Hashable, TierFigures | LaneFigures] = {}
+        self.asked: list[tuple[list[Hashable], list[Lane]]] = []  # lanes, order by order
+        self.runs: dict[Hashable, list[float]] = {}  # of lanes, seconds a step
+        self.latest: int | str | None = None  # what the last order is called
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder: tempfile.TemporaryDirectory[str] | None = None  # what is handed on lies there
         self.process: subprocess.Popen[str] | None = None
@@ -46,7 +53,7 @@ class Surveyor:
         if not self._started():
             return
         self.survey.moments += 1
-        number = self.survey.moments
+        number = self.latest = self.survey.moments
         order = {"moment": number, "snapshot": self._path(f"{number}.npz"), "broadphase": broadphase}
         # Packing the pixels of a level takes longer than a frame.
         threading.Thread(
@@ -57,14 +64,42 @@ class Surveyor:
         ).start()
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Measure every tier of two sprites: `tiers`."""
+        """Measure every tier of two sprites: `figures`."""
         if not self._started():
             return
-        self.tiers = {}
+        self.figures, self.latest = {}, "sprites"
         arrays: dict[str, Any] = {f"solid_{k}": mask.solid for k, mask in enumerate((first, second))}
         arrays |= {f"origin_{k}": np.array(tuple(mask.origin)) for k, mask in enumerate((first, second))}
-        order = {"moment": None, "sprites": self._path("sprites.npz")}
+        order = {"moment": self.latest, "sprites": self._path("sprites.npz")}
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
+
+    def measure_lanes(self, wish: Lanes) -> None:
+        """Measure the lanes of a wish that are not known yet, instead of what was asked for before: `figures`."""
+        names = [name for name in wish.names if not self.knows(name)]
+        if not names or not self._started():
+            return
+        lanes = [wish.make(name) for name in names]
+        self.latest = f"lanes {len(self.asked)}"
+        self.asked.append((names, lanes))
+        snapshots = list({id(each): each for lane in lanes for each in lane.snapshots}.values())
+        paths = {id(each): self._path(f"{self.latest} {k}.npz") for k, each in enumerate(snapshots)}
+        stored = [lane._replace(snapshots=[paths[id(each)] for each in lane.snapshots])._asdict() for lane in lanes]
+        threading.Thread(
+            target=_hand_on,
+            args=(
+                self.process,
+                {"moment": self.latest, "lanes": stored},
+                lambda: [each.save(paths[id(each)]) for each in snapshots],
+                self.found,
+            ),
+            name="hand on",
+            daemon=True,
+        ).start()
+
+    def knows(self, name: Hashable) -> bool:
+        """Whether a lane of this name was run often enough."""
+        figures = self.figures.get(name)
+        return isinstance(figures, LaneFigures) and figures.sure
 
     def _started(self):
         """Start the process where there is none; whether there is one, which is then busy."""
@@ -113,9 +148,11 @@ class Surveyor:
             self.here = Setting(*found["here"])
         elif "tier" in found:
             figures = figures_of(found["tier"])
-            self.tiers[figures.tier] = figures
+            self.figures[figures.tier] = figures
+        elif "lane" in found:
+            self._take_run(**found)
         elif "done" in found:
-            self.busy = self.busy and found["moment"] not in (survey.moments, None)
+            self.busy = self.busy and found["moment"] != self.latest
         else:
             dot = survey.dot(Setting(*found["setting"]))
             if "errors" in found:
@@ -123,6 +160,13 @@ class Surveyor:
             else:
                 dot.steps = found["steps"]
                 dot.spent.setdefault(found["moment"], []).append(found["spent"])
+
+    def _take_run(self, moment, lane, spent, overlap):
+        names, lanes = self.asked[int(moment.split()[1])]
+        runs = self.runs.setdefault(names[lane], [])
+        runs.append(spent)
+        steps = lanes[lane].steps * len(lanes[lane].snapshots)
+        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap)
 
     def stop(self) -> None:
         """End the process; what was found stays."""

@@ -13,7 +13,6 @@ import numpy as np
 
 from game.measure.rates import Rate
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
-from game.scene import Scene
 from physics import TIERS, Fit, PixelMask, fit, measure
 from physics.queries.pair_batch import PairBatch
 
@@ -111,15 +110,6 @@ def measure_at(
         a, fitted = shapes[tier][0], measure(first, shapes[tier][0])
         hit, miss = costs[f"{tier} hit"], costs[f"{tier} miss"]
         tell(TierFigures(tier, len(a), hit, miss, wrong, missed, builds[tier], fitted))
-
-
-def know_tiers(scene: Scene) -> None:
-    """Measure here and now what a scene wants to know of its sprites; where nobody plays, there is time for it."""
-    sprites = scene.measured_sprites()
-    if sprites is not None and not scene.tier_figures:
-        found: list[TierFigures] = []
-        measure_tiers(*sprites, found.append)
-        scene.tier_figures = {figures.tier: figures for figures in found}
 
 
 def _build(mask, tier):

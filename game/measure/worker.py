@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: measures moments and sprites, off the frame of whoever plays.
+"""`python -m game.measure.worker`: measures moments, sprites and lanes, off the frame of whoever plays.
 
 A line of JSON on standard input is what to measure, in place of what was before; lines of JSON on standard output
 are what was found. The process ends with its standard input, so that it never outlives the program that started it.
@@ -10,17 +10,19 @@ import os
 import sys
 import threading
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from random import Random
 from typing import Any
 
 import numpy as np
 
 from game.measure.errors import References
-from game.measure.moment import STEPS, Moment
+from game.measure.lanes import measure_lanes
+from game.measure.moment import Moment
 from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
+from game.wishes import STEPS, Lane
 from physics import PixelMask, Snapshot
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
@@ -88,6 +90,19 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
     tell(json.dumps({"moment": order["moment"], "done": True}))
 
 
+def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Measure lanes, each a Lane as a dict with the files of its snapshots in their place."""
+    loaded = cache(Snapshot.load)  # what several lanes begin with is read once
+    lanes = [Lane(**{**lane, "snapshots": [loaded(path) for path in lane["snapshots"]]}) for lane in order["lanes"]]
+
+    def say(**found):
+        tell(json.dumps({"moment": order["moment"], **found}))
+
+    measure_lanes(lanes, lambda number, spent, overlap: say(lane=number, spent=spent, overlap=overlap), goes_on)
+    if goes_on():
+        say(done=True)
+
+
 def main() -> None:
     """Measure for as long as there is somebody to tell."""
     with contextlib.suppress(OSError, AttributeError):
@@ -97,10 +112,13 @@ def main() -> None:
     while True:
         order = orders.next(order)
         try:
+            tell, goes_on = partial(print, flush=True), partial(orders.holds, order)
             if "sprites" in order:
-                measure_sprites(order, partial(print, flush=True))
+                measure_sprites(order, tell)
+            elif "lanes" in order:
+                measure_stored_lanes(order, tell, goes_on)
             else:
-                measure(order, partial(print, flush=True), partial(orders.holds, order))
+                measure(order, tell, goes_on)
         except (ValueError, OSError) as error:  # a moment that cannot be measured is told, and the next awaited
             print(json.dumps({"moment": order["moment"], "failed": str(error)}), flush=True)
 

@@ -9,7 +9,7 @@ from time import perf_counter
 import pygame
 
 from game.errors import StrictFailure, UsageError
-from game.measure.tiers import know_tiers
+from game.measure.knowing import know
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
@@ -53,7 +53,7 @@ def run_headless(options: Options, registry: Registry) -> int:
             overlays.note(scene)
             kept = options.screenshot and frame == frames - 1
             if kept:
-                know_tiers(scene)
+                know(scene)
             if draws or kept:
                 started = perf_counter()
                 picture.draw_scene(scene, overlays)

@@ -20,7 +20,7 @@ from game.run.chunks import Chunks, bytes_of
 from game.scene import Scene
 from physics import World
 
-OUTSIDE = ("accessibility", "ghost", "best", "tier_figures")  # of a scene: set from outside, whenever that is
+OUTSIDE = ("accessibility", "ghost", "best", "figures")  # of a scene: set from outside, whenever that is
 TRAIL = "trail"  # of a scene: it is only ever added to, so that its length says what it was
 KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # never change
 

@@ -4,6 +4,7 @@ What to see: in which layout which strategy is cheap. Even bodies of one size su
 along the ground suit the sweep; many still things and few movers suit the tree; brute force pays n squared.
 """
 
+from functools import cache, partial
 from random import Random
 
 import numpy as np
@@ -14,8 +15,11 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from physics import Circle, Effects
+from game.wishes import Lane, Lanes
+from physics import JIT, Circle, Effects, World
 from scenes.lab.curves import Curves
+from scenes.lab.growth import Series, draw_growth
+from scenes.lab.power_law import fit_power_law
 from scenes.lab.yard import HEAD
 
 STRATEGIES = ("brute", "sweep", "hash", "tree")
@@ -32,8 +36,12 @@ CORNERS = ((4, 30), (166, 30), (4, 153), (166, 153))
 RADIUS, GIANT = 7.0, 260.0
 FAST, SLOW = 90.0, 20.0  # [px/s]
 MOVING_SHARE = 0.05  # of the bodies in the "still" layout
-PLOTS = (("candidate pairs", 30), ("tests of boxes, nodes too [log]", 103), ("microseconds [log]", 176))
-PLOT_X, PLOT_WIDTH, PLOT_HEIGHT = 330, 146, 70
+PLOTS = (("candidate pairs", 30), ("tests of boxes, nodes too [log]", 75))
+PLOT_X, PLOT_WIDTH, PLOT_HEIGHT = 330, 146, 42
+GROWTH = (330, 120, 146, 126)  # [canvas px] the plot of cost over number
+LARGEST = 5000 if JIT else 500  # bodies that are measured beside the game: plain, a step of brute force takes seconds
+SIZES = tuple(round(LARGEST / 10 ** (k / 4)) for k in range(7, -1, -1))
+FITTED = 5  # of the largest sizes, a decade: below it what every step costs anyhow bends the line
 
 
 class Broadphases(Scene):
@@ -46,7 +54,7 @@ class Broadphases(Scene):
     pieces = ("circles", "boxes")
     features = (
         "brute force, sweep and prune, spatial hash, dynamic tree",
-        "live curves of pairs, tests and time",
+        "live curves of pairs and tests; cost over number, with its exponent",
         "four layouts, 10 to 5,000 bodies",
     )
     sliders = (Slider("bodies", 10, 5000, 600, step=10), Slider("layout", 0, 3, 0, choices=LAYOUTS))
@@ -67,30 +75,36 @@ class Broadphases(Scene):
         self.shown = set()
         self.fill()
 
+    @property
+    def layout(self):
+        """The name of the layout that is shown."""
+        return LAYOUTS[int(self.values["layout"])]
+
     def fill(self):
         """Four new worlds with the same bodies, from a seed of their own per layout and number."""
-        count, layout = int(self.values["bodies"]), LAYOUTS[int(self.values["layout"])]
-        random = Random(f"{self.seed} {layout} {count}")
-        positions = np.array([self._place(random, layout) for _ in range(count)])
-        speed = SLOW if layout == "ground" else FAST
-        velocities = np.array([(random.uniform(-speed, speed), random.uniform(-speed, speed)) for _ in range(count)])
-        if layout == "ground":
-            velocities[:, 1] = 0.0
-        moving = count if layout != "still" else max(1, int(count * MOVING_SHARE))
         self.worlds = []
         for strategy in STRATEGIES:
-            world = self.add_world(broadphase=strategy)
-            if layout == "giant":
-                world.add_body(Circle(GIANT), position=(WIDTH / 2, HEIGHT / 2), velocity=(SLOW, SLOW))
-            world.add_bodies(Circle(RADIUS), positions[:moving], velocities[:moving])
-            if moving < count:
-                world.add_bodies(Circle(RADIUS), positions[moving:], kind="static")
+            populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
 
-    def _place(self, random, layout):
-        x = random.uniform(RADIUS, WIDTH - RADIUS)
-        if layout == "ground":
-            return x, HEIGHT - RADIUS - min(abs(random.gauss(0.0, 60.0)), HEIGHT / 2)
-        return x, random.uniform(RADIUS, HEIGHT - RADIUS)
+    def measured(self):
+        """A step of each broad phase in this layout, for every size and for the present number."""
+        sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
+        names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
+        snapshot = cache(partial(snapshot_of, self.effects, self.seed))
+        return Lanes(names, lambda name: Lane([snapshot(*name[:2])], name[2], stage="broad_phase"))
+
+    def cost(self, strategy, count):
+        """Seconds that a step of a broad phase takes with so many bodies in this layout; None while it is not known."""
+        figures = self.figures.get((self.layout, count, strategy))
+        return figures.cost.median if figures is not None and figures.sure else None
+
+    def growth(self, strategy):
+        """The measured points of a broad phase in this layout, and the power law through the largest of them."""
+        known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
+        points = [(size, figures.cost) for size, figures in known if figures is not None]
+        done = all(figures is not None and figures.sure for _, figures in known)
+        law = fit_power_law([(size, cost.least) for size, cost in points[-FITTED:]]) if done else None
+        return Series(BROADPHASE_COLORS[strategy], points, law, FITTED)
 
     def change_slider(self, name, value):
         """Another number or layout: fill the worlds anew."""
@@ -112,7 +126,7 @@ class Broadphases(Scene):
         self.compared += 1
         self.disagreements += any(not np.array_equal(pairs, world.candidates) for world in self.worlds[1:])
         self.most_pairs = max(self.most_pairs, len(pairs))
-        self.shown.add(LAYOUTS[int(self.values["layout"])])
+        self.shown.add(self.layout)
         for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
             self.tests[strategy] += tests_of(world)
 
@@ -121,7 +135,6 @@ class Broadphases(Scene):
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
-        self.curves[2].note({name: broad_phase_seconds(w) * 1e6 for name, w in by_name.items()})
 
     def views(self):
         """One picture per world."""
@@ -130,24 +143,34 @@ class Broadphases(Scene):
     def draw(self, canvas, alpha):
         """Heads, grounds and bodies as dots; curves and structures come at window resolution."""
         canvas.surface.fill(NIGHT)
-        layout = LAYOUTS[int(self.values["layout"])]
         canvas.text("BROAD PHASES", 4, 4, GOLD)
         canvas.text(f"{len(self.world.bodies):,} bodies", 474, 4, PAPER, align="right")
-        canvas.text(ABOUT[layout], 96, 6, FOG, SMALL)
+        canvas.text(ABOUT[self.layout], 96, 6, FOG, SMALL)
         for name, world, camera in zip(STRATEGIES, self.worlds, self.cameras, strict=True):
             view, color = camera.viewport, BROADPHASE_COLORS[name]
             canvas.surface.fill((16, 13, 27), view)
             pygame.draw.rect(canvas.surface, SLATE, view.inflate(2, 2), 1)
             canvas.text(name, view.x, view.y - 11, color)
-            spent, tests = self.curves[2].typical(name), self.curves[1].typical(name)
-            canvas.text(f"{spent:,.0f} us", view.right, view.y - 9, color, SMALL, align="right")
+            spent, tests = self.cost(name, int(self.values["bodies"])), self.curves[1].typical(name)
+            words = "- us" if spent is None else f"{1e6 * spent:,.0f} us"
+            canvas.text(words, view.right, view.y - 9, color, SMALL, align="right")
             canvas.text(f"{tests:,.0f} tests", view.x + 36, view.y - 9, FOG, SMALL)
             draw_dots(canvas.surface, world, camera, color)
 
     def draw_on_frame(self, frame):
-        """The curves."""
+        """The curves, and cost over number."""
         for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
             curves.draw(frame, (PLOT_X, y, PLOT_WIDTH, PLOT_HEIGHT))
+        series = {name: self.growth(name) for name in STRATEGIES}
+        draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
+
+    def finding(self):
+        """How fast the cost of each strategy grows in this layout."""
+        laws = {name: self.growth(name).law for name in STRATEGIES}
+        if None in laws.values():
+            return ""
+        grown = ", ".join(f"{name} n^{law.exponent:.2f}" for name, law in laws.items() if law is not None)
+        return f"{self.layout}, {SIZES[-FITTED]:,} to {LARGEST:,} bodies: a step costs {grown}"
 
     def check(self):
         """The same pairs from all, and fewer tests than brute force from the three others."""
@@ -196,9 +219,34 @@ def tests_of(world):
     return counters["pairs_tested"] + counters["nodes_visited"]
 
 
-def broad_phase_seconds(world):
-    """What the last step's broad phase took [s]."""
-    return world.profile.stages["broad_phase"]
+def populate(world, layout, count, seed):
+    """Put so many bodies into a world, the same for the same layout, number and seed."""
+    random = Random(f"{seed} {layout} {count}")
+    positions = np.array([_place(random, layout) for _ in range(count)])
+    speed = SLOW if layout == "ground" else FAST
+    velocities = np.array([(random.uniform(-speed, speed), random.uniform(-speed, speed)) for _ in range(count)])
+    if layout == "ground":
+        velocities[:, 1] = 0.0
+    moving = count if layout != "still" else max(1, int(count * MOVING_SHARE))
+    if layout == "giant":
+        world.add_body(Circle(GIANT), position=(WIDTH / 2, HEIGHT / 2), velocity=(SLOW, SLOW))
+    world.add_bodies(Circle(RADIUS), positions[:moving], velocities[:moving])
+    if moving < count:
+        world.add_bodies(Circle(RADIUS), positions[moving:], kind="static")
+
+
+def _place(random, layout):
+    x = random.uniform(RADIUS, WIDTH - RADIUS)
+    if layout == "ground":
+        return x, HEIGHT - RADIUS - min(abs(random.gauss(0.0, 60.0)), HEIGHT / 2)
+    return x, random.uniform(RADIUS, HEIGHT - RADIUS)
+
+
+def snapshot_of(effects, seed, layout, count):
+    """The bodies of a layout, before their first step."""
+    world = World(effects)
+    populate(world, layout, count, seed)
+    return world.snapshot()
 
 
 def draw_dots(surface, world, camera, color):

@@ -19,6 +19,7 @@ from game.errors import FileError
 from game.input.inputs import InputFrame
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
+from game.wishes import Sprites
 from physics import TIERS, Effects, PixelMask, debug, fit
 from scenes.lab.coverage import covered
 from scenes.lab.yard import HEAD
@@ -132,9 +133,9 @@ class Ladder(Scene):
         del pixels
         return picture, (left + shift_x, top + shift_y)
 
-    def measured_sprites(self):
+    def measured(self):
         """The sprite against itself."""
-        return self.mask, self.mask
+        return Sprites(self.mask, self.mask)
 
     def update(self, inputs):
         """Left, right and the wheel take another sprite."""
@@ -163,7 +164,7 @@ class Ladder(Scene):
         canvas.text(NAMES.get(tier, tier), x, y, PAPER, SMALL)
         over, missed = self.counts[tier]
         lines = [("px too many", f"{over:,}"), ("px left out", f"{missed:,}")]
-        figures = self.tier_figures.get(tier)
+        figures = self.figures.get(tier)
         if figures is not None:
             found = figures.fit
             lines += [

@@ -76,7 +76,7 @@ class MaskStack(Scene):
 
     def fill(self):
         """Five new worlds with the same sprites."""
-        self.worlds, self.casts, self.tops, self.figures = [], [], [], []
+        self.worlds, self.casts, self.tops, self.shares = [], [], [], []
         self.since = 0
         self.nudged = 0
         self.starts = dict.fromkeys(WAYS, 0.0)  # height of the top when it was laid down [px]
@@ -109,7 +109,7 @@ class MaskStack(Scene):
                 top, self.starts[way] = body, y
         self.casts.append(cast)
         self.tops.append(top)
-        self.figures.append(tuple(totals.tolist()))
+        self.shares.append(tuple(totals.tolist()))
 
     def _places(self):
         """(kind, x, y) of each sprite: its box touches that of the one below."""
@@ -203,7 +203,7 @@ class MaskStack(Scene):
             *(box.right - 3, box.y + 7, GREEN if asleep else GOLD, SMALL),
             align="right",
         )
-        corners, over, missed = self.figures[number]
+        corners, over, missed = self.shares[number]
         cost = self.cost[way]
         rows = (
             ("corners", f"{corners:.0f}"),
@@ -233,8 +233,8 @@ class MaskStack(Scene):
 
     def check(self):
         """Outlines stand and sleep; boxes and hulls hold air that no outline holds."""
-        air = dict(zip(WAYS, (each[1] for each in self.figures), strict=True))
-        corners = dict(zip(WAYS, (each[0] for each in self.figures), strict=True))
+        air = dict(zip(WAYS, (each[1] for each in self.shares), strict=True))
+        corners = dict(zip(WAYS, (each[0] for each in self.shares), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
         return [
             Goal("the outlines stand", SLEPT_BY, self.stands_now("outline"), f"sinks {self.sinks['outline']:.2f} px"),

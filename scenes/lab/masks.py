@@ -17,6 +17,7 @@ from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
+from game.wishes import Sprites
 from physics import TIERS, Effects, World, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
@@ -84,9 +85,9 @@ class Masks(Scene):
         self.lies: dict[str, int] = dict.fromkeys(TIERS, 0)  # steps in which a tier said hit and the pixels did not
         self.wrong = self.steps = self.apart = self.hits = 0
 
-    def measured_sprites(self):
+    def measured(self):
         """The two planes."""
-        return self.masks[0], self.masks[1]
+        return Sprites(self.masks[0], self.masks[1])
 
     def _world(self, tier):
         world = self.add_world()
@@ -156,7 +157,7 @@ class Masks(Scene):
         canvas.text(NAMES.get(tier, tier), TABLE_X + 2, y - 1, PAPER)
         word = "HIT, and it is none" if lies else "HIT" if verdict else "no"
         canvas.text(word, 474, y, GOLD if lies else PAPER, SMALL, align="right")
-        figures = self.tier_figures.get(tier)
+        figures = self.figures.get(tier)
         if figures is None:
             canvas.text("measuring", 474, y + 9, PAPER, SMALL, align="right")
             return
@@ -175,7 +176,7 @@ class Masks(Scene):
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
         shared = f"{int(found.area)} pixels shared, {depth:.1f} px deep" if len(found) else "no pixel is shared"
-        figures = self.tier_figures.get("mask")
+        figures = self.figures.get("mask")
         if figures is None:
             return shared, "poses are being tested beside the game"
         hits = figures.missed.total

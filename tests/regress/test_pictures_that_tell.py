@@ -140,7 +140,7 @@ def test_one_slow_step_is_not_a_figure():
     assert typical.value == 5.0 == np.median(list(typical.last))
 
 
-@pytest.mark.parametrize("name", ["lab/broadphases", "lab/pyramid", "lab/tumbler"])
+@pytest.mark.parametrize("name", ["lab/tumbler"])
 def test_a_slow_step_is_not_shown(name, monkeypatch):
     play = screen(name, 20)
     scene = play.scene

@@ -79,7 +79,7 @@ def test_a_picture_of_ones_own_is_at_every_tier(tmp_path):
     scene = Ladder(level=tmp_path / "roof.png")
     assert scene.sprite_name == "roof.png" and scene.mask.area == pygame.mask.from_surface(picture).count()
     assert scene.counts["aabb"][0] > scene.counts["hull"][0]
-    assert scene.measured_sprites() == (scene.mask, scene.mask)
+    assert scene.measured() == (scene.mask, scene.mask)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Joins a played scene to what measures it: which world, when a moment is taken, what a setting changes there."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
+from operator import is_
 
 from game.drawing.number_text import plain_name
 from game.input.devices import DeviceSource
@@ -9,7 +10,8 @@ from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
 from game.scene import SUBSTEPS, Scene
 from game.screens.parts.race import Race
-from physics import PixelMask, World
+from game.wishes import Lanes, Sprites
+from physics import World
 
 EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
@@ -23,8 +25,8 @@ class Measuring:
     def __init__(self, scene: Scene, devices: DeviceSource, prepare: Callable[[str], None]) -> None:
         self.scene, self.devices, self.prepare = scene, devices, prepare
         self.surveyor = Surveyor()
-        self.bench = Surveyor()  # of the scene's sprites …
-        self.benched: tuple[PixelMask, PixelMask] | None = None  # … which are these
+        self.bench = Surveyor()  # of what the scene wants to know …
+        self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or lanes of these names
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
         self.race: Race | None = None  # against another setting
 
@@ -37,20 +39,21 @@ class Measuring:
         """The setting that runs."""
         return here_of(self.world, self.scene.tier)
 
-    def measure_sprites(self) -> None:
-        """Once per picture: what the scene wants to know of the tiers of its sprites is measured, once."""
-        sprites = self.scene.measured_sprites()
-        if sprites is None:
-            return
-        if self.benched is None or sprites[0] is not self.benched[0] or sprites[1] is not self.benched[1]:
+    def measure_wish(self) -> None:
+        """Once per picture: what the scene wants to know is measured, once."""
+        wish = self.scene.measured()
+        if isinstance(wish, Sprites) and not (self.benched and all(map(is_, wish, self.benched))):
             self.bench.stop()
-            self.bench, self.benched = Surveyor(), sprites
-            self.bench.measure_sprites(*sprites)
+            self.bench, self.benched = Surveyor(), wish
+            self.bench.measure_sprites(*wish)
+        if isinstance(wish, Lanes) and wish.names != self.benched:
+            self.benched = wish.names
+            self.bench.measure_lanes(wish)
         if self.bench.busy:
             self.bench.turn()
             if not self.bench.busy:
                 self.bench.stop()
-        self.scene.tier_figures = self.bench.tiers
+        self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> None:
         """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done."""

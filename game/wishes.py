@@ -1,0 +1,35 @@
+"""What a scene wants to have measured beside the game: two sprites at every tier, or lanes of worlds to be stepped.
+
+What was found comes into its `figures`, by tier or by the name of the lane. It is never part of its state.
+"""
+
+from collections.abc import Callable, Hashable, Sequence
+from typing import NamedTuple
+
+from physics import PixelMask, Snapshot
+
+STEPS = 60  # of a run, at least: a second of play, five times 60 make the 300 that a cost is measured on
+
+
+class Sprites(NamedTuple):
+    """Every tier of these two; each change of them is measured anew. Figures: {tier: TierFigures}."""
+
+    first: PixelMask
+    second: PixelMask
+
+
+class Lane(NamedTuple):
+    """Worlds, as they are at one moment, to be stepped on: what costs `name`. Figures: {name: LaneFigures}."""
+
+    snapshots: Sequence[Snapshot]
+    broadphase: str  # the strategy of all of them
+    steps: int = STEPS  # that each is stepped in a run
+    stage: str | None = None  # only this stage of a step is counted; None: the whole step
+    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap is wanted
+
+
+class Lanes(NamedTuple):
+    """make(name): what is to be stepped, asked once of each name that is not known yet; the others are remembered."""
+
+    names: Sequence[Hashable]  # numbers, words, tuples of them: two lanes of one name cost the same
+    make: Callable[[Hashable], Lane]

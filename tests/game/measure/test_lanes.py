@@ -1,0 +1,136 @@
+"""What a scene wants to know is measured off its frame: five runs of each lane, once, remembered by name."""
+
+import json
+
+import pytest
+
+from game.input.devices import DeviceSource
+from game.measure.knowing import know
+from game.measure.lanes import LaneFigures, measure_lanes
+from game.measure.surveyor import Surveyor
+from game.measure.timing import RUNS, Cost
+from game.measure.worker import measure_stored_lanes
+from game.screens.parts.measuring import Measuring
+from game.wishes import STEPS, Lane, Lanes
+from physics import Effects, Polygon, World
+from tests.game.arena import Arena
+
+PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
+
+
+def pile(count):
+    world = World(PILE)
+    world.add_body(Polygon.box(400, 20), kind="static")
+    for number in range(count):
+        world.add_body(Polygon.box(20, 20), position=(0.0, -20.0 - 19.0 * number))
+    return world.snapshot()
+
+
+def lane_of(count, **more):
+    return Lane([pile(count)], "hash", **more)
+
+
+class Wishing(Arena):
+    """Wants to know what the piles in `piles` cost; counts how often it was asked to make one."""
+
+    piles, made = (1, 2), 0
+
+    def measured(self):
+        return Lanes(self.piles, self.make)
+
+    def make(self, name):
+        self.made += 1
+        return lane_of(name, steps=3)
+
+
+def test_every_lane_is_run_five_times_in_turns():
+    told = []
+    measure_lanes([lane_of(1), lane_of(12)], lambda *found: told.append(found), lambda: True)
+    assert [number for number, _, _ in told[:2]] == [0, 1]
+    assert sorted(number for number, _, _ in told) == [0] * RUNS + [1] * RUNS
+    least = {which: min(spent for number, spent, _ in told if number == which) for which in (0, 1)}
+    assert 0.0 < least[0] < least[1], "twelve boxes cost more than one"
+
+
+def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
+    told = {}
+    lanes = [lane_of(8), lane_of(8, stage="broad_phase"), lane_of(8, stage="none of this name")]
+    measure_lanes(lanes, lambda number, spent, _: told.setdefault(number, []).append(spent), lambda: True)
+    assert min(told[0]) > min(told[1]) > 0.0 and max(told[2]) == 0.0
+
+
+def test_an_overlap_is_that_of_the_steps_that_are_judged():
+    told, snapshot = [], pile(5)
+    measure_lanes([Lane([snapshot], "hash", judged=(3, 7))], lambda *found: told.append(found), lambda: True)
+    world, deepest = World(PILE), []
+    world.restore(snapshot)
+    for _ in range(7):
+        world.step()
+        deepest.append(max(0.0, -float(world.contacts["separation"].min())))
+    assert {overlap for _, _, overlap in told} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
+
+
+def test_who_is_asked_for_something_else_stops():
+    told = []
+    measure_lanes([lane_of(1)] * 3, lambda *found: told.append(found), lambda: len(told) < 2)
+    assert len(told) == 2
+
+
+def test_a_process_measures_lanes_and_remembers_them_by_name():
+    surveyor = Surveyor()
+    try:
+        surveyor.measure_lanes(Lanes([("pile", 1), ("pile", 4)], lambda name: lane_of(name[1])))
+        surveyor.wait(120.0)
+        assert not surveyor.trouble and not surveyor.busy
+        found = dict(surveyor.figures)
+        assert set(found) == {("pile", 1), ("pile", 4)} and all(map(surveyor.knows, found))
+        assert all(figures.cost.pieces == STEPS and figures.cost.least > 0.0 for figures in found.values())
+        asked = []
+        surveyor.measure_lanes(Lanes([("pile", 4), ("pile", 2)], lambda name: asked.append(name) or lane_of(name[1])))
+        surveyor.wait(120.0)
+        assert asked == [("pile", 2)] and surveyor.figures.items() > found.items()
+    finally:
+        surveyor.stop()
+
+
+def test_what_a_worker_tells_is_what_the_lanes_are_made_of(tmp_path):
+    pile(2).save(tmp_path / "pile.npz")
+    stored = lane_of(2, steps=4)._replace(snapshots=[str(tmp_path / "pile.npz")] * 3)._asdict()
+    lines = []
+    measure_stored_lanes({"moment": "lanes 0", "lanes": [stored]}, lines.append, lambda: True)
+    told = [json.loads(line) for line in lines]
+    assert [each.get("lane") for each in told] == [0] * RUNS + [None]
+    assert told[-1] == {"moment": "lanes 0", "done": True}
+    (tmp_path / "pile.npz").write_bytes(b"nothing")
+    with pytest.raises(ValueError, match="no snapshot of this program"):
+        measure_stored_lanes({"moment": "lanes 1", "lanes": [stored]}, print, lambda: True)
+
+
+def test_a_screen_asks_once_for_each_name():
+    scene = Wishing()
+    measuring = Measuring(scene, DeviceSource(), lambda solver: None)
+    try:
+        for piles in ((1, 2), (2, 3), (1, 3)):
+            scene.piles = piles
+            for _ in range(3):
+                measuring.measure_wish()
+            measuring.bench.wait(120.0)
+            measuring.measure_wish()
+        assert scene.made == 3 and set(scene.figures) == {1, 2, 3}
+        assert all(figures.sure for figures in scene.figures.values())
+    finally:
+        measuring.leave()
+
+
+def test_where_nobody_plays_it_is_known_at_once():
+    scene = Wishing()
+    know(scene)
+    know(scene)
+    assert scene.made == 2 and all(figures.cost.runs == RUNS for figures in scene.figures.values())
+    assert not LaneFigures(Cost.of([1.0] * (RUNS - 1), 1)).sure
+
+
+def test_figures_are_no_part_of_a_scene():
+    plain, known = Wishing(), Wishing()
+    know(known)
+    assert plain.state() == known.state() and known.measured().names == plain.measured().names
