@@ -1,0 +1,96 @@
+"""Chart 10: the ledger. What each effect of a scene changes while its bot plays, and what it takes of a step."""
+
+from collections.abc import Sequence
+
+from game.measure.ledger import EFFECTS, Entry, entry
+from game.report.chart import Axis, Chart, Panel, panel_is, value
+from game.report.charts.latency import scene_class
+from game.report.claim import HOLDS, TIE, Claim
+from game.report.job import Job, Plan, Row
+from game.run.headless import start_dummy_display
+from game.run.warmup import warm_up_scene
+
+FRAMES, FRAMES_QUICK = 600, 150  # steps of the bot's run
+FEW = ("shooter", "lab/pyramid")
+MICRO = 1e6
+
+
+def measure(scene: str, where: str, frames: int) -> list[Row]:
+    """A row per effect. What a step takes more is a median of differences of steps made side by side."""
+    start_dummy_display()
+    made = scene_class(where)
+    warm_up_scene(made, None, None)
+    return [_row(scene, entry(made, effect, frames)) for effect in EFFECTS]
+
+
+def _row(scene: str, found: Entry) -> Row:
+    return {
+        "series": found.effect,
+        "label": f"{scene}, {'declared' if found.declared else 'put in idle'}",
+        "panel": "declared" if found.declared else "idle",
+        "scene": scene,
+        "declared": found.declared,
+        "with": list(found.changed),
+        "refused": found.refused,
+        "matters": found.matters,
+        "moved": found.moved,
+        "told": found.told,
+        "ruled": found.ruled,
+        "parted": found.parted,
+        "apart": None if found.refused else found.apart,
+        "worked": found.worked,
+        "worked_without": found.worked_without,
+        "us_cost": None if found.refused else MICRO * found.cost,
+    }
+
+
+def _jobs(plan: Plan) -> list[Job]:
+    frames, chosen = (FRAMES_QUICK, FEW) if plan.quick else (FRAMES, plan.scenes)
+    return [
+        Job(
+            f"effects/{name}".replace("lab/", "lab-"),
+            "game.report.charts.effects:measure",
+            {"scene": name, "where": plan.scenes[name], "frames": frames},
+            6.0 if plan.quick else 25.0,
+        )
+        for name in chosen
+    ]
+
+
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        declared = [row for row in rows if row["scene"] == scene and row["declared"]]
+        idle = [row["series"] for row in declared if not row["matters"]]
+        figure = f"{len(declared) - len(idle)} of {len(declared)} would be missed" + (
+            f", not {', '.join(idle)}" if idle else ""
+        )
+        found.append(Claim(f"{scene} declares only effects that it calls for", figure, FAILS if idle else HOLDS))
+    return found
+
+
+CHART = Chart(
+    10,
+    "effects",
+    "What each effect buys, and what it takes",
+    "How far does a run go astray without an effect, and how much time does that save? What would an idle one take?",
+    "the same scene, played by the same keys beside it; figures are of 2 s after the two part",
+    (
+        Panel(
+            "declared: taken out",
+            Axis("us a step that it takes", value("us_cost"), log=False),
+            Axis("px RMS astray without it", value("apart"), mark=1.0),
+            panel_is("declared"),
+            "",
+        ),
+        Panel(
+            "not declared: put in with nothing to do",
+            Axis("us a step that it takes", value("us_cost"), log=False),
+            Axis("px RMS astray with it", value("apart"), mark=1.0),
+            panel_is("idle"),
+            "",
+        ),
+    ),
+    _jobs,
+    _claims,
+)
