@@ -25,7 +25,7 @@ APART = {"physics": set(), "assets": set(), "game": {"physics"}, "scenes": {"phy
 # Within game/, from the inside out: input knows no screens, screens know no command line.
 GAME = (
     "errors", "places", "processes", "startup", "input", "files", "drawing", "audio", "invariants", "wishes", "scene",
-    "overlays", "registry", "measure", "run", "parts", "screens", "app", "command_line",
+    "overlays", "registry", "measure", "run", "report", "parts", "screens", "app", "command_line",
 )  # fmt: skip
 LIMIT = 400
 BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "base", "misc"}

@@ -5,13 +5,13 @@ all else is a fact, which is the same wherever and how often it is found.
 """
 
 import importlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from time import perf_counter
 from typing import Any, NamedTuple
 
 from game.measure.rates import Rate
 from game.measure.timing import Cost
+from physics.jit.compile_time import compiling
 
 Row = dict[str, Any]
 COST = "cost"  # what the keys of times end in
@@ -48,19 +48,6 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
         found["failed"] = f"{type(error).__name__}: {error}"
     found["spent"] = perf_counter() - started
     return found
-
-
-@contextmanager
-def compiling() -> Iterator[Callable[[], float]]:
-    """Tells the seconds that went into compiling since; 0 without numba."""
-    try:
-        from numba.core import event
-    except ImportError:
-        yield lambda: 0.0
-        return
-    listener = event.TimingListener()
-    with event.install_listener("numba:compiler_lock", listener):
-        yield lambda: listener.duration if listener.done else 0.0
 
 
 def spread(cost: Cost) -> Row:

@@ -1,0 +1,98 @@
+"""docs/accuracy.md: the story of a full report in twelve plots, from the rows kept in docs/accuracy.json."""
+
+import json
+from pathlib import Path
+
+from game.report.chart import Chart, Panel
+from game.report.charts import CHARTS
+from game.report.claim import TIE
+from game.report.plots import Dot, dots_of
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+PAGE, KEPT, PLOTS = DOCS / "accuracy.md", DOCS / "accuracy.json", DOCS / "accuracy"
+DIGITS = 4  # of the numbers that are kept
+MOST = 6  # claims told of a chart; the others are in the report
+STORY = {  # by chart: the panel that tells the most
+    "tiers": "wrong hits, poses all around",
+    "contacts": "normal, disc against disc",
+    "fit": "largest distance",
+    "solvers": "pyramid of 20 rows: overlap after 2 s",
+    "integration": "slide down 30 degrees: over dt",
+    "continuous": "missed",
+    "continuous-time": "100 discs",
+    "broadphases": "even, all move",
+    "far": "boxes",
+    "effects": "declared: taken out",
+    "chaos": "when",
+    "latency": "time",
+}
+INTRODUCTION = """# What accuracy costs in time
+
+What {version} measured on one machine ({machine}),
+in a full report of {seconds:.0f} s. Costs are the least, the median and the upper quartile of several runs; errors are
+against references that cannot be argued with, which each plot names. A line joins what nothing beats in both; dashes are
+what a player can see. An ordering is claimed where intervals are apart and by more than a tenth; else it is a tie.
+
+```sh
+python main.py --report DIR             # measures it all again, with the plots to point at, the tables and the raw data
+python -m tests.accuracy DIR            # makes this page from that report
+```
+"""
+
+
+def panel_of(chart: Chart, rows: list) -> Panel:
+    """The panel of a chart that the story shows."""
+    panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
+    return next(panel for panel in panels if panel.title == STORY[chart.key])
+
+
+def rounded(value):
+    """Numbers with DIGITS digits, in whatever holds them."""
+    if isinstance(value, dict):
+        return {key: rounded(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [rounded(each) for each in value]
+    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+
+
+def rows_of(kept: dict, chart: Chart) -> list:
+    """The rows that a chart shows."""
+    return kept["rows"][chart.of or chart.key]
+
+
+def dots(kept: dict, chart: Chart) -> list[Dot]:
+    """What the chart's plot of the story shows."""
+    return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
+
+
+def charts() -> list[Chart]:
+    """Those of the story, in the order of their numbers."""
+    return [chart for chart in CHARTS if chart.key in STORY]
+
+
+def text(kept: dict) -> str:
+    """The page."""
+    facts = ", ".join(f"{name} {value}" for name, value in kept["machine"].items())
+    version = f"Hitbox {kept['version']}"
+    parts = [INTRODUCTION.format(version=version, machine=facts, seconds=kept["seconds"])]
+    for chart in charts():
+        rows = rows_of(kept, chart)
+        claims = chart.claims(rows)
+        # What somebody claims goes first, then what is sure.
+        told = sorted(claims, key=lambda claim: (not claim.source, claim.verdict == TIE))
+        lines = [f"| {claim.text} | {claim.figure} | {claim.verdict} | {claim.source} |" for claim in told[:MOST]]
+        table = "\n".join(["| claim | measured | verdict | whose |", "|---|---|---|---|", *lines]) if lines else ""
+        more = f"\nAnd {len(claims) - MOST} more, in the report." if len(claims) > MOST else ""
+        parts += [
+            f"## {chart.number}. {chart.title}",
+            chart.question,
+            f"![{STORY[chart.key]}](accuracy/{chart.key}.svg)",
+            f"Truth: {chart.truth}. `python main.py --report DIR --only {chart.of or chart.key}`",
+            f"{table}\n{more}",
+        ]
+    return "\n\n".join(part.strip() for part in parts if part.strip()) + "\n"
+
+
+def read(path: Path = KEPT) -> dict:
+    """What is kept."""
+    return json.loads(path.read_text(encoding="utf-8"))

@@ -1,0 +1,40 @@
+"""docs/accuracy.md says what docs/accuracy.json holds, and each of its plots shows every dot of it."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+from game.report.claim import FAILS, HOLDS, TIE
+from tests.accuracy.page import DOCS, PAGE, PLOTS, STORY, charts, dots, read, text
+
+
+@pytest.fixture(scope="module")
+def kept():
+    return read()
+
+
+def test_the_page_is_what_the_kept_rows_say(kept):
+    assert PAGE.read_text(encoding="utf-8") == text(kept), "make it again: python -m tests.accuracy DIR"
+
+
+@pytest.mark.parametrize("chart", charts(), ids=lambda chart: chart.key)
+def test_each_plot_shows_every_dot(kept, chart):
+    shown = dots(kept, chart)
+    path = PLOTS / f"{chart.key}.svg"
+    ids = {each.get("id") for each in ElementTree.parse(path).iter()}
+    assert len(shown) > 2 and {f"{chart.key}-{k}" for k in range(len(shown))} <= ids
+    assert f"{chart.key}-{len(shown)}" not in ids
+    assert "var(--ink)" in path.read_text(encoding="utf-8")
+
+
+def test_there_are_twelve_and_each_claims_something(kept):
+    assert len(STORY) == 12 == len(charts())
+    assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 12
+    verdicts = {claim.verdict for chart in charts() for claim in chart.claims(kept["rows"][chart.of or chart.key])}
+    assert verdicts == {HOLDS, FAILS, TIE}, "what does not hold is told too"
+
+
+def test_the_readme_opens_with_a_plot_of_it():
+    opening = (DOCS.parent / "README.md").read_text(encoding="utf-8").split("\n## ")[0]
+    assert "docs/accuracy/tiers.svg" in opening and "docs/accuracy.md" in opening
