@@ -15,7 +15,8 @@ class Claim(NamedTuple):
     figure: str
     verdict: str
     source: str = ""
-    order: tuple[str, ...] = ()  # what is claimed to be cheaper, then than what; () where it is no ordering
+    order: tuple[str, ...] = ()  # of an ordering: the cheapest, all that may be where that is a tie
+    about: str = ""  # of an ordering: what of, without the winner's name
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
@@ -28,11 +29,10 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
     ordered = sorted(costs, key=lambda name: costs[name][1])
     best = ordered[0]
     alike = [name for name in ordered if name == best or not cheaper(costs[best], costs[name])]
-    rest = [name for name in ordered if name not in alike]
     told = ", ".join(f"{name} {costs[name][1] * unit:.3g} {word}" for name in ordered[:3])
     if len(alike) > 1:
-        return Claim(f"{what}: {' and '.join(alike)} are the cheapest", told, TIE, "", tuple(sorted(alike)))
-    return Claim(f"{what}: {best} is the cheapest", told, HOLDS, "", (best, *rest[:1]))
+        return Claim(f"{what}: {' and '.join(alike)} are the cheapest", told, TIE, "", tuple(sorted(alike)), what)
+    return Claim(f"{what}: {best} is the cheapest", told, HOLDS, "", (best,), what)
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:

@@ -30,8 +30,8 @@ INTRODUCTION = """# What accuracy costs in time
 
 What {version} measured on one machine ({machine}),
 in a full report of {seconds:.0f} s. Costs are the least, the median and the upper quartile of several runs; errors are
-against references that cannot be argued with, which each plot names. A line joins what nothing beats in both; dashes are
-what a player can see. An ordering is claimed where intervals are apart and by more than a tenth; else it is a tie.
+against references that cannot be argued with, which each plot names. A line joins what nothing beats in both; dashes
+are what a player can see. An ordering is claimed where intervals are apart and by more than a tenth; else it is a tie.
 
 ```sh
 python main.py --report DIR             # measures it all again, with the plots to point at, the tables and the raw data

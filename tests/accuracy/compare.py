@@ -1,0 +1,95 @@
+"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and how their
+times stand to each other, chart by chart and series by series.
+
+What is sure in one must not be wrong in the other. A tie contradicts nobody that is in it.
+"""
+
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from statistics import median
+
+from game.report.chart import Chart
+from game.report.charts import CHARTS
+from game.report.claim import FAILS, HOLDS, TIE, Claim
+from game.report.job import Row
+
+Reports = dict[str, list[Row]]
+
+
+def read(folder: Path) -> Reports:
+    """{chart's key: its rows}."""
+    return {chart.key: json.loads((folder / "data" / f"{chart.key}.json").read_text()) for chart in CHARTS}
+
+
+def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Claim]:
+    """{what is claimed, but for who wins: the claim}."""
+    found = {}
+    for chart in charts:
+        for claim in chart.claims(report[chart.key]):
+            found[f"{chart.key}: {claim.about or claim.text}"] = claim
+    return found
+
+
+def contradicts(a: Claim, b: Claim) -> bool:
+    """Whether what one is sure of is wrong by the other."""
+    if a.order and b.order:
+        return not set(a.order) & set(b.order)
+    return {a.verdict, b.verdict} == {HOLDS, FAILS}
+
+
+def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> list[tuple[str, Claim, Claim]]:
+    """(what, by the first, by the second) of what both claim and do not agree on."""
+    ours, theirs = claims_of(first, charts), claims_of(second, charts)
+    both = [name for name in ours if name in theirs]
+    return [(name, ours[name], theirs[name]) for name in both if contradicts(ours[name], theirs[name])]
+
+
+def ratios(first: Reports, second: Reports) -> dict[tuple[str, str], float]:
+    """{(chart, series): median of the second's times over the first's}, all relative to the median of all: a machine
+    that is slower in one run is slower everywhere."""
+    found: dict[tuple[str, str], list[float]] = {}
+    for key, rows in first.items():
+        theirs = {_name(row): row for row in second[key]}
+        for row in rows:
+            for name, cost in _costs(row):
+                other = theirs.get(_name(row), {}).get(name)
+                if other:
+                    ratio = other["seconds"][0] / cost["seconds"][0]
+                    found.setdefault((key, str(row["series"])), []).append(ratio)
+    if not found:
+        return {}
+    usual = median(each for every in found.values() for each in every)
+    return {name: median(every) / usual for name, every in found.items()}
+
+
+def _costs(row) -> Iterator[tuple[str, Row]]:
+    return (
+        (name, value) for name, value in row.items() if isinstance(value, dict) and value.get("seconds", [0])[0] > 0
+    )
+
+
+def _name(row):
+    return row["job"], row["series"], row["label"], row.get("panel")
+
+
+def main(first: Path, second: Path) -> int:
+    """Print both; 1 where they contradict each other."""
+    a, b = read(first), read(second)
+    ours, theirs = claims_of(a), claims_of(b)
+    found = contradictions(a, b)
+    sure = [name for name in ours if name in theirs and ours[name].verdict != TIE]
+    told = f"{len(ours)} and {len(theirs)} claims, {len(sure)} sure in the first and told by both"
+    print(f"{told}, {len(found)} contradictions")
+    for name, one, other in found:
+        print(f"  {name}")
+        for each in (one, other):
+            print(f"    {each.text}: {each.figure} ({each.verdict})")
+    for (chart, series), ratio in sorted(ratios(a, b).items(), key=lambda pair: -abs(pair[1] - 1.0))[:12]:
+        print(f"  {ratio:6.2f} x  {chart}, {series}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]), Path(sys.argv[2])))
