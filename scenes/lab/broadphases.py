@@ -17,6 +17,7 @@ from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from game.wishes import Lane, Lanes
 from physics import JIT, Circle, Effects, World
+from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.growth import Series, draw_growth
 from scenes.lab.power_law import fit_power_law
@@ -93,11 +94,6 @@ class Broadphases(Scene):
         snapshot = cache(partial(snapshot_of, self.effects, self.seed))
         return Lanes(names, lambda name: Lane([snapshot(*name[:2])], name[2], stage="broad_phase"))
 
-    def cost(self, strategy, count):
-        """Seconds that a step of a broad phase takes with so many bodies in this layout; None while it is not known."""
-        figures = self.figures.get((self.layout, count, strategy))
-        return figures.cost.median if figures is not None and figures.sure else None
-
     def growth(self, strategy):
         """The measured points of a broad phase in this layout, and the power law through the largest of them."""
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
@@ -151,9 +147,8 @@ class Broadphases(Scene):
             canvas.surface.fill((16, 13, 27), view)
             pygame.draw.rect(canvas.surface, SLATE, view.inflate(2, 2), 1)
             canvas.text(name, view.x, view.y - 11, color)
-            spent, tests = self.cost(name, int(self.values["bodies"])), self.curves[1].typical(name)
-            words = "- us" if spent is None else f"{1e6 * spent:,.0f} us"
-            canvas.text(words, view.right, view.y - 9, color, SMALL, align="right")
+            spent, tests = (self.layout, int(self.values["bodies"]), name), self.curves[1].typical(name)
+            canvas.text(cost_text(self, spent), view.right, view.y - 9, color, SMALL, align="right")
             canvas.text(f"{tests:,.0f} tests", view.x + 36, view.y - 9, FOG, SMALL)
             draw_dots(canvas.surface, world, camera, color)
 

@@ -16,7 +16,9 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes
 from physics import Circle, Effects, Material, Polygon
+from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, kinetic_energy
 from scenes.lab.yard import HEAD, Yard, darken, plate
 
@@ -29,6 +31,7 @@ MIDDLE, LINE = 500.0, 72.0  # [px] middle of the row, height of the channel's ax
 LEFT, RIGHT = 14.0, 946.0  # [px] faces of the end walls
 FIRST = 60.0  # [px] of the first striker
 SPEED = 300.0  # [px/s] 5 px a step, less than the gap: one collision at a time
+PERIOD = round(60 * 2 * (RIGHT - LEFT) / SPEED)  # steps that a ball alone would take to and fro
 SEEN = 1e-6  # of the strikers' speed: more is told as wrong
 SCATTERED = 0.01  # of that speed: the row has lost its order
 CLEAN = 1e-9  # of the striker's speed, momentum or energy
@@ -123,6 +126,14 @@ class Cradle(Scene):
         )
         self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
 
+    def measured(self):
+        """A step of each channel, over one way of a ball to its wall and back: every chain of collisions counts."""
+        worlds = dict(zip(SOLVERS, self.worlds, strict=True))
+        return Lanes(
+            [(*self.chosen, name) for name in SOLVERS],
+            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase, PERIOD),
+        )
+
     def struck(self, index):
         """True once a ball of the row has moved, or moves."""
         row = self.balls[index][-ROW:]
@@ -180,6 +191,8 @@ class Cradle(Scene):
         canvas.text(f"{momentum:+.4f} %", 110, y, PAPER, SMALL, align="right")
         canvas.text("energy", 134, y, FOG, SMALL)
         canvas.text(f"{energy:.4f} %", 226, y, PAPER, SMALL, align="right")
+        canvas.text("a step", 250, y, FOG, SMALL)
+        canvas.text(cost_text(self, (*self.chosen, name)), 326, y, PAPER, SMALL, align="right")
         words, color = self.verdict(index)
         canvas.text(words, 470, y, color, SMALL, align="right")
 

@@ -16,7 +16,9 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, S
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
+from scenes.lab.costs import cost_text
 from scenes.lab.pieces import piece
 from scenes.lab.yard import HEAD
 
@@ -148,6 +150,17 @@ class GhostBumps(Scene):
                 self._put(index, kind)
         self.curves[floor].append((error_now, height_now))
 
+    def measured(self):
+        """A step of each floor, from where at least another second of it lies ahead."""
+        ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
+        if self.run == 0 or ahead < self.values["speed"]:
+            return None
+        worlds = dict(zip(FLOORS, self.worlds, strict=True))
+        return Lanes(
+            [(*self.chosen, floor) for floor in FLOORS],
+            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase),
+        )
+
     def _follow(self, jump=False):
         for camera in self.cameras:
             x = START_X["disc"] + self.nominal - camera.viewport.width / 2 + 24
@@ -179,6 +192,8 @@ class GhostBumps(Scene):
             stops = sum(self.set_back[floor, kind] for kind in KINDS)
             canvas.text(TITLES[floor], 326, y, COLORS[floor], SMALL)
             canvas.text(f"{stops} set back" if stops else "never set back", 474, y, FOG, SMALL, align="right")
+            canvas.text("a step", 326, y + 7, FOG, SMALL)
+            canvas.text(cost_text(self, (*self.chosen, floor)), 474, y + 7, PAPER, SMALL, align="right")
 
     def _draw_strip(self, canvas, floor, camera, alpha):
         view, surface = camera.viewport, canvas.surface

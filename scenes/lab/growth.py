@@ -19,7 +19,7 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 
 
 class Series(NamedTuple):
-    """points: (number, cost), smallest number first; law: through the least of the last `fitted`, None: not known yet."""
+    """points: (number, cost), smallest number first; law: through the last `fitted`, None: not known yet."""
 
     color: Color
     points: Sequence[tuple[int, Cost]]

@@ -8,20 +8,25 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY
+from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
 from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measure.setting import SUBSTEPPED
 from game.scene import Goal, Scene, Slider
-from physics import Circle, Effects, Material, Polygon
+from game.wishes import Lane, Lanes
+from physics import BROADPHASES, Circle, Effects, Material, Polygon, World
+from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
-from scenes.lab.piles import SOLVERS, deepest, fastest, height_energy, kinetic_energy, step_seconds
+from scenes.lab.piles import SOLVERS, deepest, fastest, height_energy, kinetic_energy
+from scenes.lab.scatter import Dot, draw_scatter
 from scenes.lab.yard import HEAD, Yard, plate
 
 SIZE = 32.0  # [px] a crate of one metre
 LOOKS = ((9, 24), (14, 16), (20, 11))  # up to so many rows, crates are drawn that large [canvas px]
 FLOOR = 248  # [canvas px]
+SUBSTEPS = (1, 2, 3, 4, 6, 8)  # that are measured; others, when they were tried
 MIDDLE = 300  # [canvas px] the pyramid's axis
 GAP = 0.02  # of a crate, between neighbours in a row
 BALL = 20  # [canvas px] radius of the ball's picture
@@ -30,7 +35,9 @@ BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] at which it i
 DROP_AT = 330  # the bot's step
 JUDGED_AT = 300  # step at which the pyramid has to have stood still
 ENERGY_SLACK = 0.001  # of the height energy
-PLOTS = (("microseconds a step [log]", 108), ("overlap, 1/1000 crate [log]", 160))
+OVERLAP = "overlap, 1/1000 crate [log]"
+OVERLAP_AT, SCATTER_AT = (4, 178, 130, 32), (4, 106, 130, 68)  # [canvas px]
+COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 
 
 class Pyramid(Scene):
@@ -43,7 +50,7 @@ class Pyramid(Scene):
     pieces = ("boxes", "circles")
     features = (
         "soft step with substeps, against the other solvers",
-        "overlap, energy and cost measured live",
+        "overlap and energy live; error against time of every solver and number of substeps",
         "a heavy ball to knock it down",
     )
     solvers = SOLVERS
@@ -56,7 +63,8 @@ class Pyramid(Scene):
     def build(self):
         """The yard and the curves; fill() raises the pyramid."""
         self.yard = Yard(FLOOR)
-        self.curves = [Curves(title, {title: color}) for (title, _), color in zip(PLOTS, (SKY, GOLD), strict=True)]
+        self.overlap = Curves(OVERLAP, {OVERLAP: GOLD})
+        self.tried = set()  # names of the lanes that have run here, only seen
         if self.solver in SOLVERS:  # named on the command line, or chosen before a restart
             self.values["solver"] = SOLVERS.index(self.solver)
         self.balls = 0
@@ -71,12 +79,8 @@ class Pyramid(Scene):
         self.camera = Camera(((0, 16), (480, 254)), zoom, x=-MIDDLE / zoom, y=-(FLOOR - 16) / zoom)
         self.solver = SOLVERS[int(self.values["solver"])]
         world, self.cast = self.add_world(substeps=int(self.values["substeps"])), Cast(load_atlas("lab"))
-        world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
-        shape, width = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP)
-        for row in range(rows):
-            for column in range(rows - row):
-                place = ((column - (rows - row - 1) / 2) * width, -(row + 0.5) * SIZE)
-                self.cast.add(world.add_body(shape, position=place), f"crate_{self.drawn}_{(row + column) % 2}")
+        for crate, number in pile_up(world, rows):
+            self.cast.add(crate, f"crate_{self.drawn}_{number % 2}")
         self.top = world.body(int(world.bodies["id"][-1]))
         self.crates = rows * (rows + 1) // 2
         self.since = 0
@@ -103,6 +107,7 @@ class Pyramid(Scene):
                 self.change_slider(name, self.values[name] + way)
         if inputs.pressed("fire"):
             self._drop()
+        self.tried.add(self.lane)
         self.world.step()
         self._sound()
         self.since += 1
@@ -114,6 +119,54 @@ class Pyramid(Scene):
             self.deepest = max(self.deepest, deepest(self.world))
             if self.since == JUDGED_AT:
                 self.still = self.top.position
+
+    @property
+    def lane(self):
+        """What runs now, as a lane is called: rows, solver, substeps (None where they mean nothing), broad phase."""
+        return self._lane(self.world.solver, self.world.substeps)
+
+    def _lane(self, solver, substeps):
+        return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
+
+    def measured(self):
+        """This pyramid under every solver and number of substeps, from how it is laid: a step, and how it stands."""
+        names = [self._lane(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
+        return Lanes(list(dict.fromkeys([self.lane, *names, *sorted(self._tried_here(), key=str)])), self._make)
+
+    def _tried_here(self):
+        return [name for name in self.tried if name[0] == self.values["rows"] and name[-1] == self.broadphase]
+
+    def _make(self, name):
+        rows, solver, substeps, _ = name
+        more = {} if substeps is None else {"substeps": substeps}
+        world = World(self.effects, BROADPHASES[self.broadphase](), solver, **more)
+        pile_up(world, rows)
+        return Lane([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
+
+    def dots(self):
+        """{lane: Dot} of this pyramid, as far as they are measured: microseconds and thousandths of a crate."""
+        found = {}
+        for name, figures in self.figures.items():
+            rows, solver, substeps, broadphase = name
+            if (rows, broadphase) == (self.values["rows"], self.broadphase) and figures.sure:
+                word = "" if substeps is None else str(substeps)
+                cost, overlap = 1e6 * figures.cost.median, 1e3 * figures.overlap / SIZE
+                found[name] = Dot(cost, overlap, COLORS[solver], word, name in self.tried)
+        return found
+
+    def finding(self):
+        """What the present setting costs and how it stands, and which of those that stand as well costs least."""
+        dots = self.dots()
+        if self.lane not in dots:
+            return ""
+        mine = dots[self.lane]
+        told = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
+        as_good = [name for name, dot in dots.items() if dot.error <= mine.error]
+        best = min(as_good, key=lambda name: dots[name].cost)
+        if len(dots) < len(self.measured().names) or best == self.lane:
+            return told
+        substeps = "" if best[2] is None else f", {best[2]} substeps"
+        return f"{told}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
         """Of the crates, whoever throws or drags them [mass px2/s2]."""
@@ -153,9 +206,8 @@ class Pyramid(Scene):
                 self.camera.shake(0.25)
 
     def observe(self):
-        """Feed the curves."""
-        self.curves[0].note({PLOTS[0][0]: step_seconds(self.world) * 1e6})
-        self.curves[1].note({PLOTS[1][0]: 1000.0 * deepest(self.world) / SIZE})
+        """Feed the curve."""
+        self.overlap.note({OVERLAP: 1000.0 * deepest(self.world) / SIZE})
 
     def draw(self, canvas, alpha):
         """The pile before the dusk, the numbers on a plate."""
@@ -164,12 +216,11 @@ class Pyramid(Scene):
         plate(canvas, (4, 22, 130, 80))
         solver = SOLVERS[int(self.values["solver"])]
         canvas.text(f"{self.crates} crates", 10, 26, GOLD)
-        spent = self.curves[0].typical(PLOTS[0][0]) / 1000.0
         change = 100.0 * (self.energy - self.start_energy) / abs(self.start_energy)
         rows = (
             ("solver", plain_name(solver)),
             ("substeps", f"{self.values['substeps']}"),
-            ("a step", f"{spent:.2f} ms"),
+            ("a step", cost_text(self, self.lane)),
             ("contacts", f"{len(self.world.contacts)}"),
             ("overlap", f"{100 * deepest(self.world) / SIZE:.2f} %"),
             ("fastest", f"{fastest(self.world) / SIZE:.3f} m/s"),
@@ -180,9 +231,9 @@ class Pyramid(Scene):
             canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """The curves."""
-        for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
-            curves.draw(frame, (4, y, 130, 48))
+        """The curve of the overlap, and error against time of all that was measured."""
+        self.overlap.draw(frame, OVERLAP_AT)
+        draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.lane)
         if self.thrown is None:
             (x, y), lens = self._built_at(), frame.lens(self.camera)
             aside = max(abs(self.top.position[0] - x), abs(self.top.position[1] - y))
@@ -245,3 +296,14 @@ class Pyramid(Scene):
             x,
             y,
         )
+
+
+def pile_up(world, rows):
+    """Put the ground and a pyramid of so many rows into a world. Returns [(crate, row + column)]."""
+    world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
+    shape, width, crates = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP), []
+    for row in range(rows):
+        for column in range(rows - row):
+            place = ((column - (rows - row - 1) / 2) * width, -(row + 0.5) * SIZE)
+            crates.append((world.add_body(shape, position=place), row + column))
+    return crates

@@ -18,7 +18,9 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes
 from physics import Effects, Material, Polygon
+from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, deepest
 from scenes.lab.yard import HEAD, Yard, plate
 
@@ -116,6 +118,16 @@ class Stacks(Scene):
             self.depth[name] = max(self.depth[name], deepest(world))
         self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
 
+    def measured(self):
+        """A step of each column, from when it has settled on."""
+        if self.since < SETTLED:
+            return None
+        worlds = dict(zip(SOLVERS, self.worlds, strict=True))
+        return Lanes(
+            [(*self.chosen, name) for name in SOLVERS],
+            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase),
+        )
+
     def stands(self, name):
         """True while the top crate has never left its place by a crate's size."""
         return self.standing[name] == self.since
@@ -158,11 +170,13 @@ class Stacks(Scene):
             ("overlap", deepest(self.worlds[index]) / SIZE),
         )
         for row, (word, share) in enumerate(rows):
-            y = box.y + 16 + row * 9
+            y = box.y + 13 + row * 8
             canvas.text(word, box.x + 6, y, FOG, SMALL)
             canvas.surface.fill(faded(COLORS[name], 0.7), (box.x + 42, y, 56, 5))
             canvas.surface.fill(COLORS[name], (box.x + 42, y, round(56 * min(1.0, abs(share))), 5))
             canvas.text(f"{100 * share:.1f} %", box.right - 4, y, PAPER, SMALL, align="right")
+        canvas.text("a step", box.x + 6, box.y + 37, FOG, SMALL)
+        canvas.text(cost_text(self, (*self.chosen, name)), box.right - 4, box.y + 37, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
         """A thin line where the top of an ideal column is."""

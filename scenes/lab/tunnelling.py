@@ -6,9 +6,9 @@ turns: a spinning rod reaches the plate with an end that was elsewhere when the 
 each other are each other's plate. Turn up the speed or thin the plate, and count.
 """
 
-from math import cos, pi, sin
+from math import ceil, cos, pi, sin
+from random import Random
 
-import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL, TEXT
@@ -16,11 +16,28 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from physics import Capsule, Circle, Effects, Polygon
+from game.wishes import STEPS, Lane, Lanes
+from physics import BROADPHASES, Effects, World
+from scenes.lab.costs import cost_text
+from scenes.lab.shots import (
+    BULLET_RADIUS,
+    END_X,
+    GUN_X,
+    PLATE_HALF,
+    PLATE_X,
+    RADIUS,
+    ROD_HALF,
+    ROD_RADIUS,
+    SHOTS,
+    aim,
+    flights,
+    raise_plate,
+    shoot,
+    steps_of_flight,
+)
 from scenes.lab.yard import HEAD
 
 LANES = ("off", "ray", "swept", "toi")
-SHOTS = ("balls", "rods", "bullets")
 TITLES = {
     "off": "off: only where it stands",
     "ray": "ray: along the centre's path",
@@ -30,19 +47,8 @@ TITLES = {
 BULLET_TITLES = {"off": "off", "ray": "ray", "swept": "swept", "toi": "toi, bullet against bullet"}
 COLORS = {"off": RED, "ray": ORANGE, "swept": SKY, "toi": GREEN}
 LANE_TOP, LANE_HEIGHT = 20, 62
-GUN_X, PLATE_X, END_X = 30.0, 300.0, 380.0  # [px]
-RADIUS, PLATE_HALF = 5.0, 11.0  # [px]
-ROD_HALF, ROD_RADIUS = 14.0, 1.5  # [px]
-ROD_SPIN = (24.0, 46.0)  # [rad/s] up to an eighth of a turn per step
-BULLET_RADIUS = 2.5  # [px]
 EVERY = 7  # steps between shots
-SPREAD = {
-    "balls": (0.0, 18.0),
-    "rods": (13.0, 24.0),
-    "bullets": (0.0, 3.4),
-}  # [px] off the middle; rods: beyond the plate
 CLEAR = 0.75  # [px] shots this close to just touching are not counted either way
-SAMPLE = 0.1  # [px] between two looks of the slow truth about rods
 GLOW_STEPS = 14  # steps a mark of a hit stays
 SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
 COUNT_X = 392
@@ -100,10 +106,7 @@ class Tunnelling(Scene):
             self.world.remove_body(plate)
         self.plates = {}
         if self.kind != "bullets":
-            shape = Polygon.box(self.values["plate"], 2 * PLATE_HALF)
-            self.plates = {
-                lane: self.world.add_body(shape, position=(PLATE_X, middle(lane)), kind="static") for lane in LANES
-            }
+            self.plates = {lane: raise_plate(self.world, self.values["plate"], middle(lane)) for lane in LANES}
 
     def change_slider(self, name, value):
         """Other plates are built at once; shots under way no longer count."""
@@ -138,46 +141,28 @@ class Tunnelling(Scene):
         return (*body.position, body.angle)
 
     def _fire(self):
-        """The same shot in every lane, from anywhere within a step's way, so that steps fall anywhere."""
-        kind, speed = self.kind, float(self.values["speed"])
-        start = GUN_X + self.random.uniform(0.0, speed / 60)
-        if kind == "balls":
-            offset = self._aside(kind)
-            verdict = abs(offset) - PLATE_HALF - RADIUS
-            shots = [(Circle(RADIUS), (start, offset), speed, 0.0, 0.0)]
-        elif kind == "rods":
-            offset = self._aside(kind)
-            angle = self.random.uniform(0.0, pi)
-            spin = self.random.choice((-1, 1)) * self.random.uniform(*ROD_SPIN)
-            shots = [(Capsule((-ROD_HALF, 0), (ROD_HALF, 0), ROD_RADIUS), (start, offset), speed, angle, spin)]
-            verdict = rod_gap(start, offset, speed, angle, spin, float(self.values["plate"]))
-        else:
-            offset, other = self._aside(kind), self._aside(kind)
-            shots = [
-                (Circle(BULLET_RADIUS), (start, offset), speed, 0.0, 0.0),
-                (Circle(BULLET_RADIUS), (END_X - self.random.uniform(0.0, speed / 60), other), -speed, 0.0, 0.0),
-            ]
-            verdict = abs(offset - other) - 2.0 * BULLET_RADIUS
+        """The same shot in every lane."""
+        kind = self.kind
+        shots, gap = aim(kind, float(self.values["speed"]), float(self.values["plate"]), self.random)
         for lane in LANES:
-            trial = {"lane": lane, "bodies": [], "must": verdict < -CLEAR, "passes": verdict > CLEAR}
-            for shape, (x, y), vx, angle, spin in shots:
-                body = self.world.add_body(
-                    shape,
-                    position=(x, middle(lane) + y),
-                    velocity=(vx, 0.0),
-                    angle=angle,
-                    angular_velocity=spin,
-                    continuous=lane,
-                    bullet=lane == "toi" and kind == "bullets",
-                )
-                trial["bodies"].append(body.id)
-                self.of_body[body.id] = trial
+            bodies = shoot(self.world, shots, kind, lane, middle(lane))
+            trial = {"lane": lane, "bodies": [body.id for body in bodies], "must": gap < -CLEAR, "passes": gap > CLEAR}
+            self.of_body |= dict.fromkeys(trial["bodies"], trial)
             self.trials.append(trial)
             self.fired[kind, lane] += 1
             self.due[kind, lane] += trial["must"]
 
-    def _aside(self, kind):
-        return self.random.choice((-1, 1)) * self.random.uniform(*SPREAD[kind])
+    def measured(self):
+        """A step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps."""
+        speed, plate = float(self.values["speed"]), float(self.values["plate"])
+        steps = steps_of_flight(speed)
+
+        def make(name):
+            world = World(self.effects, BROADPHASES[self.broadphase](), self.solver)
+            count = ceil(STEPS / steps)
+            return Lane(flights(world, self.kind, name[-1], speed, plate, count, Random(0)), self.broadphase, steps)
+
+        return Lanes([(*self.chosen, lane) for lane in LANES], make)
 
     def _count_hits(self):
         for row in self.world.events.begin:
@@ -268,6 +253,7 @@ class Tunnelling(Scene):
         canvas.text("missed", COUNT_X + 82, top + 14, FOG, SMALL, align="right")
         canvas.text(f"{self.hit[key]} of {self.due[key] - under_way} hits found", COUNT_X, top + 30, PAPER, SMALL)
         canvas.text(f"{self.fired[key]} shots", COUNT_X, top + 39, FOG, SMALL)
+        canvas.text(f"a step: {cost_text(self, (*self.chosen, lane))}", COUNT_X, top + 48, FOG, SMALL)
 
     def _draw_trail(self, surface, lane, kind, start, end, age):
         color = faded(COLORS[lane], 0.2 + 0.7 * age / GLOW_STEPS)
@@ -364,17 +350,3 @@ def rod_ends(pose):
     x, y, angle = pose
     dx, dy = ROD_HALF * cos(angle), ROD_HALF * sin(angle)
     return (round(x - dx), round(y - dy)), (round(x + dx), round(y + dy))
-
-
-def rod_gap(start, offset, speed, angle, spin, plate):
-    """By geometry alone: how near a spinning rod comes to its plate on its way [px], negative when it meets it."""
-    reach = ROD_HALF + ROD_RADIUS + plate
-    first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed
-    count = int((last - first) * (speed + abs(spin) * ROD_HALF) / SAMPLE) + 2
-    times = np.linspace(first, last, count)[:, None]
-    along = np.linspace(-ROD_HALF, ROD_HALF, 65)[None, :]
-    x = start + speed * times + along * np.cos(angle + spin * times) - PLATE_X
-    y = offset + along * np.sin(angle + spin * times)
-    dx, dy = np.maximum(np.abs(x) - plate / 2, 0.0), np.maximum(np.abs(y) - PLATE_HALF, 0.0)
-    depth = np.minimum(np.maximum(np.abs(x) - plate / 2, np.abs(y) - PLATE_HALF), 0.0)
-    return float((np.sqrt(dx * dx + dy * dy) + depth).min()) - ROD_RADIUS

@@ -16,7 +16,7 @@ from scenes.lab.pieces import hull, piece, signed_distance
 from scenes.lab.sensors import least_gap
 from scenes.lab.shape_pictures import placed_hull
 from scenes.lab.shapes import CHOICES, ICONS, NAMES
-from scenes.lab.tunnelling import PLATE_HALF, PLATE_X, ROD_HALF, ROD_RADIUS, rod_gap
+from scenes.lab.shots import PLATE_HALF, PLATE_X, ROD_HALF, ROD_RADIUS, rod_gap
 
 
 def make(name):

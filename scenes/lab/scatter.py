@@ -1,0 +1,81 @@
+"""Error against time: a dot for every setting, both on logarithmic scales, at window resolution."""
+
+from collections.abc import Mapping
+from math import ceil, floor, log10
+from typing import NamedTuple
+
+import pygame
+
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, INK, PAPER, SLATE, Color
+from game.drawing.presenter import Box, Frame
+
+GRID = (52, 46, 76)
+LEAST_SPAN = 0.3  # [decades] that a scale has at least
+
+
+class Dot(NamedTuple):
+    """A setting. name: short, written at the dot where there is room; tried: it has run in the scene itself."""
+
+    cost: float
+    error: float  # 0 lies on the bottom line
+    color: Color
+    name: str
+    tried: bool
+
+
+def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[object, Dot], here: object) -> None:
+    """Draw dots into a canvas rect; the one that runs, dots[here], is ringed. What was only measured is hollow."""
+    rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
+    surface.fill(INK, rect)
+    pygame.draw.rect(surface, SLATE, rect, 1)
+    frame.text(title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
+    plot = pygame.Rect(rect.x + 3 * scale, rect.y + 14 * scale, rect.width - 12 * scale, rect.height - 26 * scale)
+    if dots:
+        places = _place(plot, dots)
+        _draw_scale(frame, plot, dots, scale)
+        for key, dot in dots.items():
+            radius = max(2, 3 * frame.scale // 2)
+            pygame.draw.circle(surface, dot.color, places[key], radius, 0 if dot.tried else 1)
+        if here in places:
+            pygame.draw.circle(surface, PAPER, places[here], 4 * frame.scale, max(1, frame.scale // 2))
+        for key in sorted(dots, key=lambda each: each != here):
+            x, y = places[key]
+            frame.text_if_free(dots[key].name, x + 4 * scale, y - 7 * scale, dots[key].color, SMALL, scale)
+    else:
+        frame.text("measuring", plot.x, rect.centery, FOG, SMALL, scale)
+    frame.fix(rect)
+
+
+def _span(values):
+    """First and last power of ten of a scale that shows these values."""
+    low, high = log10(min(values)), log10(max(values))
+    wider = max(LEAST_SPAN - (high - low), 0.0) / 2
+    return low - wider, high + wider
+
+
+def _spans(dots):
+    positive = [dot.error for dot in dots.values() if dot.error > 0.0]
+    return _span([dot.cost for dot in dots.values()]), _span(positive or [1.0])
+
+
+def _place(plot, dots):
+    """{key: place in the frame}."""
+    (left, right), (low, high) = _spans(dots)
+    places = {}
+    for key, dot in dots.items():
+        x = plot.left + plot.width * (log10(dot.cost) - left) / (right - left)
+        share = (log10(dot.error) - low) / (high - low) if dot.error > 0.0 else 0.0
+        places[key] = x, plot.bottom - plot.height * share
+    return places
+
+
+def _draw_scale(frame, plot, dots, scale):
+    """Lines at the powers of ten, and the ends of the scale of costs below."""
+    (left, right), (low, high) = _spans(dots)
+    for power in range(ceil(low), floor(high) + 1):
+        y = plot.bottom - plot.height * (power - low) / (high - low)
+        pygame.draw.line(frame.surface, GRID, (plot.left, y), (plot.right, y))
+    y = plot.bottom + 5 * scale
+    frame.text(f"{10**left:,.0f} us", plot.left, y, FOG, SMALL, scale)
+    frame.text(f"{10**right:,.0f} us", plot.right + 6 * scale, y, FOG, SMALL, scale, "right")

@@ -1,0 +1,99 @@
+"""The shots of lab/tunnelling: what flies from where, what stands in its way, and by geometry whether they must meet.
+
+A lane's middle is y = 0 here.
+"""
+
+from math import ceil, pi
+
+import numpy as np
+
+from physics import Capsule, Circle, Polygon
+
+SHOTS = ("balls", "rods", "bullets")
+GUN_X, PLATE_X, END_X = 30.0, 300.0, 380.0  # [px]
+RADIUS, PLATE_HALF = 5.0, 11.0  # [px]
+ROD_HALF, ROD_RADIUS = 14.0, 1.5  # [px]
+ROD_SPIN = (24.0, 46.0)  # [rad/s] up to an eighth of a turn per step
+BULLET_RADIUS = 2.5  # [px]
+SPREAD = {
+    "balls": (0.0, 18.0),
+    "rods": (13.0, 24.0),
+    "bullets": (0.0, 3.4),
+}  # [px] off the middle; rods: beyond the plate
+SAMPLE = 0.1  # [px] between two looks of the slow truth about rods
+
+
+def aim(kind, speed, plate, random):
+    """(shots, gap): each (shape, place, velocity, angle, spin), from anywhere within a step's way, so that steps fall
+    anywhere; and how near they come to what they are shot at [px], below 0 where they meet it."""
+    start = GUN_X + random.uniform(0.0, speed / 60)
+    if kind == "balls":
+        offset = _aside(kind, random)
+        return [(Circle(RADIUS), (start, offset), speed, 0.0, 0.0)], abs(offset) - PLATE_HALF - RADIUS
+    if kind == "rods":
+        offset = _aside(kind, random)
+        angle = random.uniform(0.0, pi)
+        spin = random.choice((-1, 1)) * random.uniform(*ROD_SPIN)
+        rod = Capsule((-ROD_HALF, 0), (ROD_HALF, 0), ROD_RADIUS)
+        return [(rod, (start, offset), speed, angle, spin)], rod_gap(start, offset, speed, angle, spin, plate)
+    offset, other = _aside(kind, random), _aside(kind, random)
+    back = END_X - random.uniform(0.0, speed / 60)
+    bullet = Circle(BULLET_RADIUS)
+    shots = [(bullet, (start, offset), speed, 0.0, 0.0), (bullet, (back, other), -speed, 0.0, 0.0)]
+    return shots, abs(offset - other) - 2.0 * BULLET_RADIUS
+
+
+def _aside(kind, random):
+    return random.choice((-1, 1)) * random.uniform(*SPREAD[kind])
+
+
+def shoot(world, shots, kind, lane, middle=0.0):
+    """Add shots to a world. lane: how they are swept; middle: y [px]. Returns the bodies."""
+    return [
+        world.add_body(
+            shape,
+            position=(x, middle + y),
+            velocity=(vx, 0.0),
+            angle=angle,
+            angular_velocity=spin,
+            continuous=lane,
+            bullet=lane == "toi" and kind == "bullets",
+        )
+        for shape, (x, y), vx, angle, spin in shots
+    ]
+
+
+def raise_plate(world, width, middle=0.0):
+    """Add the plate that shots fly at, so wide [px], its middle at y `middle`. Returns the body."""
+    return world.add_body(Polygon.box(width, 2 * PLATE_HALF), position=(PLATE_X, middle), kind="static")
+
+
+def steps_of_flight(speed):
+    """Steps of 1/60 s from the gun to the end of a lane."""
+    return ceil(60.0 * (END_X - GUN_X) / speed)
+
+
+def flights(world, kind, lane, speed, plate, count, random):
+    """Snapshots of so many single shots as they leave the gun, in a world made for them, empty but for the plate."""
+    if kind != "bullets":
+        raise_plate(world, plate)
+    found = []
+    for _ in range(count):
+        bodies = shoot(world, aim(kind, speed, plate, random)[0], kind, lane)
+        found.append(world.snapshot())
+        world.remove_bodies([body.id for body in bodies])
+    return found
+
+
+def rod_gap(start, offset, speed, angle, spin, plate):
+    """By geometry alone: how near a spinning rod comes to its plate on its way [px], negative when it meets it."""
+    reach = ROD_HALF + ROD_RADIUS + plate
+    first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed
+    count = int((last - first) * (speed + abs(spin) * ROD_HALF) / SAMPLE) + 2
+    times = np.linspace(first, last, count)[:, None]
+    along = np.linspace(-ROD_HALF, ROD_HALF, 65)[None, :]
+    x = start + speed * times + along * np.cos(angle + spin * times) - PLATE_X
+    y = offset + along * np.sin(angle + spin * times)
+    dx, dy = np.maximum(np.abs(x) - plate / 2, 0.0), np.maximum(np.abs(y) - PLATE_HALF, 0.0)
+    depth = np.minimum(np.maximum(np.abs(x) - plate / 2, np.abs(y) - PLATE_HALF), 0.0)
+    return float((np.sqrt(dx * dx + dy * dy) + depth).min()) - ROD_RADIUS
