@@ -14,7 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from game.measure.effect_costs import EffectCost
 from game.measure.errors import Error
+from game.measure.ledger import EFFECTS
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.survey import Survey
@@ -37,6 +39,7 @@ class Surveyor:
         self.trouble = ""
         self.revision = 0  # counts what was found
         self.tiers: dict[str, TierFigures] = {}  # of the sprites that were asked for, as far as they are known
+        self.effects: dict[str, EffectCost] = {}  # once they were asked for, as far as they are known
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder: tempfile.TemporaryDirectory[str] | None = None  # what is handed on lies there
         self.process: subprocess.Popen[str] | None = None
@@ -65,6 +68,21 @@ class Surveyor:
         arrays |= {f"origin_{k}": np.array(tuple(mask.origin)) for k, mask in enumerate((first, second))}
         order = {"moment": None, "sprites": self._path("sprites.npz")}
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
+
+    def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
+        """Measure what each effect costs at this moment, and how many kernels it has compiled: `effects`. pieces: what
+        of the physics the scene meets, as physics.warmup takes it."""
+        if not self._started():
+            return
+        declared = snapshot.facts["effects"]
+        self.effects = {name: EffectCost(name, name in declared) for name in EFFECTS}
+        order = {"moment": None, "snapshot": self._path("effects.npz"), "broadphase": broadphase, "pieces": pieces}
+        threading.Thread(
+            target=_hand_on,
+            args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
+            name="hand on",
+            daemon=True,
+        ).start()
 
     def _started(self):
         """Start the process where there is none; whether there is one, which is then busy."""
@@ -114,6 +132,11 @@ class Surveyor:
         elif "tier" in found:
             figures = figures_of(found["tier"])
             self.tiers[figures.tier] = figures
+        elif "effect" in found:
+            known = self.effects[found["effect"]]
+            if "costs" in found:
+                known = known._replace(cost=Cost(*found["costs"][0]), without=Cost(*found["costs"][1]))
+            self.effects[known.effect] = known._replace(kernels=found.get("kernels", known.kernels))
         elif "done" in found:
             self.busy = self.busy and found["moment"] not in (survey.moments, None)
         else:
