@@ -15,8 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from game.measure.effect_costs import EffectCost
 from game.measure.errors import Error
 from game.measure.lanes import LaneFigures
+from game.measure.ledger import EFFECTS
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.survey import Survey
@@ -44,6 +46,7 @@ class Surveyor:
         self.asked: list[tuple[list[Hashable], list[Lane]]] = []  # lanes, order by order
         self.runs: dict[Hashable, list[float]] = {}  # of lanes, seconds a step
         self.latest: int | str | None = None  # what the last order is called
+        self.effects: dict[str, EffectCost] = {}  # once they were asked for, as far as they are known
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder: tempfile.TemporaryDirectory[str] | None = None  # what is handed on lies there
         self.process: subprocess.Popen[str] | None = None
@@ -92,6 +95,27 @@ class Surveyor:
                 lambda: [each.save(paths[id(each)]) for each in snapshots],
                 self.found,
             ),
+            name="hand on",
+            daemon=True,
+        ).start()
+
+    def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
+        """Measure what each effect costs at this moment, and how many kernels it has compiled: `effects`. pieces: what
+        of the physics the scene meets, as physics.warmup takes it."""
+        if not self._started():
+            return
+        declared = snapshot.facts["effects"]
+        self.effects = {name: EffectCost(name, name in declared) for name in EFFECTS}
+        self.latest = "effects"
+        order = {
+            "moment": self.latest,
+            "snapshot": self._path("effects.npz"),
+            "broadphase": broadphase,
+            "pieces": pieces,
+        }
+        threading.Thread(
+            target=_hand_on,
+            args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
             name="hand on",
             daemon=True,
         ).start()
@@ -151,6 +175,11 @@ class Surveyor:
             self.figures[figures.tier] = figures
         elif "lane" in found:
             self._take_run(**found)
+        elif "effect" in found:
+            known = self.effects[found["effect"]]
+            if "costs" in found:
+                known = known._replace(cost=Cost(*found["costs"][0]), without=Cost(*found["costs"][1]))
+            self.effects[known.effect] = known._replace(kernels=found.get("kernels", known.kernels))
         elif "done" in found:
             self.busy = self.busy and found["moment"] != self.latest
         else:

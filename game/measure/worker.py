@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: measures moments, sprites and lanes, off the frame of whoever plays.
+"""`python -m game.measure.worker`: measures moments, sprites, lanes and effects, off the frame of whoever plays.
 
 A line of JSON on standard input is what to measure, in place of what was before; lines of JSON on standard output
 are what was found. The process ends with its standard input, so that it never outlives the program that started it.
@@ -16,12 +16,14 @@ from typing import Any
 
 import numpy as np
 
+from game.measure.effect_costs import measure_effects
 from game.measure.errors import References
 from game.measure.lanes import measure_lanes
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
+from game.processes import end_all, start_module
 from game.wishes import STEPS, Lane
 from physics import PixelMask, Snapshot
 
@@ -103,6 +105,29 @@ def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], g
         say(done=True)
 
 
+def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Measure what each effect costs at a moment, and count the kernels that are compiled for it."""
+    moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
+
+    def say(**found):
+        tell(json.dumps({"moment": order["moment"], **found}))
+
+    counting = start_module("game.measure.kernel_counts", HITBOX_LISTING="1")
+    try:
+        assert counting.stdin is not None and counting.stdout is not None
+        asked = {"effects": moment.effects.names(), "broadphase": order["broadphase"], "pieces": order["pieces"]}
+        counting.stdin.write(json.dumps(asked) + "\n")
+        counting.stdin.flush()
+        measure_effects(moment, lambda name, *costs: say(effect=name, costs=costs), goes_on)
+        for line in counting.stdout:
+            if line.startswith("["):  # libraries greet
+                name, count = json.loads(line)
+                say(effect=name, kernels=count)
+    finally:
+        end_all([counting])
+    say(done=True)
+
+
 def main() -> None:
     """Measure for as long as there is somebody to tell."""
     with contextlib.suppress(OSError, AttributeError):
@@ -117,6 +142,8 @@ def main() -> None:
                 measure_sprites(order, tell)
             elif "lanes" in order:
                 measure_stored_lanes(order, tell, goes_on)
+            elif "pieces" in order:
+                measure_costs(order, tell, goes_on)
             else:
                 measure(order, tell, goes_on)
         except (ValueError, OSError) as error:  # a moment that cannot be measured is told, and the next awaited

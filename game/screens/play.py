@@ -381,7 +381,7 @@ class Play(SceneScreen):
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
-        self.measuring.measure_wish()
+        self.measuring.beside(self.now, self.panel_open)
         if self.costs_open:
             self.measuring.turn(self.now)
         scrub = self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None

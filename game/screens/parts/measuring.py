@@ -8,11 +8,13 @@ from game.input.devices import DeviceSource
 from game.measure.moment import here_of
 from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
+from game.run.warmup import pieces_of
 from game.scene import SUBSTEPS, Scene
 from game.screens.parts.race import Race
 from game.wishes import Lanes, Sprites
 from physics import World
 
+LINGER = 0.5  # [s] that the panel is open before the effects are measured: who passes by starts no process
 EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
 
@@ -27,6 +29,9 @@ class Measuring:
         self.surveyor = Surveyor()
         self.bench = Surveyor()  # of what the scene wants to know …
         self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or lanes of these names
+        self.ledger = Surveyor()  # of the effects
+        self.opened_at: float | None = None  # [s] since when the panel shows them; None: it is closed
+        self.weighed = False  # whether they were asked for since then
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
         self.race: Race | None = None  # against another setting
 
@@ -39,8 +44,30 @@ class Measuring:
         """The setting that runs."""
         return here_of(self.world, self.scene.tier)
 
-    def measure_wish(self) -> None:
-        """Once per picture: what the scene wants to know is measured, once."""
+    def beside(self, now: float, panel_open: bool) -> None:
+        """Once per picture, at `now` [s]: measure what the scene, and the panel while it is open, want to know."""
+        self._measure_wish()
+        self._measure_effects(now if panel_open else None)
+
+    def _measure_effects(self, now):
+        """What each effect costs here, from a moment soon after the panel was opened; None: it is closed."""
+        if now is None:
+            if self.opened_at is not None:
+                self.ledger.stop()
+            self.opened_at = None
+            return
+        if self.opened_at is None:
+            self.opened_at, self.weighed = now, False
+        elif not self.weighed and now - self.opened_at >= LINGER:
+            self.weighed = True
+            self.ledger.measure_effects(self.world.snapshot(), self.world.broadphase.name, pieces_of(type(self.scene)))
+        if self.ledger.process is not None:
+            self.ledger.turn()
+            if not self.ledger.busy:
+                self.ledger.stop()
+
+    def _measure_wish(self) -> None:
+        """What the scene wants to know is measured, once."""
         wish = self.scene.measured()
         if isinstance(wish, Sprites) and not (self.benched and all(map(is_, wish, self.benched))):
             self.bench.stop()
@@ -75,6 +102,7 @@ class Measuring:
         """End all that is being measured: the scene is left."""
         self.close()
         self.bench.stop()
+        self.ledger.stop()
 
     def apply(self, setting: Setting) -> str:
         """Put a setting to work in the scene, as input that a recording holds. Returns a line about it."""

@@ -13,9 +13,10 @@ from game.drawing.canvas import SMALL, TEXT, shorten
 from game.drawing.colors import DUSK, FOG, GOLD, INK, NIGHT, PAPER, SKY, SLATE, faded
 from game.drawing.presenter import Frame
 
-HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE = "head", "check", "choice", "slider", "button", "note"
-LIVE = (CHECK, CHOICE, SLIDER, BUTTON)
-ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9}  # [text px]
+HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE, LINE = "head", "check", "choice", "slider", "button", "note", "line"
+LIVE = (CHECK, CHOICE, SLIDER, BUTTON, LINE)
+ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9, LINE: 9}  # [text px]
+CELL = 34  # [text px] that a column of a table is wide
 WHEEL_ROWS = 3
 
 
@@ -34,6 +35,7 @@ class Row:
     press: Callable | None = None
     put: Callable | None = None
     hint: str = ""  # one sentence, shown at the panel's foot while marked
+    cells: tuple[str, ...] = ()  # of a line in a table, or over its columns, at the right
 
 
 class Panel:
@@ -155,6 +157,7 @@ class Panel:
         surface = frame.surface
         if row.kind == HEAD:
             frame.text(row.label, rect.x, rect.y + 5 * scale, GOLD, TEXT, scale)
+            _draw_cells(frame, rect, row.cells, rect.y + 7 * scale, FOG, scale)
             pygame.draw.line(surface, SLATE, (rect.x, rect.bottom - scale), (rect.right, rect.bottom - scale))
             return
         if row.kind == NOTE:
@@ -165,6 +168,9 @@ class Panel:
             surface.fill(DUSK if self.focused else faded(DUSK, 0.4), rect.inflate(4 * scale, 0))
         text_y = rect.y + scale
         x = rect.x + 2 * scale
+        if row.kind == LINE:
+            _draw_line(frame, rect, row, scale)
+            return
         if row.kind == CHECK:
             x = _draw_check(surface, x, rect, row, frame.tone(row.color), scale)
         right = rect.right - 2 * scale
@@ -193,6 +199,26 @@ class Panel:
             color = FOG if line is way_out else GOLD
             frame.text(text, rect.x + 6 * scale, top + index * 8 * scale, color, SMALL, scale)
         return top
+
+
+def _draw_line(frame, rect, row, scale):
+    """A line of a table: a filled square where it is on, its name, its cells."""
+    square = pygame.Rect(rect.x + 2 * scale, rect.y + 2 * scale, 5 * scale, 5 * scale)
+    color = frame.tone(row.color) if row.on else FOG
+    pygame.draw.rect(frame.surface, color, square, 0 if row.on else scale)
+    left = _draw_cells(frame, rect, row.cells, rect.y + 2 * scale, PAPER if row.on else FOG, scale)
+    label = shorten(row.label, left - square.right - 6 * scale, SMALL, scale)
+    frame.text(label, square.right + 4 * scale, rect.y + 2 * scale, PAPER if row.on else FOG, SMALL, scale)
+
+
+def _draw_cells(frame, rect, cells, y, color, scale):
+    """Columns at the right, the last one outermost; returns where they begin [frame px]."""
+    right = rect.right - 2 * scale
+    for text in reversed(cells):
+        if text:
+            frame.text(text, right, y, color, SMALL, scale, "right")
+        right -= CELL * scale
+    return right
 
 
 def _draw_check(surface, x, rect, row, color, scale):

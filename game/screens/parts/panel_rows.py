@@ -5,7 +5,8 @@ from game.drawing.number_text import plain_name
 from game.overlays.stack import Overlays
 from game.run.loop import SPEEDS
 from game.run.outcome import solver_name
-from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, NOTE, SLIDER, Row
+from game.screens.parts.effect_rows import effect_rows
+from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, SLIDER, Row
 from game.screens.parts.played import Played
 
 LEAP = 60  # steps that the row "Rewind" goes back
@@ -30,7 +31,7 @@ def play_rows(play: Played) -> list[Row]:
             hint="every setting as a dot: its error against its time",
         ),
         *_race(play),
-        Row(NOTE, "effects: " + (", ".join(scene.effects.names()) or "none")),
+        *effect_rows(play.measuring),
     ]
 
 

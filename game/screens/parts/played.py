@@ -10,6 +10,7 @@ from game.run.session import Session
 from game.scene import Scene
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard
+from game.screens.parts.measuring import Measuring
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.switches import Switches
 
@@ -22,6 +23,7 @@ class Played(Protocol):
     devices: DeviceSource
     overlays: Overlays
     clock: FixedStep
+    measuring: Measuring
     switches: Switches
     settings: Settings | None
     scrub: Scrub | None
