@@ -3,6 +3,13 @@
 What to see: seen from above there is no gravity, only the cloth's drag. Until the first ball meets a cushion the
 momentum of all balls together is the cue ball's, in size and direction, however they scatter; and no collision of
 two ever adds energy. Pockets are sensors: they push nothing and report who fell in.
+
+Why it matters: Billiard games stand or fall with the break, and a solver that loses momentum there makes every table
+dull.
+
+To try: break with the cue from other sides, and read how far the momentum is off before the first cushion.
+
+Source: Coriolis, Theorie mathematique du jeu de billard, 1835.
 """
 
 from math import atan2, cos, hypot, sin

@@ -2,6 +2,13 @@
 
 What to see: in which layout which strategy is cheap. Even bodies of one size suit the hash; slow movers
 along the ground suit the sweep; many still things and few movers suit the tree; brute force pays n squared.
+
+Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step; no narrow phase is fast enough to make up for
+that.
+
+To try: change the layout with left and right, wait for the exponents, and see which order of the four turns round.
+
+Source: Baraff 1992 (sweep); Teschner 2003 (hash); Catto, Dynamic Bounding Volume Hierarchies, GDC 2019 (tree).
 """
 
 from functools import cache, partial

@@ -3,6 +3,12 @@
 What to see: two cards that lean on each other push their feet apart with half their weight times the tangent of
 their lean. So a single pair needs a friction of 0.223 at the table, no more and no less: the two pairs on the right
 have a twentieth less and a twentieth more. The house, whose lower cards carry the upper ones, needs twice that.
+
+Why it matters: Friction that is a little too weak or creeps is seen first where only friction holds something up.
+
+To try: lower the friction until the house falls, and compare with the single pairs beside it.
+
+Source: Coulomb, Theorie des machines simples, 1785: a body slides beyond the friction times its load.
 """
 
 from math import atan2, cos, hypot, radians, sin

@@ -3,6 +3,13 @@
 What to see: only the tiles that a carve touches are made anew, so it costs the same in large ground as in small. What
 comes loose is a body at once, with its own pixels, mass and spin. Pixels are counted all the way: whatever is gone from
 the ground lies about as a piece, was taken by the tool, or was a crumb. With the overlay of masks on you see the tiles.
+
+Why it matters: Ground that can be dug is bought with pixels that are made anew; what a hole costs must not grow with
+the level.
+
+To try: cut a block off all around and watch it become a body as the last pixel goes.
+
+Source: Rosenfeld and Pfaltz, Sequential operations in digital picture processing, 1966 (pieces).
 """
 
 from math import hypot

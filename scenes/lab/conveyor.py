@@ -3,6 +3,13 @@
 What to see: above, the belts' surfaces run and carry boxes, a hexagon, a capsule and a wheel whose rolling is
 braked. Below stand the same belts in a world that does not declare the effect: there the same crates stay where
 they fall. Turn the speed.
+
+Why it matters: A belt is the simplest thing that moves others and does not move itself; faking it by hand jitters on
+slopes.
+
+To try: turn the speed below zero and see what the slopes still hold.
+
+Source: Box2D's tangent speed: friction works towards a speed along the surface, not towards rest.
 """
 
 from math import cos, hypot, pi, sin

@@ -4,6 +4,12 @@ What to see: with a hair of air between the balls each collision is one of two, 
 only one way out: the last ball goes with the whole speed. The same row in three channels, one per solver. Close the
 gap, or send two into the wall so closely that three meet in one step: then momentum and energy alone no longer say
 what must happen, and the solvers differ.
+
+Why it matters: A chain of hits in one step shows whether a solver passes on what it is given, or mixes it.
+
+To try: set the gap to 0, then take two strikers, and see which row loses its order first.
+
+Source: Hutzler, Delaney, Weaire, MacLeod, Rocking Newton's Cradle, American Journal of Physics, 2004.
 """
 
 import pygame
@@ -253,6 +259,16 @@ class Cradle(Scene):
                 )
             )
         return goals
+
+    def finding(self):
+        """How far each row was off before its first ball came to the wall, and what a step of it takes."""
+        strikers, told = int(self.values["strikers"]), []
+        for name in SOLVERS:
+            found = self.results.get((name, strikers, int(self.values["gap"])))
+            if found is None:
+                return ""
+            told.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
+        return f"{strikers} in, {strikers} out; speeds are off by {', '.join(told)}"
 
     def bot(self):
         """One striker, then two."""

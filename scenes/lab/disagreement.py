@@ -4,6 +4,13 @@ What to see: the game goes on as the pixels say. Ten times a second the same mom
 says otherwise than the exact pixels is counted. Choose a tier with the wheel: the pairs that it told wrongly in the
 last moment are lit. The curves settle as hits add up; the bars are as wide as 95 % of such counts would scatter. You
 cannot die here: fly into the traffic and count what your box would have cost.
+
+Why it matters: A player forgives a hit that was none less than any other fault; a rate says how often a tier makes
+it.
+
+To try: choose the box with the wheel, and fly so close past a plane that it is lit.
+
+Source: Wilson, Probable Inference, 1927 (the bars around rates).
 """
 
 from dataclasses import replace

@@ -3,6 +3,12 @@
 What to see: both rows look alike, and so they must fall: with gravity alone as the clock, four times the size takes
 twice the time (Froude's rule). Any length hidden in the solver, a slop, a margin, a fixed speed, breaks the likeness.
 So the second row lags behind on the screen by half, and its wave runs at twice the speed over the ground.
+
+Why it matters: A game that is made twice as large must play the same; hidden lengths are how engines break that.
+
+To try: drag one domino out of each row before the wave comes.
+
+Source: Efthimiou and Johnson, Domino Waves, SIAM Review, 2007.
 """
 
 from math import degrees, radians, sqrt

@@ -3,6 +3,13 @@
 What to see: each cell holds two discs that swing into each other, the row's kind on the left and the
 column's on the right. A click gives or takes the row's yes to the column. Only where both say yes do the
 discs touch; the broad phase drops all others before a pair is written, so they cost nothing later.
+
+Why it matters: What two kinds never do to each other should cost nothing; a filter in the broad phase is the cheapest
+test.
+
+To try: take away one yes, and then the other, and see that one no is enough.
+
+Source: Box2D's category and mask bits, tested both ways.
 """
 
 from math import pi, sin

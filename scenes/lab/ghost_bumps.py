@@ -3,6 +3,12 @@
 What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Separate boxes know
 nothing of each other, so what is round and sunk in by a hair is turned aside by the next box's corner. Tiles are merged
 and the links of a chain know their neighbours: there the speed stays the same to the last bits.
+
+Why it matters: Floors are built of many pieces, and a hero who trips over a seam that nobody sees is a bug report.
+
+To try: turn up the speed: the disc leaves the separate boxes earlier, and the other floors not at all.
+
+Source: Catto, Ghost Collisions, box2d.org, 2020.
 """
 
 from collections import deque
@@ -279,6 +285,17 @@ class GhostBumps(Scene):
                 ),
             ]
         return goals
+
+    def finding(self):
+        """The most of its speed that a slider lost on each floor, and what a step of it takes."""
+        if self.run == 0:
+            return ""
+        told = (
+            f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
+            f" ({cost_text(self, (*self.chosen, floor))})"
+            for floor in FLOORS
+        )
+        return f"of the speed was lost after {self.run} tiles: {', '.join(told)}"
 
     def bot(self):
         """Watch."""

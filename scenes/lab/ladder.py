@@ -2,7 +2,13 @@
 
 What to see: red is what a shape covers and the sprite does not, blue what it leaves out. Go down the ladder: each rung
 lies closer to the pixels and takes more bytes and more time to make; what a test takes goes up and then, at the pixels,
-down again. Take another sprite with left and right or the wheel, or drop a picture of your own (PNG) on the window.
+down again.
+
+Why it matters: The shape that stands for a sprite decides what is unfair in a game, and what a frame costs.
+
+To try: take another sprite with left and right or the wheel, or drop a picture of your own (PNG) on the window.
+
+Source: Jaccard 1901 (IoU), Hausdorff 1914; fits: Welzl 1991, Freeman and Shapira 1975, O'Rourke 1981.
 """
 
 from functools import cache

@@ -3,6 +3,12 @@
 What to see: boxes and hulls hold the air beside a bracket or under an arm, so what is drawn hovers. Separate parts fit,
 but their inner edges are felt. The outline is as near as half a pixel, its seams are never felt and round sprites stay
 round. With every pixel's edge kept a disc has fifty corners to roll over. Under each pile stands what it costs.
+
+Why it matters: What is drawn and what pushes should be the same thing, or players see air under what rests.
+
+To try: throw the disc along each pile with the mouse, and see where it stops first.
+
+Source: Rosenfeld and Kak, Digital Picture Processing, 1982; Hertel and Mehlhorn 1983 (parts).
 """
 
 import numpy as np

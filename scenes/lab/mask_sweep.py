@@ -3,6 +3,12 @@
 What to see: a step moves a shot by sixty pixels, a wall is one. Tested only where they stand, most shots are on one
 side now and on the other then. Swept to the time of impact, none passes: each stops where its own outline first meets
 the wall's, turning included. The white mark is that place, the number the share of the step at which it was reached.
+
+Why it matters: A bullet that flies through a wall is the oldest bug of collision, and pixels are the thinnest walls.
+
+To try: follow one white mark: that far of its step the shot had come when their outlines met.
+
+Source: Mirtich, Impulse-based Dynamic Simulation, 1996 (conservative advancement).
 """
 
 from math import cos, pi, sin

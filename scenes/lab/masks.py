@@ -3,6 +3,13 @@
 What to see: it opens where the box lies. Drag one plane along the other: the cheap shapes say HIT while there is sky
 between the planes; the pixels say HIT when a pixel is shared. Beside each verdict stands how many of its hits are none
 and how many true hits it misses, over thousands of poses, and what one test takes, of a hit and of a miss.
+
+Why it matters: Simple shapes are asked first because they are said to be cheap; here is what that saves, and what it
+gets wrong.
+
+To try: turn one plane with the wheel, and look for a pose in which only the exact pixels say no.
+
+Source: masks as bits, ANDed word by word: Ekstrom's bitmask, as in pygame.mask.
 """
 
 from math import hypot
@@ -214,6 +221,14 @@ class Masks(Scene):
                 for tier in LIARS
             ),
         ]
+
+    def finding(self):
+        """How often the box is wrong, and what its test takes beside that of the exact pixels."""
+        box, exact = self.figures.get("aabb"), self.figures.get("mask")
+        if box is None or exact is None:
+            return ""
+        wrong, times = 100 * box.wrong.share, [1e9 * each.hit.median for each in (box, exact)]
+        return f"{wrong:.1f} % of the box's hits are none; it takes {times[0]:,.0f} ns a hit, the exact {times[1]:,.0f}"
 
     def bot(self):
         """Drag the first plane around and over the second, turning it now and then."""

@@ -3,6 +3,13 @@
 What to see: springs throw crates, balls and nuts up through the planks, and they come to rest on top. The hero jumps
 through the same planks and stands on them. The lift carries a crate, which the solver moves, and a walker, which walks
 in whole pixels: neither slips.
+
+Why it matters: Planks to jump up through are half of a platformer; two who disagree about them walk through each
+other's floor.
+
+To try: press down and jump on a plank, and be under the spring when a crate comes.
+
+Source: Thorson, Celeste and TowerFall Physics, 2018.
 """
 
 from math import cos, hypot, pi, sin

@@ -1,7 +1,13 @@
 """A pyramid of crates: does it stand still, and what does standing cost per step?
 
 What to see: rows grow the number of crates by the square and the weight on the lowest ones with it. Turn down the
-substeps or take another solver and the overlap grows and the top starts to wander. Then drop the ball.
+substeps or take another solver and the overlap grows and the top starts to wander.
+
+Why it matters: How well a pile stands is bought with solver time; the plot shows what each setting gives for it.
+
+To try: turn down the substeps, take another solver, and find both in the plot. Then drop the ball.
+
+Source: Macklin and others, Small Steps in Physics Simulation, 2019; Catto, Solver2D, 2024.
 """
 
 import pygame

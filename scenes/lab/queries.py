@@ -4,6 +4,13 @@ What to see: the same question is asked of four worlds in every step, one per st
 with their normals and fractions. What they look at to find it is drawn: boxes of the tree that were entered, and those
 where it turned back; cells of the hash; the stretch of the sweep; every box there is. A long slanted ray asks for
 several boxes along its way, the closest point for larger and larger ones around it.
+
+Why it matters: Sight, aim and steering ask the world without touching it, many times a step: they must look at
+little.
+
+To try: make the ray long and slanted, and count what the hash and the tree look at.
+
+Source: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987; Ericson, Real-Time Collision Detection, 2005.
 """
 
 from math import atan2, cos, hypot, pi, sin

@@ -3,6 +3,12 @@
 What to see: drag and turn the shapes. Below them the best axis of SAT with both shadows on it; at the right the same
 two shapes as one, the set of all differences A - B: they meet when it holds the origin. GJK walks to the origin with a
 simplex, EPA grows a polygon from inside to its edge; Enter shows the next step.
+
+Why it matters: Everything that pushes needs a distance or a depth; where methods disagree, one of them is wrong.
+
+To try: bring two corners almost together, and step through GJK with Enter.
+
+Source: Gilbert, Johnson and Keerthi 1988 (GJK); van den Bergen 2001 (EPA); Gottschalk and others 1996 (SAT).
 """
 
 from math import cos, hypot, pi, sin

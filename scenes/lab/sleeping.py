@@ -3,6 +3,12 @@
 What to see: half a second after it came to rest a heap is put aside, darker, with its contacts and forces, and a step
 costs next to nothing. A knock wakes the island that it meets and no other; what falls over wakes the next one, and so
 a wave of waking, lit up, runs along the columns. When it is over all fall asleep again where they lie.
+
+Why it matters: Most of a level lies still most of the time; a world that sleeps can be a hundred times as large.
+
+To try: drag a body out of a sleeping heap, and see who wakes with it.
+
+Source: Catto, Simulation Islands, box2d.org, 2023.
 """
 
 from functools import lru_cache

@@ -2,8 +2,13 @@
 
 What to see: projection pushes each overlap out by itself and forgets the weight above: the column jitters apart.
 Sequential impulse keeps from step to step what carries it. Soft step does too, and its contacts give like stiff
-springs: its column stands a third of a percent lower, and comes to rest after a nudge. Take substeps away, make the
-crate on top heavy, drag one out: who falls first?
+springs: its column stands a third of a percent lower, and comes to rest after a nudge.
+
+Why it matters: Whatever lies on something asks this of a solver; a column is where its errors add up.
+
+To try: take substeps away, make the crate on top heavy, drag one out: who falls first?
+
+Source: Catto, Iterative Dynamics with Temporal Coherence, 2005; Macklin and others, Small Steps, 2019.
 """
 
 from math import hypot
@@ -229,6 +234,17 @@ class Stacks(Scene):
                 f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px",
             ),
         ]
+
+    def finding(self):
+        """How far each column has sunk and swayed, and what a step of it takes."""
+        if self.since <= SETTLED:
+            return ""
+        told = []
+        for index, name in enumerate(SOLVERS):
+            sinks, sways = self.sag[name] / (self.values["crates"] * SIZE), self.sway[name] / SIZE
+            how = f"sinks {100 * sinks:.1f} %, sways {100 * sways:.1f} %" if self.stands_now(index) else "fell"
+            told.append(f"{plain_name(name)} {how} ({cost_text(self, (*self.chosen, name))})")
+        return "; ".join(told)
 
     def bot(self):
         """Watch, and nudge once."""

@@ -3,7 +3,13 @@
 What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray through its
 centre finds the plate, but passes a ball that would only graze the edge. The sweep finds both, as long as nothing
 turns: a spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at
-each other are each other's plate. Turn up the speed or thin the plate, and count.
+each other are each other's plate.
+
+Why it matters: The cheaper the sweep, the more it misses; the lanes show what each kind of shot needs, and its price.
+
+To try: turn up the speed or thin the plate, then Space for rods: count who misses first.
+
+Source: Mirtich 1996 (conservative advancement); Catto, Continuous Collision, GDC 2013.
 """
 
 from math import ceil, cos, pi, sin
@@ -323,6 +329,17 @@ class Tunnelling(Scene):
             ),
             Goal("no hit is made up where nothing turns, nor by toi", 600, made_up == 0, f"{made_up}"),
         ]
+
+    def finding(self):
+        """What each lane has missed of what it had to hit, and what a step of it takes."""
+        kind = self.kind
+        if not all(self.due[kind, lane] for lane in LANES):
+            return ""
+        told = []
+        for lane in LANES:
+            missed, due = self.missed[kind, lane], self.due[kind, lane]
+            told.append(f"{lane} missed {missed} of {due} ({cost_text(self, (*self.chosen, lane))})")
+        return f"{kind}: {', '.join(told)}"
 
     def bot(self):
         """Watch balls, rods and bullets; make it faster once."""

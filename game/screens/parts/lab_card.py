@@ -1,4 +1,4 @@
-"""A lab's card: what is to be seen in it, and what it must show, with what it has measured so far."""
+"""A lab's card: what is to be seen in it, why it matters, what to try, whose method it is, and what it has found."""
 
 import sys
 from collections.abc import Iterable
@@ -13,7 +13,8 @@ from game.files.settings import Settings
 from game.scene import Goal, Scene
 from game.screens.parts.first_hint import HintCard
 
-SEE = "What to see: "
+SECTIONS = ("What to see", "Why it matters", "To try", "Source")  # of the text at the head of a lab's source
+INKS = (PAPER, FOG, SKY, FOG)  # of them
 FOOT = "F1 or ?: this card   Enter or a click puts it away"
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
 BUTTONS = ("a", "b", "start")
@@ -34,7 +35,8 @@ class LabCard:
         found = what_to_see(type(scene))
         if found is None:
             raise ValueError(f"{scene.name} does not say what to see")
-        self.scene, (self.question, self.see) = scene, found
+        self.scene, self.text = scene, found
+        self.finding = ""
         self.rect = self.area = pygame.Rect(0, 0, 0, 0)
         self.place = (0, 0)
         self.goals: list[Goal] = []
@@ -56,7 +58,7 @@ class LabCard:
     def draw(self, frame: Frame) -> None:
         """Draw it at window resolution, where it covers the least text; the game goes on behind it."""
         if self.age % EVERY == 0:  # some goals take time to check
-            self.goals = self.scene.check()
+            self.goals, self.finding = self.scene.check(), self.scene.finding()
         self.age += 1
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
         head = self.scene.head * frame.scale  # the line that says what is switched stays in sight
@@ -84,14 +86,16 @@ class LabCard:
 
     def _lines(self, width, scale, room):
         """What is written, from top to bottom: lines of so many frame pixels, `room` text pixels of them."""
-        see = wrap(self.see, width, SMALL, scale)
-        lines = [Line(text, GOLD, TEXT) for text in wrap(self.question, width, TEXT, scale)]
-        lines += [Line(text, PAPER, gap=0 if number else 3) for number, text in enumerate(see)]
-        foot = Line(FOOT, FOG, gap=4)
+        lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
+        for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
+            words = words if section == SECTIONS[0] else f"{section}: {words}"
+            lines += paragraph(words, width, scale, ink)
+        end = paragraph(f"Found: {self.finding}", width, scale, GOLD) if self.finding else []
+        end.append(Line(FOOT, FOG, gap=4))
         if self.goals:
             lines.append(Line("what it must show, and what it has measured", SKY, gap=4))
-            lines += self._goal_lines(width, scale, min(GOALS, room - height_of([*lines, foot])))
-        return [*lines, foot]
+            lines += self._goal_lines(width, scale, min(GOALS, room - height_of([*lines, *end])))
+        return [*lines, *end]
 
     def _goal_lines(self, width, scale, room):
         """The goals, those first about which something is known; those for which there is no room are counted."""
@@ -112,6 +116,16 @@ class LabCard:
         return not goal.met and self.scene.frame < goal.due
 
 
+class CardText(NamedTuple):
+    """What a lab asks, and the text of each of SECTIONS."""
+
+    question: str
+    see: str
+    why: str
+    to_try: str
+    source: str
+
+
 class Line(NamedTuple):
     """A line of the card. gap: [text px] above it; mark: the colour of the square before it, FOLLOWS: only its room."""
 
@@ -125,6 +139,11 @@ class Line(NamedTuple):
     def height(self) -> int:
         """[text px]."""
         return 10 if self.font == TEXT else 7
+
+
+def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
+    """A text in lines of so many frame pixels, a little below what stands above."""
+    return [Line(each, ink, gap=0 if number else 3) for number, each in enumerate(wrap(text, width, SMALL, scale))]
 
 
 def height_of(lines: Iterable[Line]) -> int:
@@ -154,11 +173,18 @@ def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
     return None if settings.hint_seen else HintCard()
 
 
-def what_to_see(scene_class: type[Scene]) -> tuple[str, str] | None:
-    """(what a lab asks, what is to be seen), as its source says at its head; None where it does not."""
-    head, found, see = (sys.modules[scene_class.__module__].__doc__ or "").partition(SEE)
-    see = " ".join(see.split())
-    return (" ".join(head.split()), see[0].upper() + see[1:]) if found and see else None
+def what_to_see(scene_class: type[Scene]) -> CardText | None:
+    """What a lab asks, and the sections of it, as its source says at its head; None where it does not say what to see.
+
+    A section begins a paragraph with its name and a colon; one that is not there is "".
+    """
+    question, *paragraphs = (sys.modules[scene_class.__module__].__doc__ or "").split("\n\n")
+    found = dict.fromkeys(SECTIONS, "")
+    for each in paragraphs:
+        name, _, text = " ".join(each.split()).partition(": ")
+        if name in found:
+            found[name] = text[:1].upper() + text[1:]
+    return CardText(" ".join(question.split()), *found.values()) if found[SECTIONS[0]] else None
 
 
 def asks_for_card(event: pygame.event.Event) -> bool:
