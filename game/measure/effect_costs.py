@@ -64,6 +64,15 @@ def world_under(moment: Moment, side: Side) -> World:
     return world
 
 
+def can_be(moment: Moment, side: Side) -> bool:
+    """Whether what is in the world can live under these effects."""
+    try:
+        world_under(moment, side)
+    except ValueError:
+        return False
+    return True
+
+
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
     """Seconds a step of one run from the moment on. The first run of a side also compiles: leave it out."""
     world, spent = world_under(moment, side), 0.0
@@ -78,9 +87,11 @@ def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
 def measure_effects(
     moment: Moment, tell: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
-    """Time every effect, in shuffled turns; tell(effect, with it, without it) after each of its runs. Ends early once
-    goes_on() is False. Raises ValueError for a world that cannot be without one of its effects."""
-    sides = sides_of(moment.effects)
+    """Time every effect, in shuffled turns; tell(effect, with it, without it) after each round. Of one that the world
+    cannot be without (Characters need response) nothing is told. Ends early once goes_on() is False."""
+    sides = {
+        name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)
+    }
     todo = list(dict.fromkeys(side for pair in sides.values() for side in pair))
     spent: dict[Side, list[float]] = {side: [] for side in todo}
     chance = Random(seed)

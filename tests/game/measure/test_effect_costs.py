@@ -18,7 +18,7 @@ from game.measure.ledger import EFFECTS
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
 from game.screens.parts.effect_rows import effect_rows, hint_of, price_text
-from physics import BROADPHASES, Circle, Effects, Material, Polygon, World
+from physics import BROADPHASES, Character, Circle, Effects, Material, Polygon, World
 from scenes import SCENES
 
 PILE = Effects(response=True, gravity=True, friction=True, stacking=True, sleeping=True)
@@ -74,6 +74,16 @@ def test_every_effect_is_told_after_each_round_and_nothing_once_it_is_over(monke
     told.clear()
     measure_effects(moment(), lambda *found: told.append(found), lambda: bool(asked.append(1)))
     assert not told and len(asked) == 1
+
+
+def test_of_what_a_world_cannot_be_without_nothing_is_told(monkeypatch):
+    monkeypatch.setattr("game.measure.effect_costs.STEPS", 1)
+    world = World(PILE, BROADPHASES["hash"]())
+    Character(world, Polygon.box(8, 16), (0, 0))
+    world.step()
+    told = set()
+    measure_effects(Moment(world.snapshot(), "hash"), lambda name, *_: told.add(name), lambda: True)
+    assert set(EFFECTS) - told == {"response"}
 
 
 def test_what_the_runs_scatter_by_is_no_cost():
