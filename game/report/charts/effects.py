@@ -10,7 +10,7 @@ from game.report.job import Job, Plan, Row
 from game.run.headless import start_dummy_display
 from game.run.warmup import warm_up_scene
 
-FRAMES, FRAMES_QUICK = 600, 150  # steps of the bot's run
+FRAMES, FRAMES_QUICK = 300, 150  # steps of the bot's run
 LONGEST = {"lab/broadphases": 60}  # four worlds of thousands of bodies
 FEW = ("shooter", "lab/pyramid")
 MICRO = 1e6

@@ -78,7 +78,7 @@ def _peaks(made, frames):
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    frames = 120 if plan.quick else 900
+    frames = 120 if plan.quick else 600
     chosen = ("shooter", "platformer", "lab/pyramid", "lab/masks") if plan.quick else tuple(plan.scenes)
     return [
         Job(
