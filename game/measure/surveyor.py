@@ -130,7 +130,7 @@ class Surveyor:
         if self.process is None:
             try:
                 self.process = start_module("game.measure.worker")
-                self.folder = tempfile.TemporaryDirectory(prefix="hitbox-")
+                self.folder = tempfile.TemporaryDirectory(prefix="hitbox-", ignore_cleanup_errors=True)
             except (OSError, ValueError) as error:
                 self.stop()
                 self.trouble = f"the process that measures could not be started: {error}"

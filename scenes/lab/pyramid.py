@@ -42,7 +42,7 @@ DROP_AT = 330  # the bot's step
 JUDGED_AT = 300  # step at which the pyramid has to have stood still
 ENERGY_SLACK = 0.001  # of the height energy
 OVERLAP = "overlap, 1/1000 crate [log]"
-OVERLAP_AT, SCATTER_AT = (4, 178, 130, 32), (4, 106, 130, 68)  # [canvas px]
+OVERLAP_AT, SCATTER_AT = (4, 176, 130, 32), (4, 106, 130, 68)  # [canvas px]
 COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 
 
