@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from random import Random
 from typing import NamedTuple
 
-from game.measure.errors import References
+from game.measure.errors import VISIBLE, References
 from game.measure.front import cheaper
 from game.measure.moment import STEPS, Moment
 from game.measure.setting import Setting, settings_around
@@ -63,17 +63,35 @@ def advise(
     together = _together(survey, here, error)
     if together not in survey.dots:
         measure_settings(survey, moments, [here, together], tell, seed + 1)
-    within = _within(survey, error)
+    within = settings_within(survey, error)
     if not within:
         return Advice(here, None, ()), survey
     best = within[0]
-    if here in within and not _is_cheaper(survey, best, here):
+    if here in within and not is_cheaper(survey, best, here):
         best = here
     return Advice(here, best, tuple(within)), survey
 
 
-def _within(survey, error):
-    """The settings whose errors are all within, the cheapest first."""
+def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
+    """The cheapest setting within an error [px] on all counts; None where nothing is surely cheaper than `here`, or
+    `here` is the only one within. Only what every moment was run often enough for is compared."""
+    within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
+    if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
+        return None
+    best = within[0]
+    return best if here not in within or is_cheaper(survey, best, here) else None
+
+
+def share(survey: Survey, setting: Setting, here: Setting) -> float:
+    """Its time by that of another. Raises KeyError, or ValueError, for a setting that was not timed."""
+    cost, now = survey.dots[setting].cost, survey.dots[here].cost
+    if cost is None or now is None:
+        raise ValueError("a share needs the times of both")
+    return cost.median / now.median
+
+
+def settings_within(survey: Survey, error: float) -> list[Setting]:
+    """The settings whose errors [px] are all within, the cheapest first."""
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
@@ -82,7 +100,7 @@ def _within(survey, error):
     return sorted(found, key=found.__getitem__)
 
 
-def _is_cheaper(survey, one, other):
+def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
     """By the whole interval of its runs, not by their median alone."""
     a, b = survey.dots[one].cost, survey.dots[other].cost
     return a is not None and b is not None and cheaper((a.least, a.upper), b[:2])
@@ -92,7 +110,9 @@ def _together(survey, here, error):
     """Of each part the cheapest choice that surely pays by itself, all at once."""
     together = here
     for part in PARTS:
-        alone = [each for each in _within(survey, error) if set(each.differs(here)) <= set(part) and each != here]
-        if alone and (_is_cheaper(survey, alone[0], here) or here not in _within(survey, error)):
+        alone = [
+            each for each in settings_within(survey, error) if set(each.differs(here)) <= set(part) and each != here
+        ]
+        if alone and (is_cheaper(survey, alone[0], here) or here not in settings_within(survey, error)):
             together = together._replace(**{name: getattr(alone[0], name) for name in part})
     return together

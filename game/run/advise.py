@@ -4,7 +4,7 @@ import json
 import sys
 from time import perf_counter
 
-from game.measure.advice import Advice, advise
+from game.measure.advice import Advice, advise, share
 from game.measure.errors import VISIBLE
 from game.measure.moment import STEPS, Moment
 from game.measure.setting import Setting
@@ -78,13 +78,6 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> 
     least, most = interval(survey, best, here)
     times = f"{share(survey, best, here):.2f} x the time ({least:.2f} to {most:.2f})"
     return [*lines, f"advice: {best.label(here)}: {times}"]
-
-
-def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Its time by that of another."""
-    cost, now = survey.dots[setting].cost, survey.dots[here].cost
-    assert cost is not None and now is not None  # whatever is advised was timed
-    return cost.median / now.median
 
 
 def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:

@@ -79,7 +79,8 @@ class Play(SceneScreen):
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
         self.measuring = Measuring(scene, devices, lambda solver: self.prepare(solver))
-        self.costs = CostPanel(self.measuring.surveyor, self.measuring.now, self.try_setting, self.start_race)
+        measuring = self.measuring
+        self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
@@ -382,8 +383,8 @@ class Play(SceneScreen):
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
         self.measuring.beside(self.now, self.panel_open)
-        if self.costs_open:
-            self.measuring.turn(self.now)
+        if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
+            self.switches.tell(news)
         scrub = self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
         reserve = None if scrub is None else scrub.reserve
         frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)

@@ -15,6 +15,8 @@ from game.measure.setting import Setting
 from game.measure.survey import shown, told
 from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
+from game.measure.tuner import Tuner
+from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.switches import following
 
 TITLES = {
@@ -45,7 +47,7 @@ ROW = 8  # [text px]
 
 class CostPanel:
     """now(): the setting that runs; apply(setting) puts one to work in the scene, or tells why it cannot; race(setting)
-    lets the scene run against itself under it."""
+    lets the scene run against itself under it; tuner: of that scene."""
 
     def __init__(
         self,
@@ -53,8 +55,10 @@ class CostPanel:
         now: Callable[[], Setting],
         apply: Callable[[Setting], None],
         race: Callable[[Setting], None],
+        tuner: Tuner,
     ) -> None:
         self.surveyor, self.survey, self.now, self.apply, self.race = surveyor, surveyor.survey, now, apply, race
+        self.advice = AdviceRows(tuner, now, apply)
         self.kind: str | None = None  # of error; None: the first there is
         self.trail: list[Setting] = []
         self.places: list[tuple[tuple[float, float], Setting]] = []  # of the last picture's dots
@@ -88,6 +92,8 @@ class CostPanel:
             self.focused = self.rect.collidepoint(event.pos)
             if self.head.collidepoint(event.pos):
                 self.turn_kind(1)
+            elif self.advice.click(event.pos):
+                pass
             elif (setting := self._under(event.pos)) is not None:
                 (self.race if pygame.key.get_mods() & pygame.KMOD_SHIFT else self.apply)(setting)
             return self.focused
@@ -104,7 +110,7 @@ class CostPanel:
         elif key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.hovered is not None:
             (self.race if shift else self.apply)(self.hovered)
         else:
-            return False
+            return self.advice.key(key)
         return True
 
     def turn_kind(self, way: int) -> None:
@@ -128,6 +134,7 @@ class CostPanel:
         if not self.trail or self.trail[-1] != now:
             self.trail = [*self.trail, now][-TRAIL:]
         asked = (tuple(rect), now, self.hovered, self.shown_kind(), self.focused, frame.palette, self.surveyor.trouble)
+        asked = *asked, *self.advice.stamp()
         self.age += 1
         if self.sheet is None or asked != self.asked or (self.age >= LASTS and self.seen != self.surveyor.revision):
             self.asked, self.age, self.seen, before = asked, 0, self.surveyor.revision, len(frame.boxes)
@@ -152,6 +159,7 @@ class CostPanel:
             self._draw_plot(frame, plot, known, now, scale)
             y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
             y = self._draw_finding(frame, left, y, width, now, scale)
+            y = self.advice.draw(frame, left, y, width, scale)
             self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - 10 * scale - y), known, now, scale)
         foot = next((line for line in FEET if frame.measure(line, SMALL, scale)[0] <= width), FEET[-1])
         frame.text(foot, left, rect.bottom - 8 * scale, FOG, SMALL, scale)

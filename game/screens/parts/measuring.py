@@ -8,6 +8,7 @@ from game.input.devices import DeviceSource
 from game.measure.moment import here_of
 from game.measure.setting import Setting
 from game.measure.surveyor import Surveyor
+from game.measure.tuner import Tuner
 from game.run.warmup import pieces_of
 from game.scene import SUBSTEPS, Scene
 from game.screens.parts.race import Race
@@ -27,6 +28,7 @@ class Measuring:
     def __init__(self, scene: Scene, devices: DeviceSource, prepare: Callable[[str], None]) -> None:
         self.scene, self.devices, self.prepare = scene, devices, prepare
         self.surveyor = Surveyor()
+        self.tuner = Tuner(self.surveyor.survey, self._try)
         self.bench = Surveyor()  # of what the scene wants to know …
         self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or lanes of these names
         self.ledger = Surveyor()  # of the effects
@@ -82,9 +84,26 @@ class Measuring:
                 self.bench.stop()
         self.scene.figures = self.bench.figures
 
-    def turn(self, now: float) -> None:
-        """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done."""
+    def turn(self, now: float) -> str:
+        """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done.
+        Returns a line about what the tuner decided, "" for nothing."""
         self.surveyor.turn()
+        self._take_moment(now)
+        decided = self.tuner.step(self.scene.frame, self.now())
+        if decided is None:
+            return ""
+        told = f"{decided.after.label(decided.before)}, {decided.share:.2f} x the time"
+        return f"tuned: {told}" if not decided.refused else f"not tuned: {decided.refused}"
+
+    def _try(self, setting):
+        """Put a setting to work; why not, "" where it was."""
+        changes = self._changes(setting)
+        if isinstance(changes, str):
+            return changes
+        self.apply(setting)
+        return ""
+
+    def _take_moment(self, now):
         frame = self.scene.frame
         if self.taken_at is not None:
             waits = self.surveyor.busy or now - self.taken_at[0] < EVERY or frame == self.taken_at[1]
@@ -94,12 +113,16 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
 
     def close(self) -> None:
-        """End the process; what was measured stays, and more is added when it is opened again."""
+        """End the process, unless the tuner goes on; what was measured stays, and more is added when it is opened
+        again."""
+        if self.tuner.on:
+            return
         self.surveyor.stop()
         self.taken_at = None
 
     def leave(self) -> None:
         """End all that is being measured: the scene is left."""
+        self.tuner.on = False
         self.close()
         self.bench.stop()
         self.ledger.stop()

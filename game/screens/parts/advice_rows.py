@@ -1,0 +1,81 @@
+"""Two lines under the finding: what to set here, and the tuner that sets it by itself."""
+
+from collections.abc import Callable
+
+import pygame
+
+from game.drawing.canvas import SMALL, shorten
+from game.drawing.colors import DUSK, FOG, GREEN, PAPER, SKY
+from game.drawing.presenter import Frame
+from game.measure.advice import advised, share
+from game.measure.setting import Setting
+from game.measure.tuner import Tuner
+
+TAKE, TUNE = pygame.K_PAGEUP, pygame.K_PAGEDOWN
+ROW = 9  # [text px]
+
+
+class AdviceRows:
+    """now(): the setting that runs; apply(setting) puts one to work."""
+
+    def __init__(self, tuner: Tuner, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
+        self.tuner, self.now, self.apply = tuner, now, apply
+        self.rects = [pygame.Rect(0, 0, 0, 0), pygame.Rect(0, 0, 0, 0)]
+
+    def stamp(self) -> tuple:
+        """Changes with what the lines say."""
+        return self.tuner.on, len(self.tuner.decisions)
+
+    def key(self, key: int) -> bool:
+        """Page up takes the advice, page down switches the tuner; True if it was one of these."""
+        if key == TAKE:
+            self.take()
+        elif key == TUNE:
+            self.tuner.on = not self.tuner.on
+        return key in (TAKE, TUNE)
+
+    def click(self, position: tuple[int, int]) -> bool:
+        """A click on one of the lines does what its key does."""
+        for rect, key in zip(self.rects, (TAKE, TUNE), strict=True):
+            if rect.collidepoint(position):
+                return self.key(key)
+        return False
+
+    def take(self) -> None:
+        """Put the advice to work, where there is one."""
+        best = advised(self.tuner.survey, self.now())
+        if best is not None:
+            self.apply(best)
+
+    def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
+        """Returns the y below."""
+        texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
+        for row, (text, color) in enumerate(texts):
+            self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)
+            frame.surface.fill(DUSK, rect)
+            ink = color if row or "PgUp" in text else PAPER
+            frame.text(
+                shorten(text, width - 4 * scale, SMALL, scale), left + 2 * scale, rect.y + scale, ink, SMALL, scale
+            )
+        return y + 2 * ROW * scale + scale
+
+    def _advice(self):
+        survey, here = self.tuner.survey, self.now()
+        best = advised(survey, here)
+        if best is not None:
+            return f"PgUp: {best.label(here)}, {share(survey, best, here):.2f} x the time within 1 px"
+        known = here in survey.dots and survey.dots[here].sure
+        return (
+            "leave it: within 1 px nothing is surely cheaper"
+            if known
+            else "the advice comes when this setting is known"
+        )
+
+    def _tuning(self):
+        if not self.tuner.on:
+            return "PgDn: let it tune itself"
+        done = [each for each in self.tuner.decisions if not each.refused]
+        if not done:
+            return "PgDn: tunes itself, nothing changed yet"
+        last = done[-1]
+        return f"PgDn: tunes itself, {len(done)} changes, the last: {last.after.label(last.before)}, {last.share:.2f} x"

@@ -1,0 +1,121 @@
+"""The advice in the plot of costs, and the tuner that takes it: only what is sure, and told."""
+
+import pygame
+import pytest
+
+from game.measure.advice import advised, share
+from game.measure.errors import Error
+from game.measure.setting import Setting
+from game.measure.survey import Survey
+from game.measure.timing import RUNS
+from game.measure.tuner import Tuner
+from game.screens.play import Play
+from scenes import SCENES
+
+HERE = Setting("hash", True)
+TREE, SWEEP, BRUTE = (HERE._replace(broadphase=name) for name in ("tree", "sweep", "brute"))
+
+
+def put(survey, setting, seconds, error=0.0, runs=RUNS, spread=0.02):
+    """A dot as it would have been measured."""
+    dot = survey.dot(setting)
+    dot.steps = 60
+    dot.spent[1] = [seconds * (1.0 + spread * k / RUNS) for k in range(runs)]
+    dot.errors[1] = {kind: Error(error, 0.0, 60) for kind in survey.kinds}
+
+
+@pytest.fixture
+def survey():
+    made = Survey()
+    made.kinds = ("verdict",)
+    put(made, HERE, 1.0)
+    return made
+
+
+def test_only_what_is_sure_is_advised(survey):
+    assert advised(survey, HERE) is None
+    put(survey, TREE, 0.95)
+    assert advised(survey, HERE) is None, "less than a tenth"
+    put(survey, SWEEP, 0.5, error=3.0)
+    assert advised(survey, HERE) is None, "wrong by more than is seen"
+    put(survey, BRUTE, 0.5, runs=RUNS - 1)
+    assert advised(survey, HERE) is None, "not run often enough"
+    put(survey, BRUTE, 0.5)
+    assert advised(survey, HERE) == BRUTE and share(survey, BRUTE, HERE) == pytest.approx(0.5)
+
+
+def test_who_is_wrong_is_told_what_is_not_whatever_it_takes(survey):
+    put(survey, HERE, 1.0, error=3.0)
+    put(survey, TREE, 4.0)
+    assert advised(survey, HERE) == TREE
+    assert advised(survey, SWEEP) is None, "nothing is known of what runs"
+
+
+def test_the_tuner_tells_what_it_does_and_asks_nobody_twice_who_refuses(survey):
+    put(survey, TREE, 0.5)
+    taken = []
+    tuner = Tuner(survey, lambda setting: taken.append(setting) or ("no" if setting == TREE else ""))
+    assert tuner.step(1, HERE) is None and not taken, "it is off"
+    tuner.on = True
+    decision = tuner.step(7, HERE)
+    assert decision == (7, HERE, TREE, pytest.approx(0.5), "no") and taken == [TREE]
+    assert tuner.step(8, HERE) is None and taken == [TREE]
+    put(survey, SWEEP, 0.3)
+    assert tuner.step(9, HERE).after == SWEEP and tuner.step(10, SWEEP) is None
+
+
+@pytest.fixture
+def play(drive, monkeypatch):
+    monkeypatch.setattr("game.measure.surveyor.Surveyor.measure", lambda *of: None)
+    driver = drive(listing=SCENES)
+    driver.app.screens.play("lab/filters")
+    driver.turns(10)
+    driver.key(pygame.K_m)
+    play = driver.screen
+    assert isinstance(play, Play) and play.costs_open
+    survey, here = play.measuring.surveyor.survey, play.measuring.now()
+    survey.kinds = ("verdict",)
+    other = here._replace(broadphase="tree" if here.broadphase != "tree" else "hash")
+    put(survey, here, 2e-4)
+    put(survey, other, 1e-4)
+    play.measuring.surveyor.revision += 1
+    driver.turns(20)
+    yield driver, play, here, other
+    play.close()
+
+
+def words(driver):
+    return " ".join(text for _, text in driver.app.arcade.picture.presenter.frame.boxes)
+
+
+def test_page_up_takes_the_advice(play):
+    driver, play, here, other = play
+    assert "0.50 x the time within 1 px" in words(driver)
+    driver.key(pygame.K_PAGEUP)
+    driver.turns(3)
+    assert play.measuring.now() == other
+    driver.turns(20)
+    assert "leave it" in words(driver)
+
+
+def test_a_click_on_the_line_takes_it_too(play):
+    driver, play, here, other = play
+    place = play.costs.advice.rects[0].center
+    driver.post(pygame.MOUSEBUTTONDOWN, pos=place, button=1)
+    driver.turns(3)
+    assert play.measuring.now() == other
+
+
+def test_the_tuner_goes_on_with_the_panel_closed_and_ends_with_the_scene(play):
+    driver, play, here, other = play
+    driver.key(pygame.K_PAGEDOWN)
+    driver.turns(5)
+    assert play.measuring.now() == other and "tunes itself" in words(driver) and "tuned: " in words(driver)
+    driver.key(pygame.K_m)
+    assert not play.costs_open and play.measuring.tuner.on
+    put(play.measuring.surveyor.survey, here._replace(broadphase="sweep"), 2e-5)
+    driver.turns(5)
+    assert play.measuring.now().broadphase == "sweep"
+    assert [each.after.broadphase for each in play.measuring.tuner.decisions] == [other.broadphase, "sweep"]
+    play.close()
+    assert not play.measuring.tuner.on and play.measuring.surveyor.process is None
