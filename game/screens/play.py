@@ -24,10 +24,12 @@ from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
+from game.screens.parts.play_keys import press
 from game.screens.parts.rumble import rumble
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from game.screens.parts.switches import Switches
+from game.screens.parts.why import Why
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
@@ -39,7 +41,6 @@ PANEL_BUTTONS = {
     "a": pygame.K_RETURN,
 }
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
-KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
 
 
 class Play(SceneScreen):
@@ -82,6 +83,7 @@ class Play(SceneScreen):
         measuring = self.measuring
         self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
+        self.why = Why(scene)
         self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -277,35 +279,38 @@ class Play(SceneScreen):
             return True
         if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
             return True
+        if self.why.feed(event, self.clock.paused):
+            return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
             self.close_costs()
             self.panel_open, self.hint = False, LabCard(self.scene)
             return True
-        return event.type == pygame.KEYDOWN and self._key(event.key)
+        return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def _button(self, button):
         """A pad's button that does something besides playing."""
         panel = self.open_panel
         if button == "start":
-            self._stop()
+            self.stop()
         elif button == "back":
             self.toggle_pause()
         elif button == "y" or (button == "b" and panel is not None and panel.focused):
-            self._toggle_panel()
+            self.toggle_panel()
         elif panel is not None and panel.focused and button in PANEL_BUTTONS:
             panel.key(PANEL_BUTTONS[button])
         else:
             return False
         return True
 
-    def _stop(self):
+    def stop(self) -> None:
         """To the pause menu; from a game that has ended, to its result; where nobody plays, to the menu."""
         if not self.person:
             self.outcome = ("menu",)
         else:
             self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
 
-    def _toggle_panel(self):
+    def toggle_panel(self) -> None:
+        """Open the panel, or close what is open."""
         was_open = self.open_panel is not None
         self.close_costs()
         self.panel_open = not was_open
@@ -341,44 +346,6 @@ class Play(SceneScreen):
         self.close_costs()
         self.measuring.leave()
 
-    def _key(self, key):
-        if set(self.devices.keys.get(key, ())) - KEPT_ACTIONS:
-            return False  # the player gave it to a move, and a move it stays
-        layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in self.overlays.layers}
-        if key in layers:
-            self.overlays.toggle(layers[key])
-        elif key == pygame.K_0:
-            self.overlays.toggle_all()
-        elif key == pygame.K_TAB:
-            self._toggle_panel()
-        elif key == pygame.K_m:
-            self.toggle_costs()
-        elif key == pygame.K_ESCAPE:
-            self._stop()
-        elif key == pygame.K_b:
-            self.switches.broadphase(1)
-        elif key == pygame.K_v:
-            self.switch_solver(1)
-        elif key == pygame.K_t:
-            self.switches.tier(1)
-        elif key == pygame.K_n:
-            self.switches.narrowphase()
-        elif key == pygame.K_r:
-            self.wish_restart()
-        elif key == pygame.K_p:
-            self.toggle_pause()  # not through the input of a step: a paused game makes none
-        elif key == pygame.K_o:
-            self.single_step()
-        elif key == pygame.K_MINUS:
-            self.clock.slower()
-        elif key in (pygame.K_EQUALS, pygame.K_PLUS):
-            self.clock.faster()
-        elif key == pygame.K_F12:
-            self.wants_screenshot = True
-        else:
-            return False
-        return True
-
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
@@ -393,6 +360,7 @@ class Play(SceneScreen):
         if self.measuring.race is not None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)
+        self.why.draw(frame, self.clock.paused)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
         self.session.report.note_drawing(perf_counter() - started)

@@ -30,6 +30,7 @@ class Played(Protocol):
     hint: HintCard | LabCard | None
     person: bool
     since_result: int
+    wants_screenshot: bool
     helped_since: int  # the step from which the keys are shown
 
     @property
@@ -56,4 +57,16 @@ class Played(Protocol):
 
     def toggle_costs(self) -> None:
         """Open or close the plot of what accuracy costs."""
+        ...
+
+    def toggle_panel(self) -> None:
+        """Open the panel, or close what is open."""
+        ...
+
+    def switch_solver(self, way: int) -> None:
+        """The next solver, or the one before."""
+        ...
+
+    def stop(self) -> None:
+        """To the pause menu, or to where a run ends."""
         ...

@@ -1,0 +1,133 @@
+"""Why two bodies touch, or not: the way of a pair through the last step, stage by stage, with its numbers and times.
+
+Times of stages are of the whole step and said with what was done in them. What the pair alone takes in the narrow phase
+is measured when it is asked: a thousand copies of it, warmed, in five runs.
+"""
+
+from math import atan2, degrees
+from typing import NamedTuple
+
+import numpy as np
+
+from game.drawing.number_text import count_text, plain_name
+from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
+from physics import World
+from physics.queries.pair_batch import PairBatch
+
+MICRO, NANO = 1e6, 1e9
+
+
+class Part(NamedTuple):
+    """What one stage said of the pair; stage: its name in words."""
+
+    stage: str
+    text: str
+
+
+class Touch(NamedTuple):
+    """A point of contact: whose, where [px]."""
+
+    body_a: int
+    body_b: int
+    shape_a: int
+    shape_b: int
+    x: float
+    y: float
+
+
+def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
+    """The contact next to a place [px] within reach; None where there is none."""
+    found = world.contacts
+    if not len(found):
+        return None
+    away = np.hypot(found["point_x"] - x, found["point_y"] - y)
+    row = int(np.argmin(away))
+    if away[row] > reach:
+        return None
+    c = found[row]
+    a, b, s, t = (int(c[name]) for name in ("body_a", "body_b", "shape_a", "shape_b"))
+    return Touch(a, b, s, t, float(c["point_x"]), float(c["point_y"]))
+
+
+def still_there(world: World, touch: Touch) -> bool:
+    """Whether the pair touches in the last step too."""
+    found = world.contacts
+    return bool(((found["shape_a"] == touch.shape_a) & (found["shape_b"] == touch.shape_b)).any())
+
+
+def explain(world: World, touch: Touch) -> list[Part]:
+    """The way of a pair that touches through the last step. Raises ValueError for one that does not."""
+    rows = world.told_manifolds()
+    mine = rows[(rows["shape_a"] == touch.shape_a) & (rows["shape_b"] == touch.shape_b)]
+    if not len(mine):
+        raise ValueError(f"touch must be of a pair that touches (got {touch})")
+    parts = [_broad_phase(world, touch), _filter(world, touch), _narrow_phase(world, touch, mine)]
+    if world.effects.stacking:
+        parts.append(_warm_start(world, mine))
+    if world.effects.response:
+        parts.append(_solver(world, mine))
+    return parts
+
+
+def cost_of(world: World, touch: Touch) -> Cost:
+    """What the narrow phase takes for these two bodies [s], at the poses that they have now."""
+    bodies = world.body(touch.body_a), world.body(touch.body_b)
+    poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
+    batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])
+    return timed_in_turns({"pair": batch.test}, {"pair": len(batch)})["pair"]
+
+
+def _stage(world, name):
+    seconds = world.profile.stages.get(name)
+    return "" if seconds is None else f"; the stage took {MICRO * seconds:.0f} us"
+
+
+def _broad_phase(world, touch):
+    ids = world.candidates
+    place = np.flatnonzero((ids == (touch.shape_a, touch.shape_b)).all(axis=1))
+    tested = world.profile.counters["pairs_tested"]
+    name = plain_name(world.broadphase.name)
+    where = f"pair {int(place[0]) + 1} of {len(ids)} whose boxes meet" if len(place) else "told again by the solver"
+    words = f"{where}, from {count_text(tested, 'test')} of boxes" if tested else where + ", known from steps before"
+    return Part(f"broad phase, {name}", words + _stage(world, "broad_phase"))
+
+
+def _filter(world, touch):
+    rows = world.shapes
+    a, b = (rows[rows["id"] == each][0] for each in (touch.shape_a, touch.shape_b))
+    ways = [f"{int(s['membership']):#x} is in {int(t['mask']):#x}" for s, t in ((a, b), (b, a))]
+    return Part("filter", f"{ways[0]}, and {ways[1]}: they may meet")
+
+
+def _narrow_phase(world, touch, mine):
+    deepest = mine[np.argmin(mine["separation_1"])]
+    points = count_text(int(mine["count"].sum()), "point")
+    gaps = [float(deepest["separation_1"])] + ([float(deepest["separation_2"])] if deepest["count"] > 1 else [])
+    how = ", ".join(f"{-gap:.3f} px deep" if gap <= 0.0 else f"{gap:.3f} px apart" for gap in gaps)
+    angle = degrees(atan2(float(deepest["normal_y"]), float(deepest["normal_x"])))
+    features = " ".join(f"{int(deepest[name]):x}" for name in ("feature_1", "feature_2")[: len(gaps)])
+    again = ", used again as it was" if int(deepest["previous"]) >= 0 else ""
+    text = (
+        f"{points}: {how}; normal at {angle:.0f} deg from {touch.body_a} to {touch.body_b}, features {features}{again}"
+    )
+    return Part("narrow phase", text + _stage(world, "narrow_phase"))
+
+
+def _warm_start(world, mine):
+    known = int(mine["persisted_1"].sum() + (mine["persisted_2"] & (mine["count"] > 1)).sum())
+    if not known:
+        return Part("warm start", "all is new here: the solver begins at nothing")
+    points = count_text(int(mine["count"].sum()), "point")
+    return Part("warm start", f"{known} of {points} known: the solver begins at what they bore before")
+
+
+def _solver(world, mine):
+    second = mine["count"] > 1
+    normal = float(mine["normal_impulse_1"].sum() + mine["normal_impulse_2"][second].sum())
+    tangent = float(mine["tangent_impulse_1"].sum() + mine["tangent_impulse_2"][second].sum())
+    count = world.substeps
+    effort = "" if not world.effects.stacking else ", substeps by load" if count == "auto" else f", {count} substeps"
+    words = f"pushed by {normal:.3g} along the normal" if normal > 0.0 else "bears nothing"
+    if world.effects.friction:
+        words += f", held by {abs(tangent):.3g} along it"
+    return Part(f"solver, {plain_name(world.solver)}{effort}", words + _stage(world, world.solver))

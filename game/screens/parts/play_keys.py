@@ -1,0 +1,47 @@
+"""The keys of a scene that is played, besides those that play it."""
+
+import pygame
+
+from game.screens.parts.played import Played
+
+KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
+
+
+def press(play: Played, key: int) -> bool:
+    """Do what a key is for besides playing; False: it is for nothing, or for the game."""
+    if set(play.devices.keys.get(key, ())) - KEPT_ACTIONS:
+        return False  # the player gave it to a move, and a move it stays
+    layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in play.overlays.layers}
+    if key in layers:
+        play.overlays.toggle(layers[key])
+    elif key == pygame.K_0:
+        play.overlays.toggle_all()
+    elif key == pygame.K_TAB:
+        play.toggle_panel()
+    elif key == pygame.K_m:
+        play.toggle_costs()
+    elif key == pygame.K_ESCAPE:
+        play.stop()
+    elif key == pygame.K_b:
+        play.switches.broadphase(1)
+    elif key == pygame.K_v:
+        play.switch_solver(1)
+    elif key == pygame.K_t:
+        play.switches.tier(1)
+    elif key == pygame.K_n:
+        play.switches.narrowphase()
+    elif key == pygame.K_r:
+        play.wish_restart()
+    elif key == pygame.K_p:
+        play.toggle_pause()  # not through the input of a step: a paused game makes none
+    elif key == pygame.K_o:
+        play.single_step()
+    elif key == pygame.K_MINUS:
+        play.clock.slower()
+    elif key in (pygame.K_EQUALS, pygame.K_PLUS):
+        play.clock.faster()
+    elif key == pygame.K_F12:
+        play.wants_screenshot = True
+    else:
+        return False
+    return True

@@ -1,0 +1,85 @@
+"""Why? A click on a contact while the scene is frozen: the way of that pair through the step, on a card beside it."""
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, wrap
+from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SKY, Color, faded
+from game.drawing.presenter import Frame, Lens
+from game.measure.why import NANO, Part, Touch, cost_of, explain, nearest, still_there
+from game.scene import Scene
+from game.screens.parts.lab_card import least_covering
+from physics import World
+
+REACH = 5.0  # [canvas px] around a contact that a click takes for it
+WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
+
+
+class Why:
+    """feed() takes clicks, draw() shows the card; it goes when time goes on."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.chosen: tuple[World, Touch] | None = None
+        self.parts: list[Part] = []
+        self.lenses: list[tuple[World, Lens]] = []  # of the last picture
+        self.reach = REACH  # [frame px]
+
+    def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
+        """A click next to a contact opens its card, another one closes it; True if the click is used up."""
+        if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
+            return False
+        was_open, self.chosen = self.chosen is not None, None
+        for world, lens in self.lenses:
+            if lens.clip.collidepoint(event.pos):
+                x, y = (event.pos[0] - lens.dx) / lens.scale, (event.pos[1] - lens.dy) / lens.scale
+                touch = nearest(world, x, y, self.reach / lens.scale)
+                if touch is not None:
+                    self._choose(world, touch)
+                    return True
+        return was_open
+
+    def _choose(self, world, touch):
+        cost = cost_of(world, touch)
+        alone = f"{NANO * cost.median:.0f} ns +{100 * cost.noise:.0f} %, {cost.pieces} times in a row"
+        self.parts = [*explain(world, touch), Part("this pair alone, narrow phase", alone)]
+        self.chosen = world, touch
+
+    def draw(self, frame: Frame, frozen: bool) -> None:
+        """The ring and the card."""
+        self.lenses = [(world, frame.lens(camera)) for world, camera in self.scene.views()]
+        self.reach = REACH * frame.scale
+        if self.chosen is None:
+            return
+        world, touch = self.chosen
+        lens = next((lens for each, lens in self.lenses if each is world), None)
+        if not frozen or lens is None or not still_there(world, touch):
+            self.chosen = None
+            return
+        place = lens.points(touch.x, touch.y)
+        if lens.clip.collidepoint(place):
+            pygame.draw.circle(frame.surface, GOLD, place, 4 * frame.text_scale, max(1, frame.text_scale))
+        self._draw_card(frame, touch, place)
+
+    def _draw_card(self, frame, touch, place):
+        scale = frame.text_scale
+        width = WIDTH * scale
+        lines: list[tuple[str, Color, str, int]] = [
+            (f"Why do {touch.body_a} and {touch.body_b} touch?", GOLD, TEXT, 10)
+        ]
+        for part in self.parts:
+            lines.append((part.stage, SKY, SMALL, ROW))
+            lines += [(text, PAPER, SMALL, ROW) for text in wrap(part.text, width - 2 * EDGE * scale, SMALL, scale)]
+        lines.append(("a click elsewhere closes", FOG, SMALL, ROW))
+        size = width, (sum(height for *_, height in lines) + 2 * EDGE) * scale
+        ring = pygame.Rect(0, 0, 12 * scale, 12 * scale)
+        ring.center = round(place[0]), round(place[1])
+        frame.boxes.append((ring, ""))  # the card keeps off what it is about
+        rect = least_covering(frame, frame.area, size)
+        frame.boxes.pop()
+        frame.surface.fill(faded(NIGHT, 0.1), rect)
+        pygame.draw.rect(frame.surface, GOLD, rect, max(1, scale // 2))
+        y = rect.y + EDGE * scale
+        for text, ink, font, height in lines:
+            frame.text(text, rect.x + EDGE * scale, y, ink, font, scale)
+            y += height * scale
+        frame.fix(rect)
