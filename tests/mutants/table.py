@@ -53,10 +53,10 @@ MUTANTS = (
     Mutant("integrate_velocities", "sign", ("test_free_fall_without_stacking_is_its_own_recurrence",), seed=4),
     Mutant("integrate_velocities", "factor", ("test_drag_and_wind_follow_the_implicit_recurrence",), seed=2),
     Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
-    Mutant("warm_lanes", "sign", ("test_f9_pyramid_that_starts_a_quarter_inside_itself",)),
+    Mutant("warm_lanes", "sign", ("test_f9_pyramid_that_starts_a_quarter_inside_itself",), seed=2),
     Mutant("gather_motions", "factor", ("test_sliding_disc_rolls_after_two_thirds",)),
     Mutant("mixed", "factor", ("test_stopping_distance",)),
-    Mutant("solve_soft", "sign", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
+    Mutant("solve_soft", "sign", ("test_a_slope_is_level_ground_under_a_gravity_that_leans",), seed=5),
     Mutant("push_pair", "sign", ("test_cradle_hands_on_the_velocity",), seed=2),
     Mutant(
         "push_pair",
@@ -86,9 +86,11 @@ MUTANTS = (
 
 # (kernel, kind, seed) of changes that come to the same, and why.
 EQUIVALENT = {
+    ("warm_lanes", "sign", 1): "uncompiled there is one lane, the first: lane is 0",
+    ("solve_soft", "sign", 1): "as before",
     (
         "reduce_simplex",
         "turn",
         1,
-    ): "the walk goes on from the other corner of an edge, and ends at the same, rounds later"
+    ): "the walk goes on from the other corner of an edge, and ends at the same, rounds later",
 }

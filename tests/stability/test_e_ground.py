@@ -278,9 +278,6 @@ def test_e8_spinner_keeps_its_bodies_in(measured):
 
 @pytest.mark.nightly
 @needs_speed
-@pytest.mark.xfail(
-    reason="an arm whose tip runs at 200 m/s presses a quarter of the balls through the one-way chain", strict=True
-)
 def test_e8_large_spinner_keeps_its_bodies_in():
     assert spinner(1500, 360, 40.0, 1500) <= 2
 
