@@ -198,10 +198,10 @@ def test_figures_are_those_of_the_sprites_in_the_pile():
     scene.change("slider:sprites", CHOICES.index("stars"))
     scene.change("slider:high", 2)
     image = load_atlas("lab")["star_gold"]
-    for way, (corners, over, missed) in zip(WAYS, scene.figures, strict=True):
+    for way, (corners, over, missed) in zip(WAYS, scene.shares, strict=True):
         found = measure(*shapes_of(image, way))
         assert (corners, over, missed) == pytest.approx((2 * found.corners, 2 * found.over, 2 * found.missed))
-    by_way = dict(zip(WAYS, scene.figures, strict=True))
+    by_way = dict(zip(WAYS, scene.shares, strict=True))
     mask = PixelMask.from_surface(image)
     left, top, right, bottom = mask.bounds
     assert by_way["box"][1] == pytest.approx(2 * ((right - left) * (bottom - top) - mask.area))

@@ -27,32 +27,33 @@ WAYS: dict[str, Callable[[], Any]] = {
     "tree of four": lambda: DynamicTree(width=4),
 }
 MOVERS = {"all move": 1.0, "half move": 0.5, "one in twenty moves": 0.05}
+Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
 
 
-def even(rng, n):
+def even(rng: np.random.Generator, n: int) -> Places:
     """One overlap per body or so."""
     return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
 
 
-def line(rng, n):
+def line(rng: np.random.Generator, n: int) -> Places:
     """Clustered along the ground: long and low."""
     return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
 
 
-def clusters(rng, n):
+def clusters(rng: np.random.Generator, n: int) -> Places:
     """A hundredth as many crowds, each 60 px around its middle."""
     middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
     return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
 
 
-def mixed(rng, n):
+def mixed(rng: np.random.Generator, n: int) -> Places:
     """Sizes from 1 to 100 times the least, small ones more often, as dense as even ones."""
     radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # few enough to be told apart
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
     return rng.uniform(0, side, (n, 2)), radii
 
 
-def point(rng, n):
+def point(rng: np.random.Generator, n: int) -> Places:
     """All at one place: every pair is one."""
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 

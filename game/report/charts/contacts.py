@@ -4,7 +4,7 @@ The truth is analytic: discs and upright squares, whose pixels the tiers are mad
 pixels is never the truth of a normal: it has four directions.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import pi
 
 import numpy as np
@@ -55,7 +55,7 @@ BODIES = {
 }
 
 
-def offsets(truth, count: int) -> np.ndarray:
+def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
     """(count, 2) offsets of shallow true contacts, evenly by place."""
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:

@@ -5,7 +5,8 @@ every pixel that two share, is an error. Small Steps (Macklin et al. 2019) is wh
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 from game.measure.moment import failures_of
 from game.measure.timing import Cost, clock, undisturbed
@@ -13,6 +14,7 @@ from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, ordering, pair
 from game.report.job import Job, Plan, Row, spread
 from game.report.piles import BOX, PILES, overlap, world_of
+from physics import World
 
 WAYS = [
     ("projection", 1),
@@ -21,6 +23,7 @@ WAYS = [
 ]
 SETTLE, STEPS, RUNS = 120, 60, 5  # 300 steps in all
 VISIBLE = 1.0  # [px]
+Name = TypeVar("Name")
 FALLEN = 0.5 * BOX  # [px] the highest came down by more
 
 
@@ -56,7 +59,7 @@ def measure(pile: str, quick: bool) -> list[Row]:
     return list(rows.values())
 
 
-def times_of(worlds) -> dict[str, Cost]:
+def times_of(worlds: Mapping[Name, World]) -> dict[Name, Cost]:
     """Seconds a step of worlds, which advance in turns of STEPS."""
     spent = {label: [] for label in worlds}
     with undisturbed():
