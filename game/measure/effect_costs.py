@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from game.measure.ledger import EFFECTS, NEUTRAL
 from game.measure.moment import STEPS, Moment
-from game.measure.timing import RUNS, Cost, clock, undisturbed
+from game.measure.timing import RUNS, Cost, seconds_a_step
 from physics import Effects, World
 
 
@@ -75,13 +75,7 @@ def can_be(moment: Moment, side: Side) -> bool:
 
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
     """Seconds a step of one run from the moment on. The first run of a side also compiles: leave it out."""
-    world, spent = world_under(moment, side), 0.0
-    with undisturbed():
-        for _ in range(steps):
-            started = clock()
-            world.step()
-            spent += clock() - started
-    return spent / steps
+    return seconds_a_step(world_under(moment, side).step, steps)
 
 
 def measure_effects(

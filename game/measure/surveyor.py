@@ -58,13 +58,7 @@ class Surveyor:
         self.survey.moments += 1
         number = self.latest = self.survey.moments
         order = {"moment": number, "snapshot": self._path(f"{number}.npz"), "broadphase": broadphase}
-        # Packing the pixels of a level takes longer than a frame.
-        threading.Thread(
-            target=_hand_on,
-            args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
-            name="hand on",
-            daemon=True,
-        ).start()
+        self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
         """Measure every tier of two sprites: `figures`."""
@@ -87,17 +81,8 @@ class Surveyor:
         snapshots = list({id(each): each for lane in lanes for each in lane.snapshots}.values())
         paths = {id(each): self._path(f"{self.latest} {k}.npz") for k, each in enumerate(snapshots)}
         stored = [lane._replace(snapshots=[paths[id(each)] for each in lane.snapshots])._asdict() for lane in lanes]
-        threading.Thread(
-            target=_hand_on,
-            args=(
-                self.process,
-                {"moment": self.latest, "lanes": stored},
-                lambda: [each.save(paths[id(each)]) for each in snapshots],
-                self.found,
-            ),
-            name="hand on",
-            daemon=True,
-        ).start()
+        order = {"moment": self.latest, "lanes": stored}
+        self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
         """Measure what each effect costs at this moment, and how many kernels it has compiled: `effects`. pieces: what
@@ -113,12 +98,7 @@ class Surveyor:
             "broadphase": broadphase,
             "pieces": pieces,
         }
-        threading.Thread(
-            target=_hand_on,
-            args=(self.process, order, partial(snapshot.save, order["snapshot"]), self.found),
-            name="hand on",
-            daemon=True,
-        ).start()
+        self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def knows(self, name: Hashable) -> bool:
         """Whether a lane of this name was run often enough."""
@@ -141,6 +121,11 @@ class Surveyor:
             weakref.finalize(self, self.process.kill)
         self.busy = True
         return True
+
+    def _hand_on_beside(self, order, save):
+        """Off the frame: packing the pixels of a level takes longer than one."""
+        args = self.process, order, save, self.found
+        threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
 
     def _path(self, name):
         assert self.folder is not None  # as long as there is a process

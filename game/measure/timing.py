@@ -56,6 +56,17 @@ def undisturbed() -> Iterator[None]:
             gc.enable()
 
 
+def seconds_a_step(step: Callable[[], object], steps: int) -> float:
+    """The mean of so many, each timed by itself."""
+    spent = 0.0
+    with undisturbed():
+        for _ in range(steps):
+            started = clock()
+            step()
+            spent += clock() - started
+    return spent / steps
+
+
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:

@@ -21,13 +21,13 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
 from game.input.inputs import InputFrame
+from game.measure.power_law import fit_power_law
 from game.scene import Goal, Scene, Slider
 from game.wishes import Lane, Lanes
 from physics import JIT, Circle, Effects, World
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.growth import Series, draw_growth
-from scenes.lab.power_law import fit_power_law
 from scenes.lab.yard import HEAD
 
 STRATEGIES = ("brute", "sweep", "hash", "tree")

@@ -9,8 +9,8 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, INK, SLATE, Color
 from game.drawing.presenter import Box, Frame
+from game.measure.power_law import PowerLaw
 from game.measure.timing import Cost
-from scenes.lab.power_law import PowerLaw
 
 GRID = (52, 46, 76)
 LABEL = 54  # [text px] for the exponents at the right

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from game.report.charts import broadphases as charts
 from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, Polygon, SweepAndPrune, World
 from tests.bench.timing import best_in_turns, table
 
@@ -16,33 +17,27 @@ SIZES = (100, 1000, 10_000, 50_000)
 BRUTE_LIMIT = 10_000
 STEPS = 32  # of which a time is the mean: two rounds of rectangles that reach ahead
 LEAST_TOLD = 1000  # fewer bodies take some 10 µs, which is not much beside the step around them
-SPACING = 22.0  # px between even bodies
 SPEED = 60.0  # px/s
-
-
-def even(rng, n):
-    return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), []
-
-
-def line(rng, n):
-    """Clustered along the ground: long and low."""
-    return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), []
-
-
-def clusters(rng, n):
-    """A hundredth as many crowds, each 60 px around its middle."""
-    middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
-    return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), []
 
 
 def giant(rng, n):
     """Even bodies over one that is as wide as all of them."""
-    places, _ = even(rng, n - 1)
-    width = SPACING * math.sqrt(n)
+    places, _ = charts.even(rng, n - 1)
+    width = charts.SPACING * math.sqrt(n)
     return places, [(Polygon.box(width, 40.0), (width / 2, width))]
 
 
-LAYOUTS = {"even": even, "along the ground": line, "crowds": clusters, "one giant": giant}
+def alone(layout):
+    """A layout of the report's, with nothing beside it."""
+    return lambda rng, n: (layout(rng, n)[0], [])
+
+
+LAYOUTS = {
+    "even": alone(charts.even),
+    "along the ground": alone(charts.line),
+    "crowds": alone(charts.clusters),
+    "one giant": giant,
+}
 MOVING = {"all moving": 1.0, "2 % moving among still ones": 0.02, "nothing moving": 0.0}  # shares of the bodies
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from game.measure.power_law import fit_power_law
 from game.measure.timing import Cost, undisturbed
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
@@ -152,18 +153,16 @@ def _jobs(plan: Plan) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """(power of n by which a cost grows, its standard error), by least squares on logarithms, from 100 bodies on:
-    below, the call costs more than the work. None of fewer than two sizes."""
+    """(power of n by which a cost grows, its standard error), from 100 bodies on: below, the call costs more than the
+    work. None of fewer than two sizes; two leave no error."""
     points = [(r["n"], r["cost"]["seconds"][1]) for r in rows if r["series"] == series and r["panel"] == panel]
-    points = [(math.log(n), math.log(cost)) for n, cost in points if n >= 100]
+    points = [(n, cost) for n, cost in points if n >= 100]
     if len(points) < 2:
         return None
-    x, y = np.array(points).T
-    slope, offset = np.polyfit(x, y, 1)
     if len(points) == 2:
-        return float(slope), 0.0
-    left = y - slope * x - offset
-    return float(slope), float(np.sqrt((left @ left) / (len(x) - 2) / ((x - x.mean()) ** 2).sum()))
+        (n, cost), (other, dearer) = points
+        return math.log(dearer / cost) / math.log(other / n), 0.0
+    return fit_power_law(points)[:2]
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

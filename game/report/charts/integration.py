@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from game.measure.power_law import fit_power_law
 from game.measure.timing import Cost, clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import HOLDS, TIE, Claim
@@ -109,13 +110,8 @@ def measure(case: str) -> list[Row]:
 def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
     """(power of dt by which an error grows, its standard error) by least squares on logarithms; None where it is exact
     but for rounding, or told by fewer than three steps."""
-    points = [(np.log(row["dt"]), np.log(row["error"])) for row in rows if row["error"] > 1e-9 * G]
-    if len(points) < 3:
-        return None
-    x, y = np.array(points).T
-    slope, offset = np.polyfit(x, y, 1)
-    left = y - slope * x - offset
-    return float(slope), float(np.sqrt(left @ left / (len(x) - 2) / ((x - x.mean()) ** 2).sum()))
+    points = [(row["dt"], row["error"]) for row in rows if row["error"] > 1e-9 * G]
+    return fit_power_law(points)[:2] if len(points) >= 3 else None
 
 
 def _jobs(plan: Plan) -> list[Job]:

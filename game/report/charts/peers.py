@@ -12,7 +12,7 @@ import pygame
 
 from game.drawing.sprites import load_atlas
 from game.measure.rates import Rate
-from game.measure.timing import Cost, clock, timed_in_turns, undisturbed
+from game.measure.timing import timed_in_turns
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
 from game.report.charts.solvers import times_of
 from game.report.claim import Claim, at_most, ordering, pair, ratio_of
@@ -22,7 +22,7 @@ from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
 
 SPRITES = ("player", "saucer_0", "gunship_0")
 SPACING = 30.0  # [px] a sprite: about one overlap each
-STEPS, RUNS = 60, 5
+RUNS = 5
 ITERATIONS = (2, 5, 10, 20, 40)  # of pymunk's solver
 SUBSTEPS = (1, 2, 4, 8, "auto")
 SETTLE = 120
@@ -154,29 +154,18 @@ def measure_piles(rows: int) -> list[Row]:
         import pymunk
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError('pymunk is not installed; it comes with: pip install -e ".[bench]"') from error
-    made, found = pyramid(rows), {}
-    worlds = {}
+    made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:
-        world = world_of(made, "soft_step", substeps)
+        world, label = world_of(made, "soft_step", substeps), f"ours: {substeps} substeps"
         for _ in range(SETTLE):
             world.step()
-        label = f"ours: {substeps} substeps"
-        worlds[label], found[label] = world, ("ours", overlap(world))
-    costs = times_of(worlds)
-    spent: dict[str, list[float]] = {}
-    spaces = {f"pymunk: {count} iterations": _space(pymunk, made, count) for count in ITERATIONS}
-    for label, space in spaces.items():
+        steps[label], found[label] = world.step, ("ours", overlap(world))
+    for count in ITERATIONS:
+        space, label = _space(pymunk, made, count), f"pymunk: {count} iterations"
         for _ in range(SETTLE):
             space.step(1 / 60)
-        found[label] = "pymunk", _depth(space)
-    with undisturbed():
-        for _ in range(RUNS):
-            for label, space in spaces.items():
-                started = clock()
-                for _ in range(STEPS):
-                    space.step(1 / 60)
-                spent.setdefault(label, []).append((clock() - started) / STEPS)
-    costs |= {label: Cost.of(each, STEPS) for label, each in spent.items()}
+        steps[label], found[label] = partial(space.step, 1 / 60), ("pymunk", _depth(space))
+    costs = times_of(steps)
     return [
         {
             "series": engine,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from game.measure.timing import timed_in_turns
 from game.report.job import spread
-from physics import BROADPHASES, Bounds, Circle, Effects, World
+from physics import Circle, Effects, World
 
 
 def fall(bodies: int):
@@ -16,14 +16,6 @@ def fall(bodies: int):
     world.step()
     cost = timed_in_turns({"step": world.step}, {"step": 1})["step"]
     return [{"series": "fall", "label": str(bodies), "digest": world.digest(), "n": bodies, "cost": spread(cost)}]
-
-
-def steps(name: str, bodies: int = 300):
-    """A broad phase's own time, as the chart measures it."""
-    world = World(Effects(narrowphase=False), BROADPHASES[name]())
-    world.add_bodies(Bounds(Circle(6.0)), [(15.0 * (k % 20), 15.0 * (k // 20)) for k in range(bodies)])
-    cost = timed_in_turns({"step": world.step}, {"step": 1})["step"]
-    return [{"series": name, "label": name, "panel": "p", "n": bodies, "cost": spread(cost)}]
 
 
 def fail():

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from game.measure.power_law import fit_power_law
 from scenes.lab.growth import in_units
-from scenes.lab.power_law import fit_power_law
 
 
 @pytest.mark.parametrize("exponent, factor", [(2.0, 3e-9), (1.0, 5e-7), (0.0, 2e-5)])
