@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from physics.jit import DECORATORS
 from tests.kernel_writes import undeclared_writes, writes_of
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -36,10 +37,7 @@ LONG = {
 
 
 def decorated(node):
-    return any(
-        (each.id if isinstance(each, ast.Name) else "") in ("inlined", "kernel", "subkernel")
-        for each in node.decorator_list
-    )
+    return any((each.id if isinstance(each, ast.Name) else "") in DECORATORS for each in node.decorator_list)
 
 
 @cache

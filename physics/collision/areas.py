@@ -140,7 +140,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     if not len(some):
         return whole
     some["row_a"], some["row_b"], some["area_1"] = row_a[masked], row_b[masked], 1.0
-    draw_masks(tables.library, np.union1d(some["row_a"], some["row_b"]), tables.bodies, shapes)
+    draw_masks(tables.library, np.union1d(row_a[masked], row_b[masked]), tables.bodies, shapes)
     count_areas(tables.library.tables, tables.bodies, shapes, tables.workspace.narrow.workspace, some)
     standing = np.isin(shapes["kind"], (CHAIN, TILES))
     alike = ~(standing[some["row_a"]] | standing[some["row_b"]])
@@ -170,7 +170,7 @@ def _told_in_full(tables, manifolds):
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
     if not masks.any():
         return manifolds
-    pairs = np.stack([row_a, row_b], axis=1)[masks]
+    pairs = np.stack([row_a, row_b], axis=1)[masks].astype(np.int64)
     full = tables.workspace.telling.collide(tables.library.tables, tables.bodies, shapes, pairs, 0.0, no_work())
     found = manifolds.copy()
     put_back(full, np.flatnonzero(masks), found)

@@ -50,6 +50,7 @@ class PartLowering(typed_passes.NativeLowering):
         """As numba's, which would go on to ask for the address of the machine code."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
+        state.flags.noalias = getattr(state.func_id.func, "separate", False)
         super().run_pass(state)
         state.library.finalize()
         lowered = state["cr"]

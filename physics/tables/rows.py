@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics.jit import kernel, subkernel
+from physics.jit import generic, subkernel
 
 
 @subkernel
@@ -22,7 +22,7 @@ def row_of(table, identity):
     return low if low < len(table) and table[low].id == identity else -1
 
 
-@kernel
+@generic
 def find_rows(
     # read
     table,

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
+from physics.jit import DECORATORS
+
 EDGES = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 TURNS = {ast.Lt: ast.Gt, ast.Gt: ast.Lt, ast.LtE: ast.GtE, ast.GtE: ast.LtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
 SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
@@ -82,11 +84,7 @@ def find_kernel(folder, name):
 def is_kernel(node, name):
     """True for the definition of a kernel of any kind of that name."""
     marks = [each.id for each in getattr(node, "decorator_list", ()) if isinstance(each, ast.Name)]
-    return (
-        isinstance(node, ast.FunctionDef)
-        and node.name == name
-        and bool({"inlined", "kernel", "subkernel"} & set(marks))
-    )
+    return isinstance(node, ast.FunctionDef) and node.name == name and bool(set(DECORATORS) & set(marks))
 
 
 def places(function, kind):

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from physics.jit import DECORATORS
+
 PHYSICS = Path(__file__).resolve().parents[2] / "physics"
 FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):
     """Whether numba compiles the function: it is decorated as one of the kinds of kernels."""
-    return any(
-        isinstance(each, ast.Name) and each.id in ("inlined", "kernel", "subkernel") for each in function.decorator_list
-    )
+    return any(isinstance(each, ast.Name) and each.id in DECORATORS for each in function.decorator_list)
 
 
 def public_callables(node, owner=""):
