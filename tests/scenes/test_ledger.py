@@ -23,6 +23,8 @@ FRAMES = 600
 LONGEST = {"lab/broadphases": 60}  # steps within which an effect must have shown, where 600 take too long
 IDLE_FRAMES = 240  # of a run in which an idle effect must change nothing
 IDLE_LONGEST = {"lab/broadphases": 20}
+# One that stacks, one that sweeps, one of masks; the others, each effect of which is compiled anew, at night.
+IDLE_IN_CI = ("lab/stacks", "lab/tunnelling", "lab/mask_sweep")
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="minutes")
 # Show when a gunship has been shot down.
 SLOW = [("lab/disagreement", name) for name in ("drag", "wind", "rotation", "carving")]
@@ -64,7 +66,9 @@ def test_the_gallery_calls_for_sleep_on_its_last_page():
 
 @pytest.mark.deep
 @needs_speed
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in IDLE_IN_CI else pytest.mark.nightly) for name in LABS]
+)
 def test_what_a_lab_does_not_declare_changes_nothing_when_it_is_idle(name):
     of_others = []
     for effect in EFFECTS:
