@@ -108,7 +108,7 @@ class Environment(WorldState):
             self.sensed = self.manifolds if self.stacks else None
         if self.awake.sleeping != self.sleeps:
             self._let_sleep(self.sleeps)
-        self.profile = Profile(self.stages)
+        self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
         """From now on the steps go over what is awake, or over everything."""

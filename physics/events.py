@@ -13,7 +13,8 @@ from physics.tables.manifold import MANIFOLD
 from physics.tables.rows import joined, rows_of
 from physics.tables.step_state import StepState, stage
 
-NOTHING = np.zeros(0, MANIFOLD)
+NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, MANIFOLD), np.zeros(0, EVENT), np.zeros(0, HIT)
+UNBROKEN = np.zeros(0, QUARANTINE)
 
 
 @subkernel
@@ -233,14 +234,21 @@ class Pairs:
             before = np.zeros(2 * room, EVENT)
             before[: self.count] = self.rows
             self.before = before
-        compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, self.told)
-        whole, counts = self.told, self.told.counts.tolist()
-        cut = (table[:count] for table, count in zip(whole[:6], counts[:6], strict=True))
-        told = Told._make((*cut, whole.keep[: len(manifolds)], whole.counts))
+        whole = self.told
+        compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, whole)
+        now, begin, persist, end, aside, hits, points = whole.counts.tolist()
         # What touches now is what touched before, next time: the two tables change places.
-        self.count = counts[0]
-        self.told, self.before = whole._replace(now=self.before), whole.now
-        return told
+        self.told, self.count, self.before = Told(self.before, *whole[1:]), now, whole.now
+        return Told(
+            self.rows,
+            whole.begin[:begin] if begin else NO_EVENTS,
+            whole.persist[:persist] if persist else NO_EVENTS,
+            whole.end[:end] if end else NO_EVENTS,
+            whole.aside[:aside] if aside else NO_EVENTS,
+            whole.hits[:hits] if hits else NO_HITS,
+            whole.keep[: len(manifolds)],
+            whole.counts,
+        )
 
     def give_back(self, rows: np.ndarray) -> None:
         """Take in pairs that were kept aside."""
@@ -275,9 +283,9 @@ class Events:
     """Structured arrays of the last step; see api.md for their columns."""
 
     def __init__(self) -> None:
-        self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = np.zeros(0, EVENT)
-        self.hits = np.zeros(0, HIT)
-        self.quarantined = np.zeros(0, QUARANTINE)
+        self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
+        self.hits = NO_HITS
+        self.quarantined = UNBROKEN
 
 
 @stage(
@@ -300,11 +308,12 @@ class Events:
 def tell(state: StepState) -> None:
     """Compare what touches with what touched before, and say what changed."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
-    parked, keys = state.parked if state.parked is not None else (NOTHING, None)
     whole, order = by_owner(manifolds)
-    parked, parked_order = by_owner(parked)
-    if keys is not None and parked_order is not None:
-        keys = keys[parked_order]
+    parked, keys = NOTHING, None
+    if state.parked is not None:
+        parked, keys = state.parked
+        parked, parked_order = by_owner(parked)
+        keys = keys if parked_order is None else keys[parked_order]
     told = state.touching.compare(whole, parked, False, effects.persist, tolerances.slop, tolerances.hit_speed)
     events.begin, events.end, events.hits = told.begin, told.end, told.hits
     events.persist = told.persist

@@ -12,12 +12,13 @@ class Profile:
 
     def __init__(self, stages: Iterable[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
-        self.stages = dict.fromkeys(stages, 0.0)
+        self.begin(stages)
 
-    def begin(self, stages: Iterable[str]) -> None:
-        """Start a step with these stages: all to zero."""
-        self.work[:] = 0
+    def begin(self, stages: Iterable[str]) -> dict[str, float]:
+        """Start a step with these stages: all to zero. Returns {name: seconds}, to be added to."""
+        self.work.fill(0)
         self.stages = dict.fromkeys(stages, 0.0)
+        return self.stages
 
     @property
     def counters(self) -> dict[str, int]:

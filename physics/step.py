@@ -5,6 +5,8 @@ With it contacts are found first, solved, and the bodies moved by the solver; wh
 something. A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from physics import events
@@ -18,7 +20,7 @@ from physics.collision.dispatch import NarrowPhase
 from physics.collision.final_poses import settle_contacts
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities
-from physics.dynamics.quarantine import quarantine, quarantine_solved
+from physics.dynamics.quarantine import REASONS, quarantine, quarantine_solved
 from physics.dynamics.rest import IslandWorkspace, rest
 from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
@@ -31,7 +33,7 @@ from physics.solver.pushes import PushSet
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
 from physics.tables.counters import CARVED_PIXELS
-from physics.tables.manifold import ANCHOR
+from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import Stage, StepState, stage
 from physics.targets import aim, arrive
 from physics.world_state import WorldState
@@ -39,6 +41,7 @@ from physics.world_state import WorldState
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
 FORCES = ("force_x", "force_y", "torque")
+NO_MANIFOLDS = np.zeros(0, MANIFOLD)
 PUSHING = {"blocking": blocking, "projection": projection}
 
 
@@ -53,7 +56,14 @@ def sound_rectangles(state: StepState) -> None:
     motion_rectangles(state)
 
 
-def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage, ...]:
+class Plan(NamedTuple):
+    """The stages of a step, in order, and their names."""
+
+    stages: tuple[Stage, ...]
+    names: tuple[str, ...]
+
+
+def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
     """The stages that these effects call for, in order; characters: whether there are any."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
@@ -88,10 +98,11 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> tuple[Stage,
             (PUSHING[solver], e.response),
             (events.tell, True),
         )
-    return tuple(each for each, wanted in stages if wanted)
+    called = tuple(each for each, wanted in stages if wanted)
+    return Plan(called, tuple(each.stage for each in called))
 
 
-def plans(effects: Effects, solver: str) -> tuple[tuple[Stage, ...], tuple[Stage, ...]]:
+def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
     """The stages of a world while it has no character, and while it has some."""
     return plan(effects, solver, characters=False), plan(effects, solver)
 
@@ -112,7 +123,7 @@ class Workspace:
         self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
         self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else []
-        self._rows = np.zeros(16, np.int64)
+        self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
 
     def anchors_for(self, count: int) -> np.ndarray:
         """ANCHOR rows for the manifolds of this step; those of the step before stay as they are."""
@@ -151,12 +162,12 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers
     state.manifolds, state.anchors = world.manifolds, world.anchors
     state.touching, state.sensing = world.touching, world.sensing
-    state.sensed, state.swept_sensors = world.sensed, world.manifolds[:0]
+    state.sensed, state.swept_sensors = world.sensed, NO_MANIFOLDS
     state.impacts, state.changed_count = NO_IMPACTS, 0
     state.ghosts = state.parked = state.kept_forces = None
     if dt == 0.0:
         state.kept_forces = world.bodies[[*FORCES]].copy()
-    state.events, state.told, state.work = events.Events(), (world.manifolds[:0], None), world.profile.work
+    state.events, state.told, state.work = events.Events(), (NO_MANIFOLDS, None), world.profile.work
     state.work[CARVED_PIXELS], world._carved_pixels = world._carved_pixels, 0
     if not world.awake.sleeping:
         world.awake.all_rows(state.bodies, state.shapes)
@@ -168,8 +179,9 @@ def finish(world: WorldState, state: StepState) -> None:
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.tell_contacts(*state.told)
-    world.bodies["stirred"][world.awake.fresh] = False
-    world.awake.fresh = world.awake.fresh[:0]
+    if len(world.awake.fresh):
+        world.bodies["stirred"][world.awake.fresh] = False
+        world.awake.fresh = world.awake.fresh[:0]
     arrive(world, state.dt)
     if state.kept_forces is not None:
         # In no time they did nothing: they are for the next step, and what the stages added is not.

@@ -112,14 +112,17 @@ class World(Environment, Questions):
         self._unlocked()
         dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
         dt = 0.0 if dt < SHORTEST_STEP else dt
-        self.profile.begin(self.stages)
+        stages, names = self._plan_now
+        spent = self.profile.begin(names)
         self._stepping = True
         try:
             state = begin(self, dt)
-            for stage in self._stages:
-                started = perf_counter()
+            started = perf_counter()
+            for stage, name in zip(stages, names, strict=True):
                 stage(state)
-                self.profile.stages[stage.stage] += perf_counter() - started
+                ended = perf_counter()
+                spent[name] += ended - started
+                started = ended
             finish(self, state)
         finally:
             self._stepping = False

@@ -25,7 +25,6 @@ from physics.shapes.library import Library
 from physics.solver.unloading import forget_loads
 from physics.tables.body import STATIC
 from physics.tables.rows import rows_of
-from physics.tables.step_state import Stage
 from physics.tables.table import Table
 from physics.vec2 import Vec2
 
@@ -97,7 +96,7 @@ class WorldState:
     sleeps: bool
 
     _effects: Effects
-    _plans: tuple[tuple[Stage, ...], tuple[Stage, ...]]  # without characters, and with
+    _plans: tuple[Any, Any]  # Plans of step.py, without characters, and with
     _stepping: bool
     _bodies: Table
     _given: Table  # GIVEN, beside the bodies
@@ -164,8 +163,8 @@ class WorldState:
 
     def refresh_character_rows(self) -> None:
         """Bring the body rows of the characters up to date."""
-        characters = self.characters.rows
-        if len(characters):
+        if self.characters.count:
+            characters = self.characters.rows
             characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def rebuild_proxies(self) -> None:
@@ -187,14 +186,14 @@ class WorldState:
         return self._effects
 
     @property
-    def _stages(self) -> tuple[Stage, ...]:
-        return self._plans[len(self.characters.rows) > 0]
+    def _plan_now(self) -> Any:
+        return self._plans[self.characters.count > 0]
 
     @property
     def stages(self) -> list[str]:
         """Names of the stages that the effects call for, in the order in which they run; those for characters are there
         while there is one."""
-        return [stage.stage for stage in self._stages]
+        return list(self._plan_now.names)
 
     # --- what World, Body and editing ask for ------------------------------------------------------------------------
 

@@ -7,6 +7,7 @@ Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,20 @@ from physics.tables.step_state import StepState, stage
 from physics.tables.world_tables import WorldTables
 
 
+class Reach(NamedTuple):
+    """How far a rectangle has to reach, and how much further it does."""
+
+    gravity_x: float  # [px/s2]
+    gravity_y: float
+    dt: float  # [s]
+    margin: float  # [px] contacts up to it are candidates
+    spare: float  # [px] how far a rectangle outgrows its need, at most …
+    share: float  # … that share of the box
+    drawn: float  # [px] how far the pixels of a mask may be drawn from its exact pose, and …
+    turned: float  # … that share of its size
+    ahead: float  # of how many steps it holds the motion besides this one
+
+
 @kernel
 def update_rectangles(
     # read
@@ -28,25 +43,18 @@ def update_rectangles(
     bodies,
     shapes,
     rasters,
-    motion,
+    reach,
     # write
     proxies_inout,
     changed_out,
 ):
     """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
 
-    rasters: those of the geometry. motion: gravity x, y [px/s2], dt [s], margin [px]: contacts up to it are candidates,
-    spare [px]: how far a rectangle outgrows its need, at most (next) that share of the box; how far the pixels of a
-    mask may be drawn from its exact pose: [px], and of its size; of how many steps it holds the motion besides this.
-    Returns the number of slots. O(rows).
+    rasters: those of the geometry; reach: see Reach. Returns the number of slots. O(rows).
     """
-    gravity_x = motion[0]
-    gravity_y = motion[1]
-    dt = motion[2]
-    margin = motion[3]
-    spare = motion[4]
-    share = motion[5]
-    ahead = motion[8]
+    dt = reach.dt
+    margin = reach.margin
+    ahead = reach.ahead
     found = 0
     for k in range(len(rows)):
         row = rows[k]
@@ -69,7 +77,7 @@ def update_rectangles(
         ahead_y = 0.0
         if s.role == PIXELS and s.snap:
             # Its box is that of the exact pose: what is drawn may lie a little beyond.
-            beyond = motion[6] + motion[7] * b.extent
+            beyond = reach.drawn + reach.turned * b.extent
             lower_x -= beyond
             lower_y -= beyond
             upper_x += beyond
@@ -78,10 +86,10 @@ def update_rectangles(
             dx = dt * b.vx
             dy = dt * b.vy
             if b.kind == DYNAMIC:
-                dx += dt * dt * (b.gravity_scale * gravity_x + b.inverse_mass * b.force_x)
-                dy += dt * dt * (b.gravity_scale * gravity_y + b.inverse_mass * b.force_y)
+                dx += dt * dt * (b.gravity_scale * reach.gravity_x + b.inverse_mass * b.force_x)
+                dy += dt * dt * (b.gravity_scale * reach.gravity_y + b.inverse_mass * b.force_y)
             size = max(s.max_x - s.min_x, s.max_y - s.min_y)
-            fat = min(spare, share * size)
+            fat = min(reach.spare, reach.share * size)
             most = AHEAD_FRACTION * size
             steps = ahead
             if fresh and ahead > 0.0:
@@ -147,7 +155,7 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     piles = tables.effects.stacking
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
     # Where velocities were integrated before, gravity and forces are in them.
-    motion = (
+    reach = Reach(
         *(tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)),
         dt,
         tolerances.speculative if piles else tolerances.slop,
@@ -160,4 +168,4 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     changed = pairs.room_for(len(rows))
     refresh_aabbs(rows, tables.library.tables, bodies, shapes)
     rasters = tables.library.tables.rasters
-    return update_rectangles(rows, bodies, shapes, rasters, np.array(motion), pairs.proxies, changed)
+    return update_rectangles(rows, bodies, shapes, rasters, reach, pairs.proxies, changed)

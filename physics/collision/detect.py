@@ -4,7 +4,6 @@ import numpy as np
 
 from physics.collision.approach import measure_approach
 from physics.collision.box_pairs import SENSORS, SOLIDS
-from physics.collision.materials import mix_materials
 from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel
@@ -96,8 +95,6 @@ def detect_piles(state: StepState) -> None:
     )
     anchors = state.workspace.anchors_for(len(manifolds))
     carry_over(tables, bodies, state.shapes, previous, state.anchors, manifolds, anchors)
-    mix_materials(tables, state.shapes, manifolds, anchors)
-    measure_approach(bodies, manifolds)
     state.manifolds, state.anchors = manifolds, anchors
 
 

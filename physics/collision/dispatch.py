@@ -40,6 +40,8 @@ from physics.tables.geometry import Geometry
 from physics.tables.manifold import MANIFOLD
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
 
+PARTED = NOTHING + 1  # behind the kinds of pairs: where it is counted how many are of parts
+
 
 @subkernel
 def kind_of_pair(low, high):
@@ -99,7 +101,8 @@ def classify(
     counts_out,
     work_inout,
 ):
-    """Write the kind of every candidate pair, and how many there are of each. O(candidates).
+    """Write the kind of every candidate pair, how many there are of each, and in how many, counts_out[PARTED], a side
+    is a part of another shape. O(candidates).
 
     which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
     within `ahead` [s], or only the SENSORS. The others are NOTHING.
@@ -127,6 +130,8 @@ def classify(
                 kind = NOTHING
         kind_out[i] = kind
         counts_out[kind] += 1
+        if kind != NOTHING and (a.owner != a.id or b.owner != b.id):
+            counts_out[PARTED] += 1
         sensors += int(sensor and kind != NOTHING)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
     work_inout[SENSOR_TESTS] += sensors
@@ -155,10 +160,9 @@ class NarrowPhase:
             ((GRID_ANY,), grids),
             ((CHAIN_ANY,), collide_chain_pairs),
         )
-        self.pass_of = {kind: place for place, (kinds, _) in enumerate(self.passes) for kind in kinds}
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
-        self.counts, self.deep = np.zeros(NOTHING + 1, np.int64), np.zeros(64, bool)
+        self.counts, self.deep = np.zeros(PARTED + 1, np.int64), np.zeros(64, bool)
         self.raw, self.ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
         self.last_raw, self.last_ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
 
@@ -203,8 +207,7 @@ class NarrowPhase:
             float(ahead),
         )
         if self.boxes_only:
-            found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
-            return self.raw[:found]
+            return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
         classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
         again, workspace = 0, self.workspace
         if previous is not None and len(previous):
@@ -214,13 +217,25 @@ class NarrowPhase:
                 workspace = self._remember(batch, previous)
         if self.one_way and self.counts[SURFACE_ANY]:
             admit_to_surfaces(batch, workspace is not self.workspace, workspace, self.kinds, self.counts)
-        present = {
-            self.pass_of[kind] for kind, some in enumerate(self.counts.tolist()) if some and kind in self.pass_of
-        }
-        used = [self.passes[place][1] for place in sorted(present)]
+        counts, found, orders = self.counts.tolist(), again, int(again > 0)
+        if any(counts[:NOTHING]):
+            found, parts = self._detect(batch, workspace, previous, counts, again, work)
+            orders += parts
+        if counts[PARTED] and (counts[POLYGONS] or again):
+            found = drop_opposed(bodies, found, margin, self._deep_for(found), self.raw)
+        if orders < 2:
+            return self.raw[:found]
+        if len(self.ordered) < len(self.raw):
+            self.ordered = np.zeros(len(self.raw), MANIFOLD)
+        place_in_order(self.raw, found, count, self.kinds, self.ordered)
+        return self.ordered[:found]
 
-        if len(workspace.left) < count + 1:
-            workspace = workspace._replace(left=np.zeros(2 * count + 1, np.int64))
+    def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
+        """Add the manifolds of the pairs whose kinds are counted to the first `again` that there are. Returns how many
+        there are then, and how many runs of them, each in the order of the candidates, were added."""
+        used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
+        if len(workspace.left) < batch.count + 1:
+            workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
             self.workspace = self.workspace._replace(left=workspace.left)
 
         def run_all():
@@ -231,20 +246,13 @@ class NarrowPhase:
             return found
 
         found = self._with_room(work, run_all)
+        if not workspace.left[0]:
+            return found, len(used)
         before = self.raw[:0] if previous is None else previous
-        rest = settle_left(batch, self.raw[:found], before, workspace) if workspace.left[0] else ()
-        if len(rest):
-            self._make_room(found + len(rest))
-            self.raw[found : found + len(rest)] = rest
-            found += len(rest)
-        if self.counts[POLYGONS] or again:
-            found = drop_opposed(bodies, found, margin, self._deep_for(found), self.raw)
-        if not len(rest) and len(used) + (again > 0) < 2:
-            return self.raw[:found]
-        if len(self.ordered) < len(self.raw):
-            self.ordered = np.zeros(len(self.raw), MANIFOLD)
-        place_in_order(self.raw, found, count, self.kinds, self.ordered)
-        return self.ordered[:found]
+        rest = settle_left(batch, self.raw[:found], before, workspace)
+        self._make_room(found + len(rest))
+        self.raw[found : found + len(rest)] = rest
+        return found + len(rest), len(used) + (len(rest) > 0)
 
     def _recycle(self, batch, previous, anchors, distance) -> int:
         """Use manifolds of the step before again, at the beginning of `raw`. Returns their number."""

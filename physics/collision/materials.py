@@ -3,7 +3,7 @@
 import math
 
 from physics.collision.features import part_of
-from physics.jit import kernel, subkernel
+from physics.jit import subkernel
 from physics.tables.shape import CHAIN, MASK, TILES
 
 
@@ -39,18 +39,3 @@ def mixed(geometry, shapes, manifold):
         if s.kind != TILES and s.kind != CHAIN and s.kind != MASK:
             radius = max(radius, s.radius)
     return math.sqrt(friction), restitution, rolling * radius, speed
-
-
-@kernel
-def mix_materials(
-    # read
-    geometry,
-    shapes,
-    manifolds,
-    # write
-    anchors_inout,
-):
-    """Write the mixed materials of every manifold into its anchor. O(manifolds)."""
-    for i in range(len(manifolds)):
-        c = anchors_inout[i]
-        c.friction, c.restitution, c.rolling_resistance, c.surface_speed = mixed(geometry, shapes, manifolds[i])

@@ -7,7 +7,9 @@ pose, without detecting again (Catto, Box2D v3: contact recycling; Coumans, Bull
 import math
 
 from physics.collision.anchors import anchor_manifold, copy_anchor, rest_anchor
+from physics.collision.approach import approach
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY, copy_manifold
+from physics.collision.materials import mixed
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
@@ -298,7 +300,8 @@ def carry_over(
     anchors_out,
 ):
     """Write the anchor of every manifold: as it was where that is used again; else a new one, with the forces of the
-    points of the same pair and feature in the step before. O(both).
+    points of the same pair and feature in the step before; and what is new in every step: what the materials are now,
+    and how fast both sides approach. O(both).
 
     previous and manifolds_inout MANIFOLD rows in the order of shape ids, anchors row by row beside them.
     """
@@ -322,6 +325,8 @@ def carry_over(
         forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
         if not forces + abs(c.rolling_force) < LARGEST_FORCE:
             rest_anchor(c)
+        c.friction, c.restitution, c.rolling_resistance, c.surface_speed = mixed(geometry, shapes, m)
+        approach(bodies, m)
 
 
 @kernel

@@ -92,7 +92,8 @@ class Awake:
         most = max(len(bodies), len(shapes))
         if len(self.numbers) < most:
             self.numbers = np.arange(2 * most)
-        self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
+        if (len(self.bodies), len(self.shapes)) != (len(bodies), len(shapes)):
+            self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
     def keep_rows(self, kept_bodies: np.ndarray) -> None:
         """Bodies were dropped: the others have new rows. kept_bodies bool."""

@@ -87,7 +87,7 @@ def free_color(taken, last_first):
     return -1
 
 
-@kernel
+@subkernel
 def color_edges(
     # read
     edges,

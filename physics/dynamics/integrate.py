@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.math2d import turned
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
@@ -104,21 +104,27 @@ def make_position_pass(rotation: bool) -> Callable:
     return integrate_positions
 
 
+@subkernel
+def refresh_center(body_inout):
+    """Write the world centre of mass [px] of a BODY row at its present pose."""
+    b = body_inout
+    u = b.local_center_x
+    v = b.local_center_y
+    if b.angle != 0.0:
+        u, v = turned(u, v, math.cos(b.angle), math.sin(b.angle))
+    b.center_x = b.x + u
+    b.center_y = b.y + v
+    if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
+        b.settled_x = b.x
+        b.settled_y = b.y
+        b.settled_angle = b.angle
+
+
 @kernel
 def refresh_centers(rows, bodies_inout):
     """Write the world centres of mass [px] at the present poses. O(rows)."""
     for k in range(len(rows)):
-        b = bodies_inout[rows[k]]
-        u = b.local_center_x
-        v = b.local_center_y
-        if b.angle != 0.0:
-            u, v = turned(u, v, math.cos(b.angle), math.sin(b.angle))
-        b.center_x = b.x + u
-        b.center_y = b.y + v
-        if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
-            b.settled_x = b.x
-            b.settled_y = b.y
-            b.settled_angle = b.angle
+        refresh_center(bodies_inout[rows[k]])
 
 
 # One compiled pass per combination of effects that it depends on; made here, compiled when first run.

@@ -4,6 +4,8 @@ A number that is not finite spreads: through a contact to a neighbour, from ther
 reads of a body, a shape or a character is looked at before the first stage that reads it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from physics.dynamics.integrate import refresh_centers
@@ -18,6 +20,7 @@ NOT_FINITE = "a number of the body is not finite or beyond what a double resolve
 BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 where it may not be"
 BAD_WALK = "a number of its character is not finite"
 TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
+REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order in which they are looked for
 LARGEST = 1e100  # of inverse masses and of a surface: beyond, products of two are no doubles
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
@@ -102,29 +105,24 @@ def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
     )
 
 
-@kernel
-def find_broken(
+@subkernel
+def take_broken_bodies(
     # read
     rows,
-    gravity_x,
-    gravity_y,
-    speed_limit,
-    dt,
+    course,
     # write
     bodies_inout,
     broken_out,
 ):
-    """List the rows of bodies that a step of dt [s] under this gravity [px/s2] cannot use, and put them to rest.
-
-    Each goes back to the last finite pose and is marked quarantined. Returns the number. broken_out (rows).
-    """
+    """List the rows of bodies that a step cannot use, and put them to rest: back at the last finite pose, quarantined.
+    Returns the number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         if b.quarantined:
             continue
         there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
-        if not there or not is_sound(b, gravity_x, gravity_y, speed_limit, dt):
+        if not there or not is_sound(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
             broken_out[found] = rows[k]
             found += 1
             if not there:
@@ -144,39 +142,19 @@ def is_sound_walk(character):
     return total - total == 0.0 and abs(total) < POSITION_LIMIT
 
 
-@kernel
-def find_broken_characters(
-    # read
-    characters,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List the body rows of characters with a number that is not finite, at rest and quarantined. Returns how many."""
-    found = 0
-    for k in range(len(characters)):
-        b = bodies_inout[characters[k].body_row]
-        if not b.quarantined and not is_sound_walk(characters[k]):
-            broken_out[found] = characters[k].body_row
-            found += 1
-            put_aside(b)
-    return found
-
-
-@kernel
-def find_broken_shapes(
+@subkernel
+def take_broken_shapes(
     # read
     rows,
     shapes,
+    first,
     # write
     bodies_inout,
     broken_out,
 ):
-    """List the rows of bodies one of whose shapes, of these rows, has a number that no step can use; put them to rest.
-
-    Each is marked quarantined. Returns the number. O(rows).
-    """
-    found = 0
+    """List, from `first` on, the rows of bodies one of whose shapes, of these rows, has a number that no step can use;
+    put them to rest, quarantined. Returns where the list ends. O(rows)."""
+    found = first
     for k in range(len(rows)):
         s = shapes[rows[k]]
         place = abs(s.local_x) + abs(s.local_y) + s.radius
@@ -191,18 +169,19 @@ def find_broken_shapes(
     return found
 
 
-@kernel
-def find_turned_grids(
+@subkernel
+def take_turned_grids(
     # read
     rows,
     shapes,
+    first,
     # write
     bodies_inout,
     broken_out,
 ):
-    """List the rows of bodies with TILES among these shape rows that turn or are turned, which only a table can make
-    them; set them upright and at rest, and mark them quarantined. Returns the number. O(rows)."""
-    found = 0
+    """List, from `first` on, the rows of bodies with TILES among these shape rows that turn or are turned, which only a
+    table can make them; set them upright and at rest, quarantined. Returns where the list ends. O(rows)."""
+    found = first
     for k in range(len(rows)):
         s = shapes[rows[k]]
         if s.kind != TILES:
@@ -217,33 +196,90 @@ def find_turned_grids(
     return found
 
 
-@stage("quarantine", reads=READS, writes=WRITES)
+@subkernel
+def take_broken_characters(
+    # read
+    characters,
+    first,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List, from `first` on, the body rows of characters with a number that is not finite, at rest and quarantined.
+    Returns where the list ends."""
+    found = first
+    for k in range(len(characters)):
+        b = bodies_inout[characters[k].body_row]
+        if not b.quarantined and not is_sound_walk(characters[k]):
+            broken_out[found] = characters[k].body_row
+            found += 1
+            put_aside(b)
+    return found
+
+
+class Course(NamedTuple):
+    """Where a step takes a body that nothing stops."""
+
+    gravity_x: float  # [px/s2]
+    gravity_y: float
+    speed_limit: float  # [px/s]
+    dt: float  # [s]
+
+
+@kernel
+def take_broken(
+    # read
+    rows,
+    shape_rows,
+    shapes,
+    characters,
+    course,
+    # write
+    bodies_inout,
+    broken_out,
+    ends_out,
+):
+    """List the rows of bodies that no step can use, at rest and quarantined, and where in the list each of REASONS
+    ends: ends_out. Returns their number. broken_out (bodies): each is listed once. O(rows + shape_rows)."""
+    ends_out[0] = take_broken_bodies(rows, course, bodies_inout, broken_out)
+    ends_out[1] = take_broken_shapes(shape_rows, shapes, ends_out[0], bodies_inout, broken_out)
+    ends_out[2] = take_turned_grids(shape_rows, shapes, ends_out[1], bodies_inout, broken_out)
+    ends_out[3] = take_broken_characters(characters, ends_out[2], bodies_inout, broken_out)
+    return ends_out[3]
+
+
+@kernel
+def take_broken_by_solver(
+    # read
+    rows,
+    course,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """As take_broken, of bodies alone: where a solver has put them."""
+    return take_broken_bodies(rows, course, bodies_inout, broken_out)
+
+
+@stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
     """Take what no step can use out of the simulation, and tell it; its neighbours go on as if it had been removed."""
-    rows, bodies, shapes = state.awake.bodies, state.bodies, state.shapes
+    awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
-    found = np.empty(max(len(rows), len(state.awake.shapes), len(state.characters)), np.int64)
-    broken = find_broken(rows, *gravity, state.tolerances.speed_limit, state.dt, bodies, found)
-    told = dict.fromkeys(found[:broken].tolist(), NOT_FINITE)
-    broken = find_broken_shapes(state.awake.shapes, shapes, bodies, found)
-    told.update(dict.fromkeys(found[:broken].tolist(), BAD_SHAPE))
-    if state.library.grids.count:
-        broken = find_turned_grids(state.awake.shapes, shapes, bodies, found)
-        told.update(dict.fromkeys(found[:broken].tolist(), TURNED))
-    if len(state.characters):
-        broken = find_broken_characters(state.characters, bodies, found)
-        told.update(dict.fromkeys(found[:broken].tolist(), BAD_WALK))
-    if told:
-        _take_out(state, told)
+    course = Course(*gravity, state.tolerances.speed_limit, state.dt)
+    broken, ends = workspace.rows_for(len(bodies)), workspace.ends
+    if take_broken(awake.bodies, awake.shapes, state.shapes, state.characters, course, bodies, broken, ends):
+        reasons = np.repeat(np.array(REASONS), np.diff(ends, prepend=0))
+        _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
 
 
-@stage("quarantine_solved", reads=READS, writes=WRITES)
+@stage("quarantine_solved", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
     """Take out what a solver could not keep finite, and what that touched, before it is swept and told of."""
-    found = np.empty(len(state.awake.bodies), np.int64)
-    broken = find_broken(state.awake.bodies, 0.0, 0.0, state.tolerances.speed_limit, 0.0, state.bodies, found)
-    if broken:
-        ids = _take_out(state, dict.fromkeys(found[:broken].tolist(), NOT_FINITE))
+    broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
+    found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
+    if found:
+        ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
         kept = ~(np.isin(state.manifolds["body_a"], ids) | np.isin(state.manifolds["body_b"], ids))
         state.manifolds, state.anchors = state.manifolds[kept], state.anchors[kept]
 

@@ -7,7 +7,7 @@ points of one manifold are solved together, or a box that lands flat would spin.
 
 import math
 
-from physics.jit import kernel, subkernel
+from physics.jit import subkernel
 from physics.solver.two_points import solve_two
 from physics.tables.counters import RESTITUTION_ROWS
 
@@ -75,7 +75,7 @@ def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
     return x_1 - old_1, x_2 - old_2
 
 
-@kernel
+@subkernel
 def restore_bounces(
     # read
     manifolds,

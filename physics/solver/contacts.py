@@ -238,7 +238,7 @@ def make_warm_start(rotation: bool) -> Callable:
     return warm_start
 
 
-@kernel
+@subkernel
 def store_impulses(
     # read
     constraints,
@@ -274,7 +274,7 @@ def store_impulses(
 def make_friction_limit(rotation: bool) -> Callable:
     """The pass that ends with friction what other impulses have left."""
 
-    @kernel
+    @subkernel
     def limit_friction(motions_inout, constraints_inout):
         """Take back what friction is more than its share of the final normal impulse, over the step. O(constraints)."""
         for i in range(len(constraints_inout)):
@@ -310,7 +310,37 @@ def make_friction_limit(rotation: bool) -> Callable:
     return limit_friction
 
 
-FRICTION_LIMIT = {r: make_friction_limit(rotation=r) for r in BOTH}
+def make_finish(restitution: bool, friction: bool, rotation: bool) -> Callable:
+    """What every solver that stacks ends with in a world with these effects."""
+    limit_friction = make_friction_limit(rotation)
+
+    @kernel
+    def finish_constraints(
+        # read
+        threshold,
+        inverse_h,
+        share,
+        # write
+        motions_inout,
+        constraints_inout,
+        manifolds_inout,
+        anchors_inout,
+        work_inout,
+    ):
+        """Bounce what has met, end friction where less presses, and write the impulses back. O(constraints).
+
+        threshold [px/s]: see restore_bounces; inverse_h [1/s], share: see store_impulses.
+        """
+        if restitution:
+            restore_bounces(manifolds_inout, anchors_inout, threshold, motions_inout, constraints_inout, work_inout)
+        if friction:
+            limit_friction(motions_inout, constraints_inout)
+        store_impulses(constraints_inout, inverse_h, share, manifolds_inout, anchors_inout)
+
+    return finish_constraints
+
+
+FINISH = {(e, f, r): make_finish(restitution=e, friction=f, rotation=r) for e in BOTH for f in BOTH for r in BOTH}
 PREPARE = {(f, c): make_prepare(friction=f, conveyor=c) for f in BOTH for c in BOTH}
 WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
 
@@ -363,10 +393,7 @@ class ContactSet:
 
     def store(self, state: StepState, motions: Motions, rows: np.ndarray, h: float) -> None:
         """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""
-        if state.effects.restitution:
-            restore_bounces(
-                state.manifolds, state.anchors, state.tolerances.restitution_speed, motions.used, rows, state.work
-            )
-        if state.effects.friction:
-            FRICTION_LIMIT[state.effects.rotation](motions.used, rows)
-        store_impulses(rows, 1.0 / h, state.dt / state.span, state.manifolds, state.anchors)
+        effects, threshold = state.effects, state.tolerances.restitution_speed
+        FINISH[effects.restitution, effects.friction, effects.rotation](
+            threshold, 1.0 / h, state.dt / state.span, motions.used, rows, state.manifolds, state.anchors, state.work
+        )

@@ -1,47 +1,46 @@
 """How lanes see motions: what is gathered from the MOTION rows of a block, the separations, and the way back."""
 
-from physics.jit import inlined, subkernel
+from physics.jit import inlined
 from physics.solver import lanes as at
-from physics.solver.lanes import LANES, SIZE
 
 
 @inlined
-def gather_speeds(a, b, lane, c_out):
+def gather_speeds(a, b, lane, s_out):
     """Bring the velocities of MOTION rows into a lane."""
-    c_out[at.VX_A + lane] = a.vx
-    c_out[at.VY_A + lane] = a.vy
-    c_out[at.W_A + lane] = a.angular_velocity
-    c_out[at.VX_B + lane] = b.vx
-    c_out[at.VY_B + lane] = b.vy
-    c_out[at.W_B + lane] = b.angular_velocity
+    s_out[at.VX_A + lane] = a.vx
+    s_out[at.VY_A + lane] = a.vy
+    s_out[at.W_A + lane] = a.angular_velocity
+    s_out[at.VX_B + lane] = b.vx
+    s_out[at.VY_B + lane] = b.vy
+    s_out[at.W_B + lane] = b.angular_velocity
 
 
 @inlined
-def gather_poses(a, b, lane, c_out):
+def gather_poses(a, b, lane, s_out):
     """Bring into a lane how far MOTION rows went since the step began."""
-    c_out[at.DX_A + lane] = a.dx
-    c_out[at.DY_A + lane] = a.dy
-    c_out[at.COS_A + lane] = a.cosine
-    c_out[at.SIN_A + lane] = a.sine
-    c_out[at.DX_B + lane] = b.dx
-    c_out[at.DY_B + lane] = b.dy
-    c_out[at.COS_B + lane] = b.cosine
-    c_out[at.SIN_B + lane] = b.sine
+    s_out[at.DX_A + lane] = a.dx
+    s_out[at.DY_A + lane] = a.dy
+    s_out[at.COS_A + lane] = a.cosine
+    s_out[at.SIN_A + lane] = a.sine
+    s_out[at.DX_B + lane] = b.dx
+    s_out[at.DY_B + lane] = b.dy
+    s_out[at.COS_B + lane] = b.cosine
+    s_out[at.SIN_B + lane] = b.sine
 
 
 @inlined
-def scatter_speeds(c, lane, a_out, b_out):
+def scatter_speeds(s, lane, a_out, b_out):
     """Write the velocities of a lane back to its MOTION rows."""
-    a_out.vx = c[at.VX_A + lane]
-    a_out.vy = c[at.VY_A + lane]
-    a_out.angular_velocity = c[at.W_A + lane]
-    b_out.vx = c[at.VX_B + lane]
-    b_out.vy = c[at.VY_B + lane]
-    b_out.angular_velocity = c[at.W_B + lane]
+    a_out.vx = s[at.VX_A + lane]
+    a_out.vy = s[at.VY_A + lane]
+    a_out.angular_velocity = s[at.W_A + lane]
+    b_out.vx = s[at.VX_B + lane]
+    b_out.vy = s[at.VY_B + lane]
+    b_out.angular_velocity = s[at.W_B + lane]
 
 
 @inlined
-def measure_gaps(lane, c_inout):
+def measure_gaps(lane, s, c_inout):
     """Write the separations [px] at both points of a lane.
 
     A round surface stays where it is when its body turns: cores are what moves. Arms turn with their bodies here, and
@@ -50,12 +49,12 @@ def measure_gaps(lane, c_inout):
     c = c_inout
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
-    cos_a = c[at.COS_A + lane]
-    sin_a = c[at.SIN_A + lane]
-    cos_b = c[at.COS_B + lane]
-    sin_b = c[at.SIN_B + lane]
+    cos_a = s[at.COS_A + lane]
+    sin_a = s[at.SIN_A + lane]
+    cos_b = s[at.COS_B + lane]
+    sin_b = s[at.SIN_B + lane]
     core = c[at.RADIUS_A + lane] * cos_a + c[at.RADIUS_B + lane] * cos_b
-    gap = core + (c[at.DX_B + lane] - c[at.DX_A + lane]) * nx + (c[at.DY_B + lane] - c[at.DY_A + lane]) * ny
+    gap = core + (s[at.DX_B + lane] - s[at.DX_A + lane]) * nx + (s[at.DY_B + lane] - s[at.DY_A + lane]) * ny
     x = (cos_b * c[at.BX_1 + lane] - sin_b * c[at.BY_1 + lane]) - (
         cos_a * c[at.AX_1 + lane] - sin_a * c[at.AY_1 + lane]
     )
@@ -83,22 +82,3 @@ def levers_of(c, lane):
         c[at.AX_2 + lane] * ny - c[at.AY_2 + lane] * nx,
         c[at.BX_2 + lane] * ny - c[at.BY_2 + lane] * nx,
     )
-
-
-@subkernel
-def measure(
-    # read
-    count,
-    motions,
-    # write
-    blocks_inout,
-):
-    """Write the separations that the first substep begins with; after that the relaxing pass does. O(count)."""
-    for block in range(count):
-        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(LANES):
-            gather_poses(
-                motions[blocks_inout.motion_a[block, lane]], motions[blocks_inout.motion_b[block, lane]], lane, c
-            )
-        for lane in range(LANES):
-            measure_gaps(lane, c)

@@ -12,12 +12,12 @@ import numpy as np
 
 from physics.jit import JIT, subkernel
 from physics.solver.pace import firmness_of
+from physics.tables.lines import zeros_in_lines
 
 # What is not compiled takes one row after the other. Measured: 16 are as fast in heaps, and slower in few boxes.
 LANES = 8 if JIT else 1
 
-# Where the lines of a block begin. What a row of CONSTRAINT says, and two of MOTION that last for the step; then what
-# each pass gathers from the motions. In one array, or a compiler could not tell that what is written is not read again.
+# Where the lines of a block begin: what a row of CONSTRAINT says, and two of MOTION that last for the step.
 (
     NX,
     NY,
@@ -63,25 +63,15 @@ LANES = 8 if JIT else 1
     II_A,
     IM_B,
     II_B,
-    VX_A,
-    VY_A,
-    W_A,
-    DX_A,
-    DY_A,
-    COS_A,
-    SIN_A,
-    VX_B,
-    VY_B,
-    W_B,
-    DX_B,
-    DY_B,
-    COS_B,
-    SIN_B,
     GAP_1,
     GAP_2,
-    OUTCOME,
     SIZE,
-) = (line * LANES for line in range(62))
+) = (line * LANES for line in range(47))
+# Where the lines begin that a pass gathers from the motions of one block after another. In an array of their own: among
+# the others they were a quarter of what each pass has to read and to write.
+(VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
+    line * LANES for line in range(16)
+)
 PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears nothing, and is let out of its overlap
 
 
@@ -90,6 +80,12 @@ def pack_nothing(lane, c_out):
     """Write a row that joins nothing to nothing: no impulse comes of it."""
     for at in range(lane, SIZE, LANES):
         c_out[at] = 0.0
+
+
+@subkernel
+def gap_of(x, y, r):
+    """How far two points that are (x, y) apart [px] are from each other along the normal of a CONSTRAINT row."""
+    return x * r.normal_x + y * r.normal_y
 
 
 @subkernel
@@ -138,6 +134,11 @@ def pack_row(r, a, b, pace, lane, c_out):
     c_out[TANGENT_2 + lane] = r.tangent_impulse_2
     c_out[TOTAL_2 + lane] = r.normal_total_2
     c_out[TANGENT_TOTAL_2 + lane] = r.tangent_total_2
+    # As the substeps begin nothing has moved; after that the relaxing pass measures.
+    c_out[GAP_1 + lane] = r.radius_a + r.radius_b + r.base_1 + gap_of(r.bx_1 - r.ax_1, r.by_1 - r.ay_1, r)
+    c_out[GAP_2 + lane] = c_out[GAP_1 + lane]
+    if two:
+        c_out[GAP_2 + lane] = r.radius_a + r.radius_b + r.base_2 + gap_of(r.bx_2 - r.ax_2, r.by_2 - r.ay_2, r)
     c_out[IM_A + lane] = a.inverse_mass
     c_out[II_A + lane] = a.inverse_inertia
     c_out[IM_B + lane] = b.inverse_mass
@@ -151,6 +152,7 @@ class Blocks(NamedTuple):
     motion_a: np.ndarray  # (blocks, LANES) uint32 its rows of MOTION, 0 for none
     motion_b: np.ndarray
     lines: np.ndarray  # SIZE numbers for each block
+    gathered: np.ndarray  # GATHERED numbers: of the block that a pass is at
 
 
 def make_blocks(count: int) -> Blocks:
@@ -160,7 +162,8 @@ def make_blocks(count: int) -> Blocks:
         row_of=np.zeros(lanes, np.int32),
         motion_a=np.zeros(lanes, np.uint32),
         motion_b=np.zeros(lanes, np.uint32),
-        lines=np.zeros(count * SIZE),
+        lines=zeros_in_lines(count * SIZE, np.float64),
+        gathered=zeros_in_lines(GATHERED, np.float64),
     )
 
 
@@ -193,6 +196,8 @@ def pack_rows(
             c = blocks_out.lines[found * SIZE : (found + 1) * SIZE]
             for lane in range(LANES):
                 i = at + lane if lane < count else -1
+                if i < 0 and blocks_out.row_of[found, lane] < 0:
+                    continue  # nothing comes of nothing: it is what it was
                 blocks_out.row_of[found, lane] = i
                 if i < 0:
                     blocks_out.motion_a[found, lane] = 0

@@ -5,29 +5,33 @@ Row 0 of MOTION stands for everything that does not move in this step: what is s
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.dynamics.integrate import refresh_centers
+from physics.dynamics.integrate import refresh_center
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.constraint import MOTION
 from physics.tables.counters import BODIES_INTEGRATED
+from physics.tables.lines import zeros_in_lines
 from physics.tables.step_state import StepState
 
 BOTH = (False, True)
 
 
-@kernel
+@subkernel
 def stand_still(motions_out, pushable_out, joins_out):
     """Write row 0: what cannot be moved."""
     m = motions_out[0]
     m.vx = 0.0
     m.vy = 0.0
     m.angular_velocity = 0.0
+    m.free_vx = 0.0
+    m.free_vy = 0.0
+    m.free_w = 0.0
     m.push_vx = 0.0
     m.push_vy = 0.0
     m.push_w = 0.0
@@ -52,6 +56,16 @@ def stand_still(motions_out, pushable_out, joins_out):
     joins_out[0] = False
 
 
+class Air(NamedTuple):
+    """What pulls at every body."""
+
+    gravity_x: float  # [px/s2]
+    gravity_y: float
+    drag: float  # [1/s]
+    wind_x: float  # [px/s]
+    wind_y: float
+
+
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
     """The pass from bodies to motions for a world with these effects."""
 
@@ -72,11 +86,12 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
         """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed.
         Returns how many are pushed, and how many move by hand. O(rows).
 
-        air: gravity x, y [px/s2], drag [1/s], wind x, y [px/s]; motion_of_inout (bodies) int32: the row of MOTION of
+        air: see Air; motion_of_inout (bodies) int32: the row of MOTION of
         each; pushable_out (motions) bool: whether an impulse changes its velocity; joins_out (motions) bool: whether
         it is of an island; lists_out (2, motions) int32: the rows of MOTION of those that are pushed, and of those that
         move by hand.
         """
+        stand_still(motions_out, pushable_out, joins_out)
         pushed = 0
         driven = 0
         for k in range(len(rows)):
@@ -86,6 +101,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.vx = b.vx
             m.vy = b.vy
             m.angular_velocity = b.angular_velocity if rotation else 0.0
+            m.free_vx = m.vx
+            m.free_vy = m.vy
+            m.free_w = m.angular_velocity
             m.push_vx = 0.0
             m.push_vy = 0.0
             m.push_w = 0.0
@@ -123,11 +141,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.acceleration_y = b.inverse_mass * b.force_y
             m.angular_acceleration = m.inverse_inertia * b.torque
             if gravity:
-                m.acceleration_x += b.gravity_scale * air[0]
-                m.acceleration_y += b.gravity_scale * air[1]
+                m.acceleration_x += b.gravity_scale * air.gravity_x
+                m.acceleration_y += b.gravity_scale * air.gravity_y
             if wind:
-                m.acceleration_x += air[2] * air[3]
-                m.acceleration_y += air[2] * air[4]
+                m.acceleration_x += air.drag * air.wind_x
+                m.acceleration_y += air.drag * air.wind_y
         return pushed, driven
 
     return gather_motions
@@ -146,20 +164,33 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         motions_inout,
     ):
         """Add the accelerations of one substep h [s] to the members, rows of MOTION; drag [1/s] implicitly, stable for
-        any rate. O(members)."""
+        any rate. O(members).
+
+        What contacts have given a body in the substep before, all together, they begin this one with: their impulses
+        are what they were, and so are their arms, so nobody need ask them one by one.
+        """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
             m = motions_inout[members[i]]
             m.pressed = False
+            given_x = m.vx - m.free_vx
+            given_y = m.vy - m.free_vy
             m.vx += h * m.acceleration_x
             m.vy += h * m.acceleration_y
-            if rotation:
-                m.angular_velocity += h * m.angular_acceleration
             if drag:
                 m.vx = keep * m.vx
                 m.vy = keep * m.vy
-                if rotation:
+            m.free_vx = m.vx
+            m.free_vy = m.vy
+            m.vx += given_x
+            m.vy += given_y
+            if rotation:
+                given = m.angular_velocity - m.free_w
+                m.angular_velocity += h * m.angular_acceleration
+                if drag:
                     m.angular_velocity = keep * m.angular_velocity
+                m.free_w = m.angular_velocity
+                m.angular_velocity += given
 
     return integrate_substep_velocities
 
@@ -233,7 +264,7 @@ def scatter_motions(
     motion_of_inout,
     bodies_inout,
 ):
-    """Write velocities and poses back to the bodies, keeping the pose of before the step. O(rows)."""
+    """Write velocities, poses and centres of mass back to the bodies, keeping the pose of before the step. O(rows)."""
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         m = motions[k + 1]
@@ -246,6 +277,7 @@ def scatter_motions(
         b.torque = 0.0
         b.fraction = 1.0
         if not m.moves:
+            refresh_center(b)
             continue
         b.vx = m.vx
         b.vy = m.vy
@@ -262,6 +294,7 @@ def scatter_motions(
             u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
+        refresh_center(b)
 
 
 GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}
@@ -278,7 +311,7 @@ class Motions:
         self.used, self.movers, self.driven = self.rows[:1], self.lists[0, :0], self.lists[1, :0]
 
     def _grow(self, count):
-        self.rows, self.lists = np.zeros(count, MOTION), np.zeros((2, count), np.int32)
+        self.rows, self.lists = zeros_in_lines(count, MOTION), np.zeros((2, count), np.int32)
         self.pushable, self.joins = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
 
     def gather(self, state: StepState) -> None:
@@ -289,8 +322,7 @@ class Motions:
         if len(self.motion_of) < len(bodies):
             self.motion_of = np.zeros(2 * len(bodies), np.int32)
         self.used = self.rows[: len(rows) + 1]
-        stand_still(self.used, self.pushable, self.joins)
-        air = np.array((*state.gravity, state.drag, *state.wind))
+        air = Air(*state.gravity, state.drag, *state.wind)
         gather = GATHER[effects.gravity, effects.wind, effects.rotation]
         pushed, driven = gather(
             rows, bodies, air, self.motion_of, self.used, self.pushable, self.joins, self.lists, state.work
@@ -303,7 +335,6 @@ class Motions:
         """Write the bodies back."""
         rows, bodies = state.awake.bodies, state.bodies
         scatter_motions(rows, self.used, self.motion_of, bodies)
-        refresh_centers(rows, bodies)
         # Who was pushed round stands at an angle that was not foreseen.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 

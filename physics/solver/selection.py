@@ -42,7 +42,7 @@ def demand_rate(state: StepState) -> float:
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
 
-@kernel
+@subkernel
 def select_manifolds(
     # read
     manifolds,
@@ -76,6 +76,27 @@ def select_manifolds(
         edges_out[found, 1] = row_b
         found += 1
     return found
+
+
+@kernel
+def color_manifolds(
+    # read
+    manifolds,
+    motion_of,
+    motions,
+    pushable,
+    # write
+    selected_out,
+    edges_out,
+    taken_out,
+    degrees_out,
+    colors_out,
+):
+    """List the manifolds that are solved, as edges, and colour these. Returns their number. See select_manifolds,
+    color_edges. O(manifolds + motions)."""
+    count = select_manifolds(manifolds, motion_of, motions, selected_out, edges_out)
+    color_edges(edges_out, count, pushable, taken_out, degrees_out, colors_out)
+    return count
 
 
 @subkernel
@@ -157,9 +178,10 @@ class Selection:
         """Select, colour and order the contacts; substeps 0: as many as each island asks for."""
         rows, manifolds = motions.used, state.manifolds
         self._grow(len(rows), len(manifolds))
-        self.count = select_manifolds(manifolds, motions.motion_of, rows, self.selected, self.edges)
         taken, degrees = self.taken[: len(rows)], self.degrees[: len(rows)]
-        color_edges(self.edges, self.count, motions.pushable, taken, degrees, self.colors)
+        self.count = color_manifolds(
+            manifolds, motions.motion_of, rows, motions.pushable, self.selected, self.edges, taken, degrees, self.colors
+        )
         if substeps:
             starts = self.starts[: COLORS + 2]
             order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.ordered)

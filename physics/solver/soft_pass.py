@@ -6,7 +6,7 @@ out of an overlap by speeds of its own is rare, and done lane by lane. Sources: 
 
 from collections.abc import Callable
 
-from physics.jit import inlined, subkernel
+from physics.jit import inlined, separate, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.lane_motions import gather_poses, gather_speeds, levers_of, measure_gaps, scatter_speeds
@@ -131,7 +131,7 @@ def make_rub(second: bool, rotation: bool) -> Callable:
 def make_warm_lanes(rotation: bool) -> Callable:
     """The pass over blocks that applies the impulses a substep starts from."""
 
-    @subkernel
+    @separate
     def warm_lanes(
         # read
         count,
@@ -140,6 +140,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
         blocks_inout,
     ):
         """Apply the impulses that the lanes hold already. O(count)."""
+        s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
             for lane in range(LANES):
@@ -147,7 +148,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
                     motions_inout[blocks_inout.motion_a[block, lane]],
                     motions_inout[blocks_inout.motion_b[block, lane]],
                     lane,
-                    c,
+                    s,
                 )
             for lane in range(LANES):
                 nx = c[at.NX + lane]
@@ -161,15 +162,15 @@ def make_warm_lanes(rotation: bool) -> Callable:
                     b_turn = c[at.BX_1 + lane] * y - c[at.BY_1 + lane] * x + c[at.ROLLING + lane]
                     a_turn += c[at.AX_2 + lane] * v - c[at.AY_2 + lane] * u
                     b_turn += c[at.BX_2 + lane] * v - c[at.BY_2 + lane] * u
-                    c[at.W_A + lane] -= c[at.II_A + lane] * a_turn
-                    c[at.W_B + lane] += c[at.II_B + lane] * b_turn
-                c[at.VX_A + lane] -= c[at.IM_A + lane] * (x + u)
-                c[at.VY_A + lane] -= c[at.IM_A + lane] * (y + v)
-                c[at.VX_B + lane] += c[at.IM_B + lane] * (x + u)
-                c[at.VY_B + lane] += c[at.IM_B + lane] * (y + v)
+                    s[at.W_A + lane] -= c[at.II_A + lane] * a_turn
+                    s[at.W_B + lane] += c[at.II_B + lane] * b_turn
+                s[at.VX_A + lane] -= c[at.IM_A + lane] * (x + u)
+                s[at.VY_A + lane] -= c[at.IM_A + lane] * (y + v)
+                s[at.VX_B + lane] += c[at.IM_B + lane] * (x + u)
+                s[at.VY_B + lane] += c[at.IM_B + lane] * (y + v)
             for lane in range(LANES):
                 scatter_speeds(
-                    c,
+                    s,
                     lane,
                     motions_inout[blocks_inout.motion_a[block, lane]],
                     motions_inout[blocks_inout.motion_b[block, lane]],
@@ -183,7 +184,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     rubs = friction and not biased
     rub_1, rub_2 = make_rub(False, rotation), make_rub(True, rotation)
 
-    @subkernel
+    @separate
     def solve_soft(
         # read, scalars
         count,
@@ -194,14 +195,15 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every lane of so many blocks once; pace: see Pace. O(count)."""
         calm_speed = CALM_SHARE * pace.push_speed
+        s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
             for lane in range(LANES):
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
-                gather_speeds(a, b, lane, c)
+                gather_speeds(a, b, lane, s)
                 if not biased:
-                    gather_poses(a, b, lane, c)
+                    gather_poses(a, b, lane, s)
             for lane in range(LANES):
                 nx = c[at.NX + lane]
                 ny = c[at.NY + lane]
@@ -210,13 +212,13 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 masses = c[at.IM_A + lane] + c[at.IM_B + lane]
                 a_1, b_1, a_2, b_2 = levers_of(c, lane)
                 if not biased:
-                    measure_gaps(lane, c)
+                    measure_gaps(lane, s, c)
                 gap_1 = c[at.GAP_1 + lane]
                 gap_2 = c[at.GAP_2 + lane]
-                wa = c[at.W_A + lane]
-                wb = c[at.W_B + lane]
-                vx = c[at.VX_B + lane] - c[at.VX_A + lane]
-                vy = c[at.VY_B + lane] - c[at.VY_A + lane]
+                wa = s[at.W_A + lane]
+                wb = s[at.W_B + lane]
+                vx = s[at.VX_B + lane] - s[at.VX_A + lane]
+                vy = s[at.VY_B + lane] - s[at.VY_A + lane]
                 speed_1 = vx * nx + vy * ny
                 speed_2 = speed_1
                 if rotation:
@@ -260,7 +262,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 c[at.NORMAL_2 + lane] = impulse_2
                 if biased:
                     presses = (c[at.RESTS + lane] > 0.0) | (impulse_1 + impulse_2 > 0.0)
-                    c[at.OUTCOME + lane] = (PRESSED if presses else 0.0) + (FREE if free else 0.0)
+                    s[at.OUTCOME + lane] = (PRESSED if presses else 0.0) + (FREE if free else 0.0)
                 else:
                     c[at.TOTAL_1 + lane] += impulse_1
                     c[at.TOTAL_2 + lane] += impulse_2
@@ -287,23 +289,23 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                     dx_2, dy_2, wa, wb = rub_2(lane, vx, vy, wa, wb, impulse_2, c)
                     x = x + dx + dx_2
                     y = y + dy + dy_2
-                c[at.VX_A + lane] -= c[at.IM_A + lane] * x
-                c[at.VY_A + lane] -= c[at.IM_A + lane] * y
-                c[at.VX_B + lane] += c[at.IM_B + lane] * x
-                c[at.VY_B + lane] += c[at.IM_B + lane] * y
+                s[at.VX_A + lane] -= c[at.IM_A + lane] * x
+                s[at.VY_A + lane] -= c[at.IM_A + lane] * y
+                s[at.VX_B + lane] += c[at.IM_B + lane] * x
+                s[at.VY_B + lane] += c[at.IM_B + lane] * y
                 if rotation:
-                    c[at.W_A + lane] = wa
-                    c[at.W_B + lane] = wb
+                    s[at.W_A + lane] = wa
+                    s[at.W_B + lane] = wb
             for lane in range(LANES):
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
-                if biased and c[at.OUTCOME + lane] > 0.0:
-                    if c[at.OUTCOME + lane] >= FREE:
+                if biased and s[at.OUTCOME + lane] > 0.0:
+                    if s[at.OUTCOME + lane] >= FREE:
                         let_out_both(c, lane, pace, rotation, a, b)
-                    if c[at.OUTCOME + lane] != FREE:
+                    if s[at.OUTCOME + lane] != FREE:
                         a.pressed = True
                         b.pressed = True
-                scatter_speeds(c, lane, a, b)
+                scatter_speeds(s, lane, a, b)
 
     return solve_soft
 

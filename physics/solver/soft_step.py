@@ -12,7 +12,6 @@ from collections.abc import Callable
 from physics.jit import kernel
 from physics.solver.contacts import ContactSet
 from physics.solver.demand import ask_for_substeps
-from physics.solver.lane_motions import measure
 from physics.solver.lanes import pack_rows, unpack_rows
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.pace import pace_of
@@ -47,10 +46,10 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
         h = pace.h
         count = pack_rows(constraints_inout, starts, motions_inout, pace, blocks_out)
         move_driven(driven, 0.0, motions_inout)
-        measure(count, motions_inout, blocks_out)
         for n in range(pace.substeps):
             velocities(members, h, pace.drag, motions_inout)
-            warm_start(count, motions_inout, blocks_out)
+            if n == 0:
+                warm_start(count, motions_inout, blocks_out)
             push_out(count, pace, motions_inout, blocks_out)
             positions(members, h, pace.push_speed, motions_inout)
             move_driven(driven, (n + 1) * h, motions_inout)

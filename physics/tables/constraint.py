@@ -2,33 +2,39 @@
 
 import numpy as np
 
-MOTION = np.dtype(
-    [  # one per awake body, and the first for all that stands: what a solver reads and changes in its substeps
+from physics.tables.lines import in_lines
+
+# One row per awake body, and the first for all that stands: what a solver reads and changes in its substeps. A row is
+# three lines of a processor's cache: what every pass over the constraints needs is in the first of them.
+MOTION = in_lines(
+    [
         ("vx", np.float64),
         ("vy", np.float64),
         ("angular_velocity", np.float64),
-        ("push_vx", np.float64),  # that lets overlaps out: it moves a body in this substep, and is none of its velocity
-        ("push_vy", np.float64),
-        ("push_w", np.float64),
         ("dx", np.float64),
         ("dy", np.float64),  # [px] of the centre of mass since the step began
         ("cosine", np.float64),
         ("sine", np.float64),  # of the turn since the step began
-        ("inverse_mass", np.float64),
-        ("inverse_inertia", np.float64),  # 0 for what this step does not push
-        ("turn", np.float64),  # [rad]
-        ("acceleration_x", np.float64),
-        ("acceleration_y", np.float64),
-        ("angular_acceleration", np.float64),
-        ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
-        ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
-        ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
         ("moves", np.bool_),
         ("pushed", np.bool_),  # is integrated; feels drag and acceleration
         ("pressed", np.bool_),  # something acts on it in this substep, or it lies on something: it does not fly freely
         ("walks", np.bool_),  # a character: what lies under its feet bears it, and is not held down by it
-    ],
-    align=True,
+        ("inverse_mass", np.float64),
+        ("inverse_inertia", np.float64),  # 0 for what this step does not push
+        ("free_vx", np.float64),  # the velocity in this substep before any contact acted
+        ("free_vy", np.float64),
+        ("free_w", np.float64),
+        ("acceleration_x", np.float64),
+        ("acceleration_y", np.float64),
+        ("angular_acceleration", np.float64),
+        ("turn", np.float64),  # [rad]
+        ("push_vx", np.float64),  # that lets overlaps out: it moves a body in this substep, and is none of its velocity
+        ("push_vy", np.float64),
+        ("push_w", np.float64),
+        ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
+        ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
+        ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
+    ]
 )
 
 CONSTRAINT = np.dtype(

@@ -20,7 +20,7 @@ from physics import (
     TileGrid,
     World,
 )
-from physics.step import SOLVERS, STACKING, begin, finish, plan
+from physics.step import SOLVERS, STACKING, Plan, begin, finish, plan
 from physics.tables.step_state import STAGE_FIELDS, StepState, stage
 
 ATOMS = (int, float, bool, str, bytes, type(None))
@@ -88,7 +88,7 @@ class Guard:
 def step_watched(world, dt=None):
     """A step whose stages are held to what they say."""
     state = begin(world, world.dt if dt is None else dt)
-    for run in plan(world.effects, world.solver):
+    for run in plan(world.effects, world.solver).stages:
         before = photographed(state)
         run(Guard(state, run))
         after = photographed(state)
@@ -211,7 +211,7 @@ def leaves_a_message(state):
 )
 def test_a_stage_that_does_more_than_it_says_is_found(liar, monkeypatch):
     world, _, _ = busy(Effects.rigid_bodies())
-    monkeypatch.setattr("tests.physics.test_stages.plan", lambda effects, solver: (liar,))
+    monkeypatch.setattr("tests.physics.test_stages.plan", lambda effects, solver: Plan((liar,), (liar.stage,)))
     with pytest.raises(AssertionError, match="does not say so"):
         step_watched(world)
 
@@ -274,7 +274,7 @@ def declared():
 def test_the_order_of_the_stages():
     seen = 0
     for effects, solver in declared():
-        assert mistakes(plan(effects, solver)) == [], (effects.names(), solver)
+        assert mistakes(plan(effects, solver).stages) == [], (effects.names(), solver)
         seen += 1
     assert seen > 60
 
@@ -284,7 +284,7 @@ def test_a_wrong_order_is_found():
         (Effects.rigid_bodies(), "soft_step"),
         (Effects(response=True, continuous=True), "projection"),
     ):
-        right = plan(effects, solver)
+        right = plan(effects, solver).stages
         wrong = sum(
             bool(mistakes((*right[:k], right[k + 1], right[k], *right[k + 2 :]))) for k in range(len(right) - 1)
         )
