@@ -361,7 +361,8 @@ class Scene:
         return None
 
     def finding(self) -> str:
-        """What it has found, one sentence with a number that it measured; "" while there is none."""
+        """What it has found, one sentence with numbers that it measured in this run, as they are now; before that "not
+        yet: " and what it still needs. "" where nothing is to be found."""
         return ""
 
     def draw_on_frame(self, frame: Frame) -> None:

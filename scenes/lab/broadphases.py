@@ -170,7 +170,8 @@ class Broadphases(Scene):
         """How fast the cost of each strategy grows in this layout."""
         laws = {name: self.growth(name).law for name in STRATEGIES}
         if None in laws.values():
-            return ""
+            known = sum((self.layout, size, name) in self.figures for size in SIZES for name in STRATEGIES)
+            return f"not yet: {known} of {len(SIZES) * len(STRATEGIES)} worlds of this layout were stepped for it"
         grown = ", ".join(f"{name} n^{law.exponent:.2f}" for name, law in laws.items() if law is not None)
         return f"{self.layout}, {SIZES[-FITTED]:,} to {LARGEST:,} bodies: a step costs {grown}"
 

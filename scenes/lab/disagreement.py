@@ -171,6 +171,16 @@ class Disagreement(Shooter):
             Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
         ]
 
+    def finding(self):
+        """How many of the chosen tier's hits in this traffic are none, and between which rates that lies."""
+        lit = self.jury.lit
+        wrong, missed = self.jury.wrong[lit], self.jury.missed[lit]
+        if not wrong.total:
+            return f"not yet: the {NAMES.get(lit, lit)} has to tell a hit"
+        low, high = (100 * share for share in wrong.interval)
+        told = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} told are none"
+        return f"{told} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
+
     def bot(self):
         """The shooter's own pilot."""
         return super().bot()

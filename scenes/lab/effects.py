@@ -183,9 +183,9 @@ class EffectsLab(Scene):
         return 1e6 * (real.value - other.value)
 
     def finding(self):
-        """What the last two seconds with each effect and without it have shown; "" before all were looked at."""
+        """What the last two seconds with each effect and without it have shown, once all were looked at."""
         if len(self.found) < len(self.effects.names()):
-            return f"looked at {len(self.found)} of {len(self.effects.names())}"
+            return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
         prices = {name: price for name in self.found if (price := self.price(name)) is not None}
         words = f"{plain_name(far)} moves most, {self.found[far].apart:.0f} px"

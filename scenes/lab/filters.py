@@ -212,6 +212,15 @@ class Filters(Scene):
             Goal("a click changes a mask", 240, self.clicks >= 3, f"{self.clicks} clicks"),
         ]
 
+    def finding(self):
+        """How many pairs of boxes the filter dropped in the last step, and whether contacts are those it allows."""
+        if not self.steps:
+            return "not yet: the discs have to swing"
+        counters = self.world.profile.counters
+        told = f"of {counters['filtered'] + counters['candidates']} pairs whose boxes met {counters['filtered']} were"
+        agreed = sum(self.says_yes(row, column) and self.says_yes(column, row) for row, column in CELLS)
+        return f"{told} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
+
     def bot(self):
         """Three clicks: one yes taken, one given, the first given back."""
         cell = BOT_CLICKS.get(self.frame)

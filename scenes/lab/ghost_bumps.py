@@ -289,7 +289,7 @@ class GhostBumps(Scene):
     def finding(self):
         """The most of its speed that a slider lost on each floor, and what a step of it takes."""
         if self.run == 0:
-            return ""
+            return "not yet: the sliders have to come over some tiles"
         told = (
             f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
             f" ({cost_text(self, (*self.chosen, floor))})"

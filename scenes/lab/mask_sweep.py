@@ -21,6 +21,7 @@ from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, NIGHT, PAPER, RED, SLATE, WHITE, faded
 from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_backdrop
+from game.measure.rates import Rate
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, moved
 from game.scene import Goal, Scene, Slider
@@ -276,6 +277,20 @@ class MaskSweep(Scene):
             ),
             Goal("every shot has passed, hit, or flies", 300, told, f"{flying}"),
         ]
+
+    def finding(self):
+        """How many shots came through the walls, swept and not, and below which rate that is."""
+        passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
+        if not all(met.values()):
+            return "not yet: shots have to come to the walls"
+        rates = {way: Rate(passed[way], met[way]) for way in WAYS}
+        most = 100 * rates["toi"].interval[1]
+        told = f"{rates['off'].count} of {rates['off'].total} shots came through walls of one pixel"
+        return f"{told}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
+
+    def _ended(self):
+        """(shots that passed, all that did or hit)."""
+        return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
         """Watch; later only swords, faster."""

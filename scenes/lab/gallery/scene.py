@@ -233,6 +233,18 @@ class Gallery(Scene):
         naive, ours = self.verdicts[page.name]
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
+    def finding(self):
+        """The errors of both ways on this page so far, and how many pages have shown what they are there for."""
+        naive, ours = self.sides
+        if not naive.steps:
+            return "not yet: the page has to be stepped"
+        page = self.page
+        errors = ", ".join(f"{side.way.name} {amount(side.error)}" for side in (naive, ours))
+        told = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
+        met = sum(is_met(page, *self.verdicts[page.name]) for page in PAGES if page.name in self.verdicts)
+        judged = f"; {met} of {len(self.verdicts)} judged pages came out as expected" if self.verdicts else ""
+        return f"{told}, limit {amount(page.limit)}{judged}"
+
     def bot(self):
         """A glance into each page; then each until it is judged."""
         if self.frame < TOURED:
