@@ -317,8 +317,9 @@ class Sleeping(Scene):
         told = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._lane(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
-            times = f"{microseconds(awake)} where nobody sleeps, {microseconds(asleep)} asleep"
-            told.append(f"a step takes {times}: {awake / asleep:,.0f} x less")
+            told.append(
+                f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that where nobody may sleep"
+            )
         elif self.slept_at < 0 and not self.waves:
             return "not yet: all have to fall asleep"
         if self.waves:
