@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
-from game.wishes import Lane
+from game.wishes import Lane, Recipe
+from physics import Snapshot
 
 WARM_STEPS = 2  # before the first run: they compile
 
@@ -30,7 +31,8 @@ def measure_lanes(
 
     The first turn goes in the order given. Overlaps are looked at before it, not while time is taken.
     """
-    moments = [[Moment(snapshot, lane.broadphase) for snapshot in lane.snapshots] for lane in lanes]
+    made: dict[str, Snapshot] = {}  # by recipe: several lanes begin with the same world
+    moments = [[Moment(_snapshot(each, made), lane.broadphase) for each in lane.snapshots] for lane in lanes]
     order, chance = list(range(len(lanes))), Random(0)
     overlaps: dict[int, float | None] = {}
     for run in range(RUNS):
@@ -44,6 +46,12 @@ def measure_lanes(
             spent = sum(moment.time_run(moment.here, lane.steps, lane.stage) for moment in own) / len(own)
             tell(number, spent, overlaps[number])
         chance.shuffle(order)
+
+
+def _snapshot(given, made):
+    if not isinstance(given, Recipe):
+        return given
+    return made.get(repr(given)) or made.setdefault(repr(given), given.make())
 
 
 def _overlap(moment, judged):
