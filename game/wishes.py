@@ -38,7 +38,7 @@ class Lane(NamedTuple):
     broadphase: str  # the strategy of all of them
     steps: int = STEPS  # that each is stepped in a run
     stage: str | None = None  # only this stage of a step is counted; None: the whole step
-    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap is wanted
+    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap and farthest way are wanted
 
 
 class Lanes(NamedTuple):

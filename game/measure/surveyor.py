@@ -178,12 +178,12 @@ class Surveyor:
                 dot.steps = found["steps"]
                 dot.spent.setdefault(found["moment"], []).append(found["spent"])
 
-    def _take_run(self, moment, lane, spent, overlap):
+    def _take_run(self, moment, lane, spent, overlap, farthest):
         names, lanes = self.asked[int(moment.split()[1])]
         runs = self.runs.setdefault(names[lane], [])
         runs.append(spent)
         steps = lanes[lane].steps * len(lanes[lane].snapshots)
-        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap)
+        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap, farthest)
 
     def stop(self) -> None:
         """End the process; what was found stays."""

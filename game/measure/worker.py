@@ -104,7 +104,10 @@ def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], g
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))
 
-    measure_lanes(lanes, lambda number, spent, overlap: say(lane=number, spent=spent, overlap=overlap), goes_on)
+    def told(number, spent, overlap, farthest):
+        say(lane=number, spent=spent, overlap=overlap, farthest=farthest)
+
+    measure_lanes(lanes, told, goes_on)
     if goes_on():
         say(done=True)
 
