@@ -108,6 +108,7 @@ class Scene:
     other_effects: tuple[Effects, ...] = ()  # that its worlds may be put under: compiled before the start
     broadphase = "hash"
     solver: str | None = None  # None: the World's own choice
+    keeps: dict[str, str] = {}  # what --advise would set otherwise -> why it stays as it is: see docs/advice.json
     solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start
     features: tuple[str, ...] = ()  # short phrases for the menu and --list
     # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.

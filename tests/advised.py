@@ -11,17 +11,25 @@ from pathlib import Path
 
 from game.measure.errors import VISIBLE
 from game.measure.machine import machine
+from game.run.options import DEFAULT_FRAMES
 from scenes import SCENES
 
 ROOT = Path(__file__).resolve().parent.parent
 KEPT = ROOT / "docs" / "advice.json"
+# How long each is played, where ten seconds are not what it is made for: to the boss and its 1,500 bullets.
+FRAMES = {"shooter": 13000, "lab/disagreement": 3600}
 TIMES = 2  # that each scene is measured; an advice that comes only once is chance
 ARGUMENTS = ("--error", f"{VISIBLE:g}", "--json")
 
 
+def frames_of(name: str) -> int:
+    """Of the bot's run."""
+    return FRAMES.get(name, DEFAULT_FRAMES)
+
+
 def ask(name: str) -> dict:
     """What the program says of a scene. Raises CalledProcessError where it cannot be measured."""
-    command = [sys.executable, "main.py", "--advise", name, *ARGUMENTS]
+    command = [sys.executable, "main.py", "--advise", name, *ARGUMENTS, "--frames", str(frames_of(name))]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if done.returncode not in (0, 1):  # 1: nothing is within the error
         raise subprocess.CalledProcessError(done.returncode, command, done.stdout, done.stderr)
@@ -42,11 +50,15 @@ def agreed(runs: list[dict]) -> dict:
 def main(names: list[str]) -> None:
     """Measure, and write after every scene, so that an interrupted run is not lost."""
     kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {"scenes": {}}
-    kept["command"] = f"python main.py --advise SCENE {' '.join(ARGUMENTS)}"
+    kept["command"] = f"python main.py --advise SCENE {' '.join(ARGUMENTS)} --frames FRAMES"
     kept["machine"] = machine()
     for name in names:
         answers = [ask(name) for _ in range(TIMES)]
-        kept["scenes"][name] = {"here": answers[0]["here"], "runs": [each["run"] for each in answers]}
+        kept["scenes"][name] = {
+            "frames": frames_of(name),
+            "here": answers[0]["here"],
+            "runs": [each["run"] for each in answers],
+        }
         print(name, agreed(kept["scenes"][name]["runs"]), kept["scenes"][name]["runs"], flush=True)
         write(kept)
 

@@ -64,6 +64,7 @@ class Broadphases(Scene):
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
     switches_broadphase = False
+    keeps = {"broadphase": "a world for each strategy: the first is brute force, which the others are seen beside"}
     head = HEAD
     legend_at = (330, 248)
 

@@ -58,6 +58,7 @@ class EffectsLab(Scene):
     """`worlds` holds the world that is shown: with the marked effect, or without it."""
 
     name = "lab/effects"
+    keeps = {"substeps": "by load, as a World has them by itself: what each effect costs is told of such a world"}
     title = "Effects"
     about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
     effects = ALL

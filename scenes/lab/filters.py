@@ -49,6 +49,7 @@ class Filters(Scene):
     title = "Filters"
     about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
     effects = Effects()
+    keeps = {"narrowphase": "it judges where discs touch, and boxes around them meet before they do"}
     pieces = ("circles", "boxes")
     features = ("membership and mask, tested both ways", "filtered inside the broad phase, before a pair is written")
     sliders = (Slider("speed", 0.2, 3.0, 1.0, step=0.1),)

@@ -57,6 +57,7 @@ class GhostBumps(Scene):
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
     about = "Box, disc and capsule slide over boxes, tiles and a chain: which floor's seams do they feel?"
+    keeps = {"solver": "what a seam takes off a slider is asked of the solver that a World has by itself"}
     effects = Effects(response=True, gravity=True, rotation=True, stacking=True)
     pieces = ("boxes", "circles", "capsules", "tiles", "chains")
     features = ("tiles merged into runs", "chains with ghost neighbours", "speed and height as live curves")

@@ -64,6 +64,7 @@ class Sleeping(Scene):
     about = "Heaps fall asleep, a knock wakes one, and what falls wakes the next: who is awake, and what does it cost?"
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
     pieces = ("boxes", "circles", "capsules")
+    keeps = {"substeps": "by load: a player's six balls on one heap ask for more than the bot's one ball does"}
     features = (
         "islands that sleep and wake as one",
         "the wave of waking lit up",

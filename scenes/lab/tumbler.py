@@ -38,6 +38,7 @@ VIEW = ((120, 16), (360, 254))
 MIDDLE = (360.0, 254.0)  # [px] of the world: the middle of the view
 TOYS = ("red", "blue", "gold", "green", "purple", "teal")
 SLACK = 8.0  # [px] a centre beyond the wall's inner face by this much is out
+SUBSTEPS = 4  # half the time of as many as the load asks for, and no deeper than a fifteenth of a brick
 SETTLED = 120  # steps after which the load is looked at
 STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
@@ -83,7 +84,7 @@ class Tumbler(Scene):
     def fill(self):
         """A new world: the drum, and shapes laid out in rows inside it."""
         self.worlds = []
-        world, self.cast = self.add_world(), Cast(load_atlas("lab"))
+        world, self.cast = self.add_world(substeps=SUBSTEPS), Cast(load_atlas("lab"))
         self.drum = world.add_body(
             *drum_boxes(), position=MIDDLE, kind="kinematic", angular_velocity=float(self.values["speed"])
         )

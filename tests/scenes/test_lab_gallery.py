@@ -161,7 +161,7 @@ def words(scene, start):
     return [text for _, text in canvas.boxes if text.startswith(start)]
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @needs_speed
 def test_the_thousand_keeps_the_limit_too():
     """499,500 pairs, a step of seconds."""
