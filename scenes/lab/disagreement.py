@@ -56,6 +56,7 @@ class Disagreement(Shooter):
     actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
     tiers = ("pixels",)
     sliders = ()
+    keeps = {"broadphase": "the shooter's own: over its whole stage, with a boss's 1,500 bullets, the two are level"}
     head = HEAD
     ranked_by = None
     assists = ()

@@ -234,12 +234,14 @@ class Dominoes(Scene):
 
     def finding(self):
         """How many times as fast the wave of the large ones is, beside what Froude's rule says."""
-        ratio = self.ratio()
-        if ratio is None:
+        small, large = self.speed(0), self.speed(1)
+        if small is None or large is None:
             return "not yet: both waves have to run through their rows"
-        metres = [self.speed(index) / world.tolerances.pixels_per_meter for index, world in enumerate(self.worlds)]
-        told = f"{SCALES[1]:.0f} times as large, the wave runs {ratio:.3f} times as fast: {metres[1]:.2f} m/s"
-        return f"{told}, not {metres[0]:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
+        meter = self.world.tolerances.pixels_per_meter
+        told = (
+            f"{SCALES[1]:.0f} times as large, the wave runs {large / small:.3f} times as fast: {large / meter:.2f} m/s"
+        )
+        return f"{told}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
         """One push."""

@@ -322,7 +322,12 @@ class Queries(Scene):
                 f"{self.disagreements} of {self.asked} differ",
             ),
             Goal("something is found", 60, self.found > 0, f"{self.found}"),
-            Goal("three strategies look at less than brute force", 60, cheaper, f"{self.looked}"),
+            Goal(
+                "three strategies look at less than brute force",
+                60,
+                cheaper,
+                ", ".join(f"{name} {count:,}" for name, count in self.looked.items()),
+            ),
             Goal("every question finds something", 600, len(self.kinds) == len(QUERIES), ", ".join(sorted(self.kinds))),
         ]
 

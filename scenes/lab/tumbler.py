@@ -193,8 +193,8 @@ class Tumbler(Scene):
 
     def finding(self):
         """How many got out in so many turns, and how deep the load is pressed together."""
-        if self.since <= SETTLED:
-            return "not yet: the load has to settle for two seconds"
+        if self.since < SETTLED + 60:
+            return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
         told = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
         deep = f"{self.pressed:.2f} px, {self.pressed / THINNEST:.0%} of the thinnest"

@@ -26,7 +26,7 @@ NOT_YET = "not yet: "
 # The bot's frames after which it has found something, and after which that is something else.
 PLAYED = {
     "lab/disagreement": (215, 290), "lab/effects": (125, 305), "lab/stacks": (130, 150), "lab/card_house": (70, 100),
-    "lab/dominoes": (300, 300), "lab/tumbler": (125, 150), "lab/sleeping": (245, 330), "lab/cradle": (130, 430),
+    "lab/dominoes": (300, 300), "lab/tumbler": (185, 250), "lab/sleeping": (245, 330), "lab/cradle": (130, 430),
     "lab/conveyor": (300, 530), "lab/one_way": (230, 290), "lab/gallery": (3, 9), "lab/billiards": (60, 300),
     "lab/carving": (60, 200), "lab/filters": (60, 110),
 }  # fmt: skip
@@ -58,7 +58,9 @@ def figures_of(scene):
     if isinstance(wish, Lanes):
         seconds = [1e-6 * (10 * next(costs) + number) for number in range(len(wish.names))]
         cost = {name: Cost.of([each] * RUNS, 60) for name, each in zip(wish.names, seconds, strict=True)}
-        return {name: LaneFigures(each, 0.01 * number) for number, (name, each) in enumerate(cost.items())}
+        return {
+            name: LaneFigures(each, 0.01 * number, 0.01 * number) for number, (name, each) in enumerate(cost.items())
+        }
     return scene.figures
 
 

@@ -146,7 +146,7 @@ def test_the_thousand_is_stepped_beside_the_game_and_told_on_its_page():
         farthest = (1.6, 2.0 + number)  # [px] a step: of 32 px to the metre, 60 steps a second
         cost = Cost.of([2.5] * runs, 2)
         scene.figures = {name: LaneFigures(cost, 0.0, far) for name, far in zip(wish.names, farthest, strict=True)}
-        wanted = [f"1,000 boxes: {amount(far * 60 / 32)}" + ", 2.5 s a step" * number for far in farthest]
+        wanted = [f"1,000 boxes: {amount(far * 60 / 32)}" + ", 2.5 s" * number for far in farthest]
         assert words(scene, "1,000 boxes") == wanted
         assert f"1,000 boxes 3 and {amount(farthest[1] * 60 / 32)}" in scene.finding()
     scene.change("slider:page", NAMES.index("crowd"))

@@ -147,6 +147,7 @@ class Gallery(Scene):
 
     def _make(self, name):
         larger, way = self.page.larger, next(side.way for side in self.sides if self._lane(side) == name)
+        assert larger is not None
         made = Recipe(larger.maker, (dict(way.world),))
         return Lane([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
@@ -189,7 +190,7 @@ class Gallery(Scene):
             found = self.larger(side)
             told = "being stepped" if found is None else amount(found[0])
             if found is not None and found[1].sure:
-                told += f", {found[1].cost.median:.1f} s a step"
+                told += f", {found[1].cost.median:.1f} s"
             canvas.text(f"{page.larger.name}: {told}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
