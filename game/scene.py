@@ -108,6 +108,7 @@ class Scene:
     other_effects: tuple[Effects, ...] = ()  # that its worlds may be put under: compiled before the start
     broadphase = "hash"
     solver: str | None = None  # None: the World's own choice
+    keeps: dict[str, str] = {}  # what --advise would set otherwise -> why it stays as it is: see docs/advice.json
     solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start
     features: tuple[str, ...] = ()  # short phrases for the menu and --list
     # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.
@@ -361,7 +362,8 @@ class Scene:
         return None
 
     def finding(self) -> str:
-        """What it has found, one sentence with a number that it measured; "" while there is none."""
+        """What it has found, one sentence with numbers that it measured in this run, as they are now; before that "not
+        yet: " and what it still needs. "" where nothing is to be found."""
         return ""
 
     def draw_on_frame(self, frame: Frame) -> None:

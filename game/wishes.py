@@ -4,7 +4,8 @@ What was found comes into its `figures`, by tier or by the name of the lane. It 
 """
 
 from collections.abc import Callable, Hashable, Sequence
-from typing import NamedTuple
+from importlib import import_module
+from typing import Any, NamedTuple
 
 from physics import PixelMask, Snapshot
 
@@ -18,14 +19,26 @@ class Sprites(NamedTuple):
     second: PixelMask
 
 
+class Recipe(NamedTuple):
+    """A snapshot that is made where it is measured, not on the frame of who asks for it."""
+
+    maker: str  # "module:function", which returns a Snapshot
+    arguments: tuple[Any, ...]  # of it: what JSON can hold
+
+    def make(self) -> Snapshot:
+        """The snapshot."""
+        module, function = self.maker.split(":")
+        return getattr(import_module(module), function)(*self.arguments)
+
+
 class Lane(NamedTuple):
     """Worlds, as they are at one moment, to be stepped on: what costs `name`. Figures: {name: LaneFigures}."""
 
-    snapshots: Sequence[Snapshot]
+    snapshots: Sequence[Snapshot | Recipe]
     broadphase: str  # the strategy of all of them
     steps: int = STEPS  # that each is stepped in a run
     stage: str | None = None  # only this stage of a step is counted; None: the whole step
-    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap is wanted
+    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap and farthest way are wanted
 
 
 class Lanes(NamedTuple):

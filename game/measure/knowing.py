@@ -16,9 +16,9 @@ def know(scene: Scene) -> None:
         names = [name for name in wish.names if name not in scene.figures]
         lanes, runs = [wish.make(name) for name in names], {}
 
-        def take(number, spent, overlap):
+        def take(number, spent, *seen):
             runs.setdefault(number, []).append(spent)
             steps = lanes[number].steps * len(lanes[number].snapshots)
-            scene.figures[names[number]] = LaneFigures(Cost.of(runs[number], steps), overlap)
+            scene.figures[names[number]] = LaneFigures(Cost.of(runs[number], steps), *seen)
 
         measure_lanes(lanes, take, lambda: True)

@@ -32,9 +32,10 @@ class Moment:
         strategy = BROADPHASES[setting.broadphase]()
         world = World(self.effects, strategy, pixels_per_meter=facts["pixels_per_meter"])
         world.restore(self.snapshot)
-        if setting.solver is not None:
+        # Another solver wakes all; the one that the snapshot brings lets them sleep on.
+        if setting.solver is not None and setting.solver != world.solver:
             world.solver = setting.solver
-        if setting.substeps is not None:
+        if setting.substeps is not None and setting.substeps != world.substeps:
             world.substeps = setting.substeps
         if setting.tier is not None and setting.tier != self.here.tier:
             for identity in self.tiered:

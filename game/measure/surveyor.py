@@ -78,9 +78,12 @@ class Surveyor:
         lanes = [wish.make(name) for name in names]
         self.latest = f"lanes {len(self.asked)}"
         self.asked.append((names, lanes))
-        snapshots = list({id(each): each for lane in lanes for each in lane.snapshots}.values())
+        taken = (each for lane in lanes for each in lane.snapshots if isinstance(each, Snapshot))
+        snapshots = list({id(each): each for each in taken}.values())
         paths = {id(each): self._path(f"{self.latest} {k}.npz") for k, each in enumerate(snapshots)}
-        stored = [lane._replace(snapshots=[paths[id(each)] for each in lane.snapshots])._asdict() for lane in lanes]
+        stored = [
+            lane._replace(snapshots=[paths.get(id(each), each) for each in lane.snapshots])._asdict() for lane in lanes
+        ]
         order = {"moment": self.latest, "lanes": stored}
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
@@ -175,12 +178,12 @@ class Surveyor:
                 dot.steps = found["steps"]
                 dot.spent.setdefault(found["moment"], []).append(found["spent"])
 
-    def _take_run(self, moment, lane, spent, overlap):
+    def _take_run(self, moment, lane, spent, overlap, farthest):
         names, lanes = self.asked[int(moment.split()[1])]
         runs = self.runs.setdefault(names[lane], [])
         runs.append(spent)
         steps = lanes[lane].steps * len(lanes[lane].snapshots)
-        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap)
+        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap, farthest)
 
     def stop(self) -> None:
         """End the process; what was found stays."""

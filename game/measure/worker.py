@@ -24,7 +24,7 @@ from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
 from game.processes import end_all, start_module
-from game.wishes import STEPS, Lane
+from game.wishes import STEPS, Lane, Recipe
 from physics import PixelMask, Snapshot
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
@@ -93,14 +93,21 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
 
 
 def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure lanes, each a Lane as a dict with the files of its snapshots in their place."""
+    """Measure lanes, each a Lane as a dict with the files of its snapshots in their place; a recipe is a list."""
     loaded = cache(Snapshot.load)  # what several lanes begin with is read once
-    lanes = [Lane(**{**lane, "snapshots": [loaded(path) for path in lane["snapshots"]]}) for lane in order["lanes"]]
+
+    def begun(given):
+        return loaded(given) if isinstance(given, str) else Recipe(*given)
+
+    lanes = [Lane(**{**lane, "snapshots": [begun(each) for each in lane["snapshots"]]}) for lane in order["lanes"]]
 
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))
 
-    measure_lanes(lanes, lambda number, spent, overlap: say(lane=number, spent=spent, overlap=overlap), goes_on)
+    def told(number, spent, overlap, farthest):
+        say(lane=number, spent=spent, overlap=overlap, farthest=farthest)
+
+    measure_lanes(lanes, told, goes_on)
     if goes_on():
         say(done=True)
 

@@ -57,6 +57,7 @@ class Times(Layer):
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] of the same steps
         self.total = Typical()  # [ms]
+        self.rect: pygame.Rect | None = None  # where the graph is on the picture, if it is [frame px]
         self.stages: dict[str, Typical] = {}  # those of the last step [ms]
         self.counters = {}
         self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
@@ -98,7 +99,7 @@ class Times(Layer):
 
         Where there is no room for both tables the counters give way; where it is narrow the stages stand below.
         """
-        scale = frame.text_scale
+        scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
         inner = rect.inflate(-2 * MARGIN * scale, -2 * MARGIN * scale)

@@ -123,6 +123,7 @@ class Overlays:
         scale = frame.text_scale
         if "invariants" in self.on:
             self._draw_lights(frame, area, scale)
+        self.times.rect = None
         for size in self.times.sizes(frame) if "times" in self.on else ():
             place = frame.free_place(size, _corners(area, size, 4 * scale))
             if place is not None:

@@ -1,4 +1,7 @@
-"""One minute through the overlays: bots play, one layer after the other comes on, two lines say what it shows."""
+"""One minute through the overlays: bots play, one layer after the other comes on, two lines say what it shows.
+
+Each stop waits until what it speaks of is there, stands still on that step with a ring around it, and then goes on.
+"""
 
 from collections.abc import Callable, Sequence
 from time import perf_counter
@@ -16,12 +19,17 @@ from game.scene import Scene
 from game.screens.parts.demo import Demo
 from game.screens.parts.panel import HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
+from game.screens.parts.subjects import SUBJECTS, subject_of
 from game.screens.screen import SceneScreen
 
-SECONDS = 5  # of each stop: twelve stops are a minute
+SECONDS, STILL = 5, 3  # of each stop, twelve are a minute; of them it stands still on its subject
+PATIENCE = 900  # steps that a stop waits for its subject
+MARGIN = 6  # [canvas px] between a subject and its ring
+EDGE = 6  # [text px] between the card and the border of the picture
 CARD = (312, 66)  # [text px]
 # Scene and how many steps its bot has played before it is shown; layer, or the panel; title; two lines.
-GAME, LEVEL, PILE, SHOTS = ("shooter", 800), ("platformer", 240), ("lab/pyramid", 120), ("lab/tunnelling", 90)
+GAME, LEVEL = ("shooter", 800), ("platformer", 240)
+HEAPS, PILE, SHOTS = ("lab/sleeping", 100), ("lab/pyramid", 120), ("lab/tunnelling", 90)
 STOPS = (
     (
         GAME,
@@ -36,7 +44,7 @@ STOPS = (
         ("Where a body is, was, and will be in one step.", "So nothing fast slips between two pictures."),
     ),
     (
-        GAME,
+        LEVEL,
         "structure",
         "3  Broad phase",
         ("The grid that finds who could meet whom", "without asking every pair. B switches it."),
@@ -54,7 +62,7 @@ STOPS = (
         ("The pixels that decide. Yellow: shared ones.", "Boxes may meet and it is still a miss."),
     ),
     (
-        LEVEL,
+        HEAPS,
         "islands",
         "I  Islands",
         ("What leans on each other is solved together,", "and sleeps together, z, when nothing moves."),
@@ -131,7 +139,11 @@ class Tour(SceneScreen):
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
         self.demos = {}  # scene name -> Demo, each played on from stop to stop
         self.at = 0
-        self.shown = 0  # steps of this stop
+        self.shown = 0  # steps of this stop, from where its subject is there
+        self.waited = 0  # steps until then
+        self.subject: pygame.Rect | None = None  # where it is on the canvas, while the picture stands still on it
+        self.ring: pygame.Rect | None = None  # around what the last picture spoke of [frame px]
+        self.card = pygame.Rect(0, 0, 0, 0)  # of the last picture [frame px]
         self.places = []  # (rect, what it does) of the last picture
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
@@ -155,26 +167,51 @@ class Tour(SceneScreen):
             Row(HEAD, "See"),
             *layer_rows(self.demo.overlays),
             Row(HEAD, "Time"),
-            Row(NOTE, "P freezes, O makes one step, - and + change the speed"),
-            Row(NOTE, "B broad phase, V solver, T tier, N narrow phase"),
-            Row(NOTE, "R restart, F12 a picture"),
+            Row(NOTE, "P freezes, O makes one step"),
+            Row(NOTE, "- and + change the speed"),
+            Row(NOTE, "B, V, T, N: broad phase, solver, tier,"),
+            Row(NOTE, "narrow phase; R restart, F12 picture"),
         ]
+
+    @property
+    def waits(self) -> bool:
+        """Whether the bot still plays, fast, up to where the subject of this stop is there."""
+        return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]; the next stop when this one has had its time."""
         try:
-            due = self.demo.advance(now)
-            started = perf_counter()
-            while self.begins_in > 0 and perf_counter() - started < AHEAD:
-                self.demo.step()
+            due = self.demo.clock.advance(now)
+            if self.waits:
+                self._play_ahead()
+            elif self.subject is None or self.shown >= STILL * 60:
+                self.subject = None
+                for _ in range(due):
+                    self.demo.step()
         except UsageError:  # a scene whose files are damaged cannot be shown; the menu says why
             self.outcome = ("back",)
             return
-        self.shown += due if self.begins_in <= 0 else 0
+        if not self.waits:
+            self.shown += due
         if self.demo.scene.result is not None:
             self._play_again()
         if self.shown >= SECONDS * 60:
             self._go(NEXT)
+
+    def _play_ahead(self):
+        """Steps for as long as a picture allows, up to the one in which the subject is there."""
+        layer, started = self.stops[self.at][1], perf_counter()
+        while self.waits and perf_counter() - started < AHEAD:
+            if self.begins_in <= 0:
+                if layer not in SUBJECTS:  # it is on the frame, always
+                    self.waited = PATIENCE
+                    return
+                self.subject = subject_of(self.demo.scene, layer)
+                self.waited += 1
+            if self.waits:
+                self.demo.step()
+                if self.demo.scene.result is not None:
+                    self._play_again()
 
     def _play_again(self):
         """A bot that has come to its end starts over, so that there is always something to see."""
@@ -185,7 +222,8 @@ class Tour(SceneScreen):
             self.outcome = ("back",)
             return
         self.at = max(0, self.at + (1 if what == NEXT else -1))
-        self.shown = 0
+        self.shown = self.waited = 0
+        self.subject = None
         self.demo.clock.rest()
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -202,20 +240,43 @@ class Tour(SceneScreen):
         return what is not None
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene with this stop's layer, and its card."""
+        """Draw the scene with this stop's layer, a ring around its subject, and its card elsewhere."""
         layer = self.stops[self.at][1]
         demo = self.demo
         with_panel = layer == "panel"
         demo.overlays.on = {"contacts"} if with_panel else {layer}
-        frame = demo.draw(picture, self.panel if with_panel else None, lambda frame: frame.reserve(card_rect(frame)))
-        if not (with_panel and picture.presenter.crowded):
+        frame = demo.draw(picture, self.panel if with_panel else None, self._reserve)
+        alone = with_panel and picture.presenter.crowded  # then the panel is all there is
+        self.ring = None
+        if layer in SUBJECTS:
+            self.ring = self._ring_on(frame)
+        elif self.shown < STILL * 60 and not alone:
+            self.ring = picture.presenter.panel_rect if with_panel else demo.overlays.times.rect
+        if self.ring is not None:
+            draw_ring(frame, self.ring)
+        if not alone:
             self._draw_card(frame)
         return frame
+
+    def _ring_on(self, frame):
+        """Around the subject, in the pixels of a frame; None where there is no subject."""
+        if self.subject is None:
+            return None
+        return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
+
+    def _reserve(self, frame):
+        """Place the card where it leaves the ring free and covers the least text, and keep other text away from it."""
+        ring = self._ring_on(frame)
+        beside_panel = self.stops[self.at][1] == "panel"
+        self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
+        frame.reserve(self.card)
+        if ring is not None:
+            frame.reserve(ring)
 
     def _draw_card(self, frame):
         (_, first), _, title, lines = self.stops[self.at]
         scale = frame.scale_for(CARD[0])
-        rect = card_rect(frame)
+        rect = self.card
         covered = [each for each in frame.boxes if rect.colliderect(each[0])]
         frame.boxes[:] = [each for each in frame.boxes if each not in covered]
         frame.surface.fill(INK, rect)
@@ -223,9 +284,11 @@ class Tour(SceneScreen):
         frame.surface.fill(GOLD, (rect.x, rect.y, 2 * scale, rect.height))
         x, y = rect.x + 10 * scale, rect.y + 6 * scale
         frame.text(title, x, y, GOLD, TEXT, scale)
-        if self.begins_in > 0:
-            part = f"{100 - 100 * self.begins_in // first} %"
-            frame.text(f"the bot plays ahead, {part}", rect.right - 8 * scale, y + scale, FOG, SMALL, scale, "right")
+        if self.waits:
+            text = "the bot plays until there is one"
+            if self.begins_in > 0:
+                text = f"the bot plays ahead, {100 - 100 * self.begins_in // first} %"
+            frame.text(text, rect.right - 8 * scale, y + scale, FOG, SMALL, scale, "right")
         for number, line in enumerate(lines):
             frame.text(line, x, y + (14 + 12 * number) * scale, PAPER, TEXT, scale)
         self._draw_foot(frame, rect, scale)
@@ -237,7 +300,7 @@ class Tour(SceneScreen):
         for number in range(len(self.stops)):
             color = GOLD if number == self.at else FOG if number < self.at else DUSK
             frame.surface.fill(color, (rect.x + (10 + 8 * number) * scale, y + scale, 4 * scale, 4 * scale))
-        share = min(1.0, self.shown / (SECONDS * 60)) if self.begins_in <= 0 else 0.0
+        share = min(1.0, self.shown / (SECONDS * 60))
         frame.surface.fill(
             SLATE, (rect.x + 2 * scale, rect.bottom - 2 * scale, int((rect.width - 4 * scale) * share), scale)
         )
@@ -248,9 +311,23 @@ class Tour(SceneScreen):
             right = place.left - 12 * scale
 
 
-def card_rect(frame: Frame) -> pygame.Rect:
-    """Where the card goes: over the lower edge of the game."""
-    scale, area = frame.scale_for(CARD[0]), frame.area.clip(frame.rect)
-    rect = pygame.Rect(0, 0, min(CARD[0] * scale, area.width), CARD[1] * scale)
-    rect.midbottom = area.centerx, area.bottom - 6 * scale
-    return rect
+def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
+    """Where in an area the card goes: a corner, or the middle of a border, clear of the ring, over the least text."""
+    scale = frame.scale_for(CARD[0])
+    size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
+    room = area.inflate(-2 * EDGE * scale, -2 * EDGE * scale)
+    x = area.centerx - size[0] // 2
+    lefts = (x, max(area.left, min(x, room.left)), max(x, room.right - size[0]))
+    places = [pygame.Rect(left, top, *size) for top in (room.bottom - size[1], room.top) for left in lefts]
+    free = [place for place in places if ring is None or not place.colliderect(ring)] or places
+    taken = [box for box, _ in frame.boxes]
+    return min(free, key=lambda place: sum(both.width * both.height for both in map(place.clip, taken)))
+
+
+def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
+    """Gold between two dark lines, so that it is seen on any ground."""
+    thick = max(2, frame.scale)
+    outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
+    corner = 5 * frame.scale
+    pygame.draw.rect(frame.surface, INK, outer, 3 * thick, corner)
+    pygame.draw.rect(frame.surface, GOLD, outer.inflate(-2 * thick, -2 * thick), thick, corner)

@@ -20,6 +20,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
+from game.drawing.number_text import count_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -322,6 +323,13 @@ class Billiards(Scene):
             Goal("no ball leaves the table", 300, there),
             Goal("a pocket counts a ball", 3600, len(self.potted) > 0, f"{len(self.potted)} in {self.shots} shots"),
         ]
+
+    def finding(self):
+        """How much of a break's momentum was lost before its first cushion, and what no collision of two has added."""
+        if not self.compared:
+            return "not yet: a ball has to be hit and to run a step before it meets a cushion"
+        told = f"in {count_text(self.compared, 'step')} before a cushion momentum was off by {self.kept:.1g} of itself"
+        return f"{told}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
 
     def bot(self):
         """Break, then shoot at the ball and pocket that line up best."""

@@ -229,6 +229,19 @@ class CardHouse(Scene):
             Goal("the house falls at a friction of 0.2", 800, self.slipped, f"at {self.values['friction'] / 100:.2f}"),
         ]
 
+    def finding(self):
+        """How long the house stands at its friction, and between which two a pair's need lies."""
+        if self.since < 60:
+            return "not yet: the cards have to stand, or slide, for a second"
+        house = f"{len(self.cards)} cards at a friction of {self.values['friction'] / 100:.2f}"
+        for_so_long = f"{self.stood / 60:.1f} s"
+        stands = f"stand for {for_so_long}, none further than {self.wandered:.2f} px from its place"
+        told = f"{house} {stands if self.stands(self.cards) else f'fell after {for_so_long}'}"
+        slid, stood = (self.stands(cards) for cards in self.pairs)
+        if slid or not stood:
+            return told
+        return f"{told}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
+
     def bot(self):
         """Watch for ten seconds, then make the cards slippery."""
         changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()

@@ -278,6 +278,14 @@ class Carving(Scene):
             Goal("all sleep in the end", 600, self.awake == 0, f"{self.awake} awake"),
         ]
 
+    def finding(self):
+        """How little of the ground the last carve made anew, and whether a pixel was lost on the way."""
+        if not self.carves:
+            return "not yet: something has to be carved"
+        lost = self.whole - self.left - self.removed - self.crumbs
+        tiles = f"the last carve made {self.anew} of {len(self._tiles())} tiles of the ground anew"
+        return f"{tiles}; of {self.whole:,} pixels {self.removed + self.crumbs:,} were taken and {lost} lost"
+
     def bot(self):
         """Cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a sprite."""
         return plan(self.frame)

@@ -266,7 +266,7 @@ class Cradle(Scene):
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
             if found is None:
-                return ""
+                return "not yet: each row has to be struck, and not dragged"
             told.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(told)}"
 

@@ -56,6 +56,7 @@ class Disagreement(Shooter):
     actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
     tiers = ("pixels",)
     sliders = ()
+    keeps = {"broadphase": "the shooter's own: over its whole stage, with a boss's 1,500 bullets, the two are level"}
     head = HEAD
     ranked_by = None
     assists = ()
@@ -170,6 +171,16 @@ class Disagreement(Shooter):
             Goal("circle, box and turned box told hits that are none", 1200, all_caught, ", ".join(caught)),
             Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
         ]
+
+    def finding(self):
+        """How many of the chosen tier's hits in this traffic are none, and between which rates that lies."""
+        lit = self.jury.lit
+        wrong, missed = self.jury.wrong[lit], self.jury.missed[lit]
+        if not wrong.total:
+            return f"not yet: the {NAMES.get(lit, lit)} has to tell a hit"
+        low, high = (100 * share for share in wrong.interval)
+        told = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} told are none"
+        return f"{told} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
         """The shooter's own pilot."""

@@ -232,6 +232,17 @@ class Dominoes(Scene):
             ),
         ]
 
+    def finding(self):
+        """How many times as fast the wave of the large ones is, beside what Froude's rule says."""
+        small, large = self.speed(0), self.speed(1)
+        if small is None or large is None:
+            return "not yet: both waves have to run through their rows"
+        meter = self.world.tolerances.pixels_per_meter
+        told = (
+            f"{SCALES[1]:.0f} times as large, the wave runs {large / small:.3f} times as fast: {large / meter:.2f} m/s"
+        )
+        return f"{told}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
+
     def bot(self):
         """One push."""
         return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())

@@ -58,6 +58,7 @@ class EffectsLab(Scene):
     """`worlds` holds the world that is shown: with the marked effect, or without it."""
 
     name = "lab/effects"
+    keeps = {"substeps": "by load, as a World has them by itself: what each effect costs is told of such a world"}
     title = "Effects"
     about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
     effects = ALL
@@ -183,9 +184,9 @@ class EffectsLab(Scene):
         return 1e6 * (real.value - other.value)
 
     def finding(self):
-        """What the last two seconds with each effect and without it have shown; "" before all were looked at."""
+        """What the last two seconds with each effect and without it have shown, once all were looked at."""
         if len(self.found) < len(self.effects.names()):
-            return f"looked at {len(self.found)} of {len(self.effects.names())}"
+            return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
         prices = {name: price for name in self.found if (price := self.price(name)) is not None}
         words = f"{plain_name(far)} moves most, {self.found[far].apart:.0f} px"

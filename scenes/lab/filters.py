@@ -49,6 +49,7 @@ class Filters(Scene):
     title = "Filters"
     about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
     effects = Effects()
+    keeps = {"narrowphase": "it judges where discs touch, and boxes around them meet before they do"}
     pieces = ("circles", "boxes")
     features = ("membership and mask, tested both ways", "filtered inside the broad phase, before a pair is written")
     sliders = (Slider("speed", 0.2, 3.0, 1.0, step=0.1),)
@@ -211,6 +212,15 @@ class Filters(Scene):
             Goal("allowed pairs touch", 120, self.met > 0, f"{self.met}"),
             Goal("a click changes a mask", 240, self.clicks >= 3, f"{self.clicks} clicks"),
         ]
+
+    def finding(self):
+        """How many pairs of boxes the filter dropped in the last step, and whether contacts are those it allows."""
+        if not self.steps:
+            return "not yet: the discs have to swing"
+        counters = self.world.profile.counters
+        told = f"of {counters['filtered'] + counters['candidates']} pairs whose boxes met {counters['filtered']} were"
+        agreed = sum(self.says_yes(row, column) and self.says_yes(column, row) for row, column in CELLS)
+        return f"{told} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
 
     def bot(self):
         """Three clicks: one yes taken, one given, the first given back."""

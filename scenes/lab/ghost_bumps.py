@@ -57,6 +57,7 @@ class GhostBumps(Scene):
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
     about = "Box, disc and capsule slide over boxes, tiles and a chain: which floor's seams do they feel?"
+    keeps = {"solver": "what a seam takes off a slider is asked of the solver that a World has by itself"}
     effects = Effects(response=True, gravity=True, rotation=True, stacking=True)
     pieces = ("boxes", "circles", "capsules", "tiles", "chains")
     features = ("tiles merged into runs", "chains with ghost neighbours", "speed and height as live curves")
@@ -289,7 +290,7 @@ class GhostBumps(Scene):
     def finding(self):
         """The most of its speed that a slider lost on each floor, and what a step of it takes."""
         if self.run == 0:
-            return ""
+            return "not yet: the sliders have to come over some tiles"
         told = (
             f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
             f" ({cost_text(self, (*self.chosen, floor))})"

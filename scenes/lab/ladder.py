@@ -44,6 +44,7 @@ SPRITES = (
     ("crate", "lab", "crate_24_0"),
 )
 NAMES = {"aabb": "box", "obb": "turned box", "pixels": "pixels, as drawn", "mask": "pixels, exactly"}
+TOLD = ("aabb", "hull", "outline")  # in the finding
 HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # hold all pixels of a sprite
 COLUMNS = 3
 CELL = (160, 84)
@@ -222,6 +223,22 @@ class Ladder(Scene):
             Goal("pixels stand for themselves", 1, not exact, ", ".join(exact)),
             Goal("the outline is closer than the hull, the hull than the box", 1, closer),
         ]
+
+    def finding(self):
+        """What share of three shapes is empty around this sprite, and what a hit is told in."""
+        empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in TOLD]
+        names = [NAMES.get(tier, tier) for tier in TOLD]
+        shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))
+        told = f"{self.sprite_name}: {shares} is empty"
+        if not all(tier in self.figures for tier in TOLD):
+            return told
+        times = ", ".join(f"{1e9 * self.figures[tier].hit.median:,.0f}" for tier in TOLD)
+        return f"{told}; a hit takes {times} ns"
+
+    def _balance(self, tier):
+        """Pixels that a tier covers more than the sprite has."""
+        over, missed = self.counts[tier]
+        return over - missed
 
     def bot(self):
         """One sprite after the other."""

@@ -32,6 +32,7 @@ from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
 COLORS = {"box": RED, "hull": ORANGE, "parts": YELLOW, "outline": GREEN, "exact": SKY}
+TOLD = ("box", "outline", "exact")  # in the finding
 PUSHED_AS_MASKS = ("outline", "exact")
 SPRITES = {
     "crates": ("lab", "crate_24_0"),
@@ -259,6 +260,17 @@ class MaskStack(Scene):
             ),
             Goal("everything is finite", 600, finite),
         ]
+
+    def finding(self):
+        """How much air three ways hold, by how many corners they are pushed, and how far their towers have sunk."""
+        if self.since <= WARM:
+            return "not yet: the piles have to settle for half a second"
+        told = []
+        for way in TOLD:
+            corners, air, _ = self.shares[WAYS.index(way)]
+            stands = f"sinks {self.sinks[way]:.2f} px" if self.stands_now(way) else "fell"
+            told.append(f"{way} {air:,.0f} px of air, {corners:,.0f} corners, {stands}")
+        return "; ".join(told)
 
     def bot(self):
         """Watch them come to rest, nudge once, watch again."""

@@ -164,7 +164,7 @@ class Pyramid(Scene):
         """What the present setting costs and how it stands, and which of those that stand as well costs least."""
         dots = self.dots()
         if self.lane not in dots:
-            return ""
+            return "not yet: this pyramid has to be stepped beside the game"
         mine = dots[self.lane]
         told = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
         as_good = [name for name, dot in dots.items() if dot.error <= mine.error]

@@ -13,7 +13,7 @@ To try: make the ray long and slanted, and count what the hash and the tree look
 Source: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987; Ericson, Real-Time Collision Detection, 2005.
 """
 
-from math import atan2, cos, hypot, pi, sin
+from math import cos, hypot, pi, sin
 from random import Random
 from time import perf_counter
 
@@ -24,6 +24,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, SLATE, WHITE, YELLOW, faded
 from game.drawing.sprites import load_backdrop
+from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
@@ -31,6 +32,7 @@ from game.scene import Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
+from scenes.lab.questions import angle_of, ask, told
 from scenes.lab.yard import HEAD, darken, draw_head
 
 STRATEGIES = ("tree", "hash", "sweep", "brute")
@@ -132,6 +134,10 @@ class Queries(Scene):
         self.answer = []  # (body id, x, y, normal x, normal y, fraction): see ask()
         self.spent = dict.fromkeys(STRATEGIES, 0.0)  # [s] of the last step's query
         self.work = {name: (0, 0) for name in STRATEGIES}  # nodes or cells, boxes compared
+        self._forget()
+
+    def _forget(self):
+        self.usual = {name: Typical() for name in STRATEGIES}  # boxes and nodes that this question is answered from
 
     def _place(self, random):
         while True:
@@ -145,8 +151,9 @@ class Queries(Scene):
         return QUERIES[int(self.values["query"])]
 
     def change_slider(self, name, value):
-        """Another number of bodies: fill the worlds anew."""
+        """Another question looks at something else; another number of bodies: fill the worlds anew."""
         super().change_slider(name, value)
+        self._forget()
         if name == "bodies":
             self.fill()
 
@@ -175,6 +182,7 @@ class Queries(Scene):
             counters = world.queries.counters
             self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
             self.looked[strategy] += sum(self.work[strategy])
+            self.usual[strategy].note(sum(self.work[strategy]))
         self.answer = answers[0]
         self.asked += 1
         self.found += len(self.answer)
@@ -314,9 +322,23 @@ class Queries(Scene):
                 f"{self.disagreements} of {self.asked} differ",
             ),
             Goal("something is found", 60, self.found > 0, f"{self.found}"),
-            Goal("three strategies look at less than brute force", 60, cheaper, f"{self.looked}"),
+            Goal(
+                "three strategies look at less than brute force",
+                60,
+                cheaper,
+                ", ".join(f"{name} {count:,}" for name, count in self.looked.items()),
+            ),
             Goal("every question finds something", 600, len(self.kinds) == len(QUERIES), ", ".join(sorted(self.kinds))),
         ]
+
+    def finding(self):
+        """What each strategy looks at for this question, and how often their answers differed."""
+        if not self.usual["tree"].last:
+            return "not yet: something has to be asked"
+        looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
+        among = f"{self.query} among {self.values['bodies']:,} shapes: {looks}, brute force at"
+        told = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
+        return f"{told}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
         """Point along a slow curve; the next question now and then, the next strategy more often."""
@@ -348,46 +370,6 @@ class Queries(Scene):
 
 
 PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", "brute": "nodes"}
-
-
-def ask(world, query, origin, target, size):
-    """What a world answers."""
-    way = target[0] - origin[0], target[1] - origin[1]
-    if query == "ray":
-        return [world.ray_cast(origin, way)]
-    if query == "all":
-        return world.ray_cast_all(origin, way)
-    if query == "cast":
-        return [world.shape_cast(Circle(size), origin, way)]
-    if query == "overlap":
-        return world.overlap(Polygon.box(2.0 * size, 1.2 * size), (*target, angle_of(origin, target)))
-    if query == "closest":
-        return [world.closest(target)]
-    if query == "area":
-        return world.query_aabb((target[0] - size, target[1] - size), (target[0] + size, target[1] + size))
-    return world.query_point(target)
-
-
-def told(found):
-    """An answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for what there is not."""
-    rows = []
-    for each in found:
-        if each is None:
-            continue
-        if isinstance(each, tuple):  # of closest
-            body, point, distance = each
-            rows.append((body.id, *point, 0.0, 0.0, distance))
-        elif hasattr(each, "fraction"):
-            rows.append((each.body.id, *each.point, *each.normal, each.fraction))
-        else:
-            rows.append((each.id, *each.position, 0.0, 0.0, 0.0))
-    return rows
-
-
-def angle_of(origin, target):
-    """The angle of the box that overlaps are asked with: along the line from the origin [rad]."""
-    dx, dy = target[0] - origin[0], target[1] - origin[1]
-    return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0
 
 
 def bounce(world):

@@ -20,11 +20,13 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, PAPER, SKY, SLATE, faded
+from game.drawing.number_text import count_text
 from game.drawing.rotated import RotatedPicture, poses_between
-from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
-from physics import Capsule, Circle, Effects, Material, Polygon, debug
+from game.wishes import Lane, Lanes
+from physics import BROADPHASES, Capsule, Circle, Effects, Material, Polygon, World, debug
+from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
 from scenes.lab.pieces import hull, piece, placed, scaled, turning
 from scenes.lab.piles import step_seconds
@@ -49,6 +51,7 @@ SETTLE = 240  # steps in which all have fallen asleep
 RAMPS = ("wood", "teal", "coral", "violet", "gold")
 DIM = (118, 112, 150)  # what of a picture's light is left in its sleep, of 255
 SLEEP = ("off", "on")
+SLEPT = ("awake", "asleep")  # what is measured
 PLOTS = (("bodies: awake, asleep [log]", (132, 206, 168, 60)), ("microseconds a step [log]", (306, 206, 168, 60)))
 HISTORY = 600  # steps in the curves
 
@@ -61,6 +64,7 @@ class Sleeping(Scene):
     about = "Heaps fall asleep, a knock wakes one, and what falls wakes the next: who is awake, and what does it cost?"
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
     pieces = ("boxes", "circles", "capsules")
+    keeps = {"substeps": "by load: a player's six balls on one heap ask for more than the bot's one ball does"}
     features = (
         "islands that sleep and wake as one",
         "the wave of waking lit up",
@@ -83,7 +87,6 @@ class Sleeping(Scene):
             Curves(PLOTS[0][0], {"awake": GOLD, "asleep": FOG}, HISTORY),
             Curves(PLOTS[1][0], {"step": SKY}, HISTORY),
         ]
-        self.costs = {"awake": Typical(), "asleep": Typical()}  # [us] of steps with somebody awake, with nobody
         self.fill()
 
     def fill(self):
@@ -180,6 +183,24 @@ class Sleeping(Scene):
         self.thrown += 1
         self.play("land")
 
+    def measured(self):
+        """A step of these heaps while all sleep, and of the same heaps in a world where nobody does."""
+        if self.awake or not self.asleep or self.thrown:
+            return None
+        return Lanes([self._lane(how) for how in SLEPT], self._make)
+
+    def _lane(self, how):
+        return *self.chosen, how
+
+    def _make(self, name):
+        asleep = self.world.snapshot()
+        if name[-1] == "asleep":
+            return Lane([asleep], self.broadphase)
+        world = World(self.effects, BROADPHASES[self.broadphase](), self.solver or "soft_step")
+        world.restore(asleep)
+        world.set_effects(self.effects.without("sleeping"))  # all wake
+        return Lane([world.snapshot()], self.broadphase)
+
     def _count(self, islands):
         """Bodies awake and asleep, and islands, of which each body's is given."""
         bodies = self.world.bodies
@@ -207,10 +228,8 @@ class Sleeping(Scene):
 
     def observe(self):
         """Feed the curves."""
-        spent = step_seconds(self.world) * 1e6
         self.curves[0].note({"awake": self.awake, "asleep": self.asleep})
-        self.curves[1].note({"step": spent})
-        self.costs["awake" if self.awake else "asleep"].note(spent)
+        self.curves[1].note({"step": step_seconds(self.world) * 1e6})
 
     def draw(self, canvas, alpha):
         """The heaps by island, dark in their sleep; the figures on a plate."""
@@ -253,17 +272,12 @@ class Sleeping(Scene):
             ("asleep", f"{self.asleep}", FOG),
             ("islands", f"{self.islands}", PAPER),
             ("islands woken by balls", f"{islands}", PAPER),
-            ("a step, some awake", self._cost("awake"), SKY),
-            ("a step, all asleep", self._cost("asleep"), SKY),
+            ("a step, all awake", cost_text(self, self._lane("awake")), SKY),
+            ("a step, all asleep", cost_text(self, self._lane("asleep")), SKY),
         )
         for number, (word, value, color) in enumerate(rows):
             canvas.text(word, 10, 210 + number * 9, FOG, SMALL)
             canvas.text(value, 120, 210 + number * 9, color, SMALL, align="right")
-
-    def _cost(self, name):
-        """The typical time of a step, once there were some."""
-        typical = self.costs[name]
-        return f"{typical.value:,.0f} us" if typical.last else "-"
 
     def draw_on_frame(self, frame):
         """What has just woken is lit; the curves."""
@@ -298,6 +312,21 @@ class Sleeping(Scene):
             ),
             Goal("all fall asleep again", 1500, self.slept_again >= 0, f"{self.awake} awake"),
         ]
+
+    def finding(self):
+        """What lying still costs beside being awake, and how far a knock woke the heaps."""
+        told = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
+        awake, asleep = (cost_of(self, self._lane(how)) for how in SLEPT)
+        if awake is not None and asleep is not None:
+            told.append(
+                f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that where nobody may sleep"
+            )
+        elif self.slept_at < 0 and not self.waves:
+            return "not yet: all have to fall asleep"
+        if self.waves:
+            woken = sum(count for _, count in self.waves)
+            told.append(f"balls woke {count_text(woken, 'island')}, {self.first_woken} at first")
+        return "; ".join(told)
 
     def bot(self):
         """Wait until all sleep, then throw a ball at the top of the first column."""

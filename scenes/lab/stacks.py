@@ -238,7 +238,7 @@ class Stacks(Scene):
     def finding(self):
         """How far each column has sunk and swayed, and what a step of it takes."""
         if self.since <= SETTLED:
-            return ""
+            return "not yet: the columns have to settle for two seconds"
         told = []
         for index, name in enumerate(SOLVERS):
             sinks, sways = self.sag[name] / (self.values["crates"] * SIZE), self.sway[name] / SIZE

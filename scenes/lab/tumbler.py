@@ -38,6 +38,8 @@ VIEW = ((120, 16), (360, 254))
 MIDDLE = (360.0, 254.0)  # [px] of the world: the middle of the view
 TOYS = ("red", "blue", "gold", "green", "purple", "teal")
 SLACK = 8.0  # [px] a centre beyond the wall's inner face by this much is out
+SUBSTEPS = 4  # half the time of as many as the load asks for, and no deeper than a fifteenth of a brick
+SETTLED = 120  # steps after which the load is looked at
 STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
@@ -82,7 +84,7 @@ class Tumbler(Scene):
     def fill(self):
         """A new world: the drum, and shapes laid out in rows inside it."""
         self.worlds = []
-        world, self.cast = self.add_world(), Cast(load_atlas("lab"))
+        world, self.cast = self.add_world(substeps=SUBSTEPS), Cast(load_atlas("lab"))
         self.drum = world.add_body(
             *drum_boxes(), position=MIDDLE, kind="kinematic", angular_velocity=float(self.values["speed"])
         )
@@ -124,12 +126,12 @@ class Tumbler(Scene):
         out = (x * np.cos(turned) + y * np.sin(turned)).max(axis=0) > INSIDE + SLACK
         self.escaped = max(self.escaped, int(out.sum()))
         self.energy = kinetic_energy(self.world)
-        if self.since > 120:
+        if self.since > SETTLED:
             self.highest = min(self.highest, float(bodies["y"].min()))
             self.most = max(self.most, self.energy)
             deep = deepest(self.world)
             self.overlap = max(self.overlap, deep)
-            self.pressed += (deep - self.pressed) / (self.since - 120)
+            self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def observe(self):
         """The clock."""
@@ -188,6 +190,15 @@ class Tumbler(Scene):
                 f"{self.pressed:.2f} px, once {self.overlap:.2f} px",
             ),
         ]
+
+    def finding(self):
+        """How many got out in so many turns, and how deep the load is pressed together."""
+        if self.since < SETTLED + 60:
+            return "not yet: the load has to settle for two seconds, and to be looked at for one"
+        turns = abs(self.drum.angle) / (2 * pi)
+        told = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
+        deep = f"{self.pressed:.2f} px, {self.pressed / THINNEST:.0%} of the thinnest"
+        return f"{told}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
 
     def bot(self):
         """Watch."""

@@ -333,12 +333,13 @@ class Tunnelling(Scene):
     def finding(self):
         """What each lane has missed of what it had to hit, and what a step of it takes."""
         kind = self.kind
-        if not all(self.due[kind, lane] for lane in LANES):
-            return ""
+        ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
+        if not all(ended.values()):
+            return f"not yet: {kind} have to come to each wall"
         told = []
         for lane in LANES:
-            missed, due = self.missed[kind, lane], self.due[kind, lane]
-            told.append(f"{lane} missed {missed} of {due} ({cost_text(self, (*self.chosen, lane))})")
+            missed = self.missed[kind, lane]
+            told.append(f"{lane} missed {missed} of {ended[lane]} ({cost_text(self, (*self.chosen, lane))})")
         return f"{kind}: {', '.join(told)}"
 
     def bot(self):

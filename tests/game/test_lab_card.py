@@ -7,7 +7,6 @@ import pytest
 
 from game.files.settings import Settings, load_settings
 from game.input.devices import DeviceSource
-from game.measure.knowing import know
 from game.run.picture import Picture
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard, first_card, what_to_see
@@ -18,10 +17,6 @@ from tests.lockstep import make_scene
 
 K = pygame
 LABS = [name for name in SCENES if name.startswith("lab/")]
-FINDERS = {  # labs, and the steps after which they have found something
-    "lab/tunnelling": 120, "lab/stacks": 130, "lab/cradle": 130, "lab/ghost_bumps": 90, "lab/pyramid": 2,
-    "lab/masks": 2,
-}  # fmt: skip
 SIZES = [(480, 270), (960, 540), (1440, 810), (1920, 1080)]
 
 
@@ -103,24 +98,6 @@ def test_the_goals_are_what_the_lab_has_measured():
         play.step()
         play.draw(picture)
     assert play.hint.goals != before, "it goes on with the lab"
-
-
-@pytest.mark.parametrize("name", FINDERS)
-def test_a_lab_ends_in_what_it_has_measured(name):
-    play = screen(name)
-    for _ in range(FINDERS[name]):
-        play.step()
-    know(play.scene)
-    play.measuring.bench.figures, play.measuring.benched = play.scene.figures, play.scene.measured()
-    finding = play.scene.finding()
-    assert any(letter.isdigit() for letter in finding)
-    for size in SIZES:
-        frame = play.draw(Picture(pygame.Surface(size)))
-        play.hint.age = 0
-        frame = play.draw(Picture(pygame.Surface(size)))
-        assert all(word in words(frame) for word in finding.split()), size
-        assert frame.surface.get_rect().contains(play.hint.rect)
-    assert finding != make_scene(name, few=True).finding(), "it is measured, not written"
 
 
 def test_it_stays_where_it_is_while_the_lab_goes_on():

@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 
 import physics
-from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT
+from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, Canvas
 from game.drawing.font import load_font
 from game.input.inputs import InputFrame, InputState
+from game.measure.lanes import LaneFigures
+from game.measure.moment import Moment
+from game.measure.timing import RUNS, Cost
 from game.run.session import Session
 from game.run.sources import BotSource
+from game.wishes import Recipe
 from physics import World
 from scenes.lab.gallery.page import Side
 from scenes.lab.gallery.pages import PAGES
@@ -75,7 +79,7 @@ EFFECTS = [(page, effect) for page in PAGES for effect in page.effects.names()]
 @needs_speed
 @pytest.mark.parametrize("page, effect", EFFECTS, ids=[f"{page.name}-{effect}" for page, effect in EFFECTS])
 def test_a_page_declares_only_the_effects_that_it_calls_for(page, effect):
-    steps = 2 if page.name == "point" else min(page.steps, 150)
+    steps = min(page.steps, 150)
     try:
         gone = page.effects.with_(**dict.fromkeys((effect, *NEEDS.get(effect, ())), False))
         for with_it, without in zip(run(page, page.effects, steps), run(page, gone, steps), strict=True):
@@ -124,14 +128,52 @@ def test_keys_turn_the_pages_and_begin_them_again():
     assert scene.page is PAGES[1] and scene.sides[0].steps == 0
 
 
-@needs_speed
-def test_only_steps_that_were_made_are_timed_and_many_contacts_slow_the_picture():
+def test_the_thousand_is_stepped_beside_the_game_and_told_on_its_page():
     scene = opened("point")
-    for _ in range(12):
-        step(scene)
-    assert scene.pace > 12 and scene.sides[0].steps == 1
-    assert [len(cost.last) for cost in scene.costs] == [1, 1]
-    assert all(cost.value > 0.0 for cost in scene.costs)
+    wish = scene.measured()
+    for name, side in zip(wish.names, scene.sides, strict=True):
+        lane = wish.make(name)
+        (recipe,) = lane.snapshots
+        assert isinstance(recipe, Recipe), "no world of a thousand is made on the frame"
+        snapshot = recipe.make()
+        rows, facts = snapshot.arrays["bodies"], snapshot.facts
+        assert len(rows) == 1000 and not rows["x"].any() and not rows["y"].any()
+        assert (facts["solver"], facts["substeps"]) == (side.world.solver, side.world.substeps)
+    assert len(words(scene, "1,000 boxes: being stepped")) == 2
+    step(scene)
+    assert "1,000 boxes" not in scene.finding()
+    for number, runs in enumerate((1, RUNS)):
+        farthest = (1.6, 2.0 + number)  # [px] a step: of 32 px to the metre, 60 steps a second
+        cost = Cost.of([2.5] * runs, 2)
+        scene.figures = {name: LaneFigures(cost, 0.0, far) for name, far in zip(wish.names, farthest, strict=True)}
+        wanted = [f"1,000 boxes: {amount(far * 60 / 32)}" + ", 2.5 s" * number for far in farthest]
+        assert words(scene, "1,000 boxes") == wanted
+        assert f"1,000 boxes 3 and {amount(farthest[1] * 60 / 32)}" in scene.finding()
+    scene.change("slider:page", NAMES.index("crowd"))
+    assert scene.measured() is None and not words(scene, "1,000 boxes")
+
+
+def words(scene, start):
+    """Texts of the picture that begin so."""
+    canvas = Canvas()
+    canvas.begin((0, 0, 0))
+    scene.draw(canvas, 1.0)
+    return [text for _, text in canvas.boxes if text.startswith(start)]
+
+
+@pytest.mark.nightly
+@needs_speed
+def test_the_thousand_keeps_the_limit_too():
+    """499,500 pairs, a step of seconds."""
+    scene = opened("point")
+    page, wish = scene.page, scene.measured()
+    for name in wish.names:
+        lane = wish.make(name)
+        moment = Moment(lane.snapshots[0].make(), lane.broadphase)
+        way = moment.way(moment.here, 3)
+        assert way.places.shape == (3, 1000, 2)
+        farthest = max(np.abs(np.diff(way.places, axis=0)).max(), np.abs(way.places[0]).max())
+        assert 0.0 < farthest * 60 / 32 <= page.limit
 
 
 @needs_speed

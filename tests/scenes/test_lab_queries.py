@@ -13,7 +13,8 @@ from game.run.picture import Picture
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics import debug
-from scenes.lab.queries import EACH, HEIGHT, QUERIES, STRATEGIES, VIEW, WIDTH, Queries, told
+from scenes.lab.queries import EACH, HEIGHT, QUERIES, STRATEGIES, VIEW, WIDTH, Queries
+from scenes.lab.questions import told
 
 
 class Player:

@@ -56,7 +56,7 @@ def test_what_was_tried_stays():
     assert [dots[name].tried for name in (first, odd, scene.lane, other)] == [True, True, True, False]
     assert dots[first].cost == pytest.approx(200.0) and dots[first].error == pytest.approx(1000 * 0.08 / SIZE)
     scene.change("slider:rows", 6)
-    assert scene.dots() == {} and scene.finding() == "", "another pyramid"
+    assert scene.dots() == {} and scene.finding().startswith("not yet"), "another pyramid"
     scene.change("slider:rows", 12)
     stepped(scene)
     assert set(scene.dots()) == set(dots), "and back"

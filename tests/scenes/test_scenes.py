@@ -15,8 +15,7 @@ from tests.lockstep import ChangingBot, PlainRun, Run, failures_of, first_differ
 
 PLAIN_FRAMES = 25  # without compiled kernels
 LAB_FRAMES = 600
-# The games' first minute, goals included; of the gallery what comes before its page of 499,500 pairs.
-FRAMES = {"shooter": 3600, "platformer": 3600, "lander": 3600, "lab/gallery": 470}
+FRAMES = {"shooter": 3600, "platformer": 3600, "lander": 3600}  # the games' first minute, goals included
 TOGETHER = 1200  # frames of all ways side by side; then the first goes on alone to the goals, nightly all of them
 QUICK = "lab/filters"  # the one that stands for all in `pytest -m quick`
 FEW = not physics.JIT

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from physics import Circle, Effects, Material, Polygon
-from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, Page, Way, auto, dynamic, floor
+from physics import Circle, Effects, Material, Polygon, World
+from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, Larger, Page, Way, auto, dynamic, floor
 from scenes.lab.gallery.piles import CRATE, PILE
 
-THOUSAND = 1000
+POINT = Effects(response=True, rotation=True, stacking=True)
+LIVE, THOUSAND = 60, 1000  # bodies at the point: for which a frame has time, and beside the game
 FAR = 1e7  # [px]
 ROWS = 8
 CROWD, ROOM = 25, 0.79  # a side of the crowd; the share of it that their room has
@@ -16,8 +17,20 @@ APEX = 0.8**2 * 2.0  # [m] a ball that falls two metres comes back to
 
 
 def build_point(side):
-    """A thousand boxes, all at (0, 0)."""
-    side.world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((THOUSAND, 2)))
+    """Boxes, all at (0, 0)."""
+    fill_point(side.world, LIVE)
+
+
+def fill_point(world, count):
+    """So many boxes, all at (0, 0)."""
+    world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((count, 2)))
+
+
+def snapshot_of_thousand(settings):
+    """The same with a thousand; settings: of the world."""
+    world = World(POINT, **settings)
+    fill_point(world, THOUSAND)
+    return world.snapshot()
 
 
 def fastest_move(side):
@@ -25,6 +38,12 @@ def fastest_move(side):
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
     return float(way.max()) / side.world.dt / METER
+
+
+def farthest_move(figures):
+    """The same of what was stepped beside the game."""
+    assert figures.farthest is not None  # it was judged
+    return figures.farthest * 60.0 / METER
 
 
 def build_crowd(side):
@@ -109,11 +128,11 @@ PAGES = (
     Page(
         "point",
         "A thousand bodies at one point",
-        "A thousand boxes start inside each other: on neither side one is shot out.",
-        "499,500 pairs, none with a direction: each gets one, and no push-out is faster than 3 m/s.",
+        "Sixty boxes start inside each other, a thousand beside the game: none is shot out.",
+        "499,500 pairs of a thousand, none with a direction: each gets one, no push-out is faster than 3 m/s.",
         PUSHED,
         Way("soft step, four substeps", {"substeps": 4}),
-        Effects(response=True, rotation=True, stacking=True),
+        POINT,
         build_point,
         fastest_move,
         "m/s at most",
@@ -122,6 +141,7 @@ PAGES = (
         (0.0, 0.0, 200.0),
         alike=True,
         glance=2,
+        larger=Larger(f"{THOUSAND:,} boxes", f"{__name__}:snapshot_of_thousand", 4, farthest_move),
     ),
     Page(
         "crowd",

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from game.measure.lanes import LaneFigures
 from physics import Effects, Polygon, World
 
 METER = 32.0  # [px]
@@ -39,6 +40,19 @@ PUSHED = Way("projection", {"solver": "projection"})
 
 
 @dataclass(frozen=True)
+class Larger:
+    """The same case at a size that no frame has time for: it is stepped beside the game.
+
+    maker: "module:function" of a snapshot; it is given a way's `world`. steps: that are judged, the first ones.
+    """
+
+    name: str  # "1,000 boxes"
+    maker: str
+    steps: int
+    read: Callable[[LaneFigures], float]  # its error, in the unit of the page
+
+
+@dataclass(frozen=True)
 class Page:
     """A hard case. The naive way is expected above the limit and ours within it; where they are alike, both within."""
 
@@ -59,6 +73,7 @@ class Page:
     judged: str = WORST
     alike: bool = False
     glance: int = 28  # frames that the bot looks into it at first
+    larger: Larger | None = None
 
 
 class Side:

@@ -24,6 +24,7 @@ from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes, Recipe
 from physics import Effects
 from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
@@ -39,7 +40,7 @@ HISTORY = 240  # steps in a plot
 BELOW, ABOVE = 2.0, 3.0  # decades of a plot under the limit and over it
 GLANCES = {sum(page.glance for page in PAGES[:number]): number for number in range(len(PAGES))}  # frame -> page
 TOURED = sum(page.glance for page in PAGES)  # frames after which the bot has looked into each
-CONTACTS_A_FRAME = 20000  # more of them, and a step is shown for several frames
+STEPS_OF_LARGER = 2  # in a run, where a step takes seconds
 DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames by which the bot has judged all
 
 
@@ -68,6 +69,7 @@ class Gallery(Scene):
         "a thousand bodies at one point, 10^7 px from the origin",
     )
     solvers = SOLVERS
+    keeps = {"solver": "each page names its two ways to solve itself: they are what is compared"}
     sliders = (Slider("page", 0, len(PAGES) - 1, 0, choices=NAMES),)
     actions = (("left right", "page"), ("Space", "again"))
     head = HEAD
@@ -92,8 +94,6 @@ class Gallery(Scene):
             solver = settings.pop("solver", "soft_step" if page.effects.stacking else "projection")
             world = self.add_world(Effects(**wanted), solver=solver, seed=self.seed, **settings)
             self.sides.append(Side(page, way, world))
-        self.wait = self.pace = 0  # frames until the next step; between the last two
-        self.stepped = False
         for side, other in zip(self.sides, reversed(self.sides), strict=True):
             side.begin(other)
         x, y, width = page.frame
@@ -117,30 +117,46 @@ class Gallery(Scene):
         self.open()
 
     def update(self, inputs):
-        """Keys; both worlds a step, or one frame less to wait."""
+        """Keys, a step of both worlds, their errors."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("page", (self.values["page"] + turn) % len(PAGES))
         if inputs.pressed("fire"):
             self.open()
-        self.stepped = self.wait == 0
-        if not self.stepped:
-            self.wait -= 1
-            return
         for side in self.sides:
             side.step()
         for side, errors in zip(self.sides, self.errors, strict=True):
             side.measure()
             errors.append(side.now)
-        self.wait = self.pace = max(side.world.profile.counters["contacts"] for side in self.sides) // CONTACTS_A_FRAME
         if self.sides[0].steps == self.page.steps:
             self.verdicts[self.page.name] = tuple(side.error for side in self.sides)
 
     def observe(self):
-        """Note what the steps took; a frame without one says nothing."""
-        if self.stepped:
-            for cost, side in zip(self.costs, self.sides, strict=True):
-                cost.note(step_seconds(side.world) * 1e6)
+        """Note what the steps took."""
+        for cost, side in zip(self.costs, self.sides, strict=True):
+            cost.note(step_seconds(side.world) * 1e6)
+
+    def measured(self):
+        """The page at its full size, where that is more than a frame has time for."""
+        if self.page.larger is None:
+            return None
+        return Lanes([self._lane(side) for side in self.sides], self._make)
+
+    def _lane(self, side):
+        return side.page.name, side.way.name, self.broadphase
+
+    def _make(self, name):
+        larger, way = self.page.larger, next(side.way for side in self.sides if self._lane(side) == name)
+        assert larger is not None
+        made = Recipe(larger.maker, (dict(way.world),))
+        return Lane([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
+
+    def larger(self, side):
+        """(error, LaneFigures) of a side at the page's full size; None before it was stepped."""
+        figures = self.figures.get(self._lane(side))
+        if self.page.larger is None or figures is None:
+            return None
+        return self.page.larger.read(figures), figures
 
     def views(self):
         """One picture per side."""
@@ -152,8 +168,6 @@ class Gallery(Scene):
         number = int(self.values["page"]) + 1
         draw_head(canvas, "GALLERY", f"{number} of {len(PAGES)}")
         canvas.text(self.page.title, 60, 4, PAPER)
-        if self.wait:
-            alpha = 1.0
         for index, camera in enumerate(self.cameras):
             view = camera.viewport
             canvas.surface.blit(self.sky, view, (60 * index, 60, *view.size))
@@ -172,8 +186,12 @@ class Gallery(Scene):
         canvas.text(f"limit {amount(page.limit)}", x + 2, 212, FOG, SMALL)
         spent = self.costs[index].value
         canvas.text(f"{spent:,.0f} us a step", x + 2, 221, GOLD, SMALL)
-        if self.wait:
-            canvas.text(f"slower: {self.pace} frames a step", x + 2, 229, ORANGE, SMALL)
+        if page.larger is not None:
+            found = self.larger(side)
+            told = "being stepped" if found is None else amount(found[0])
+            if found is not None and found[1].sure:
+                told += f", {found[1].cost.median:.1f} s"
+            canvas.text(f"{page.larger.name}: {told}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
         """What is tiny, and the errors against their limit."""
@@ -233,6 +251,21 @@ class Gallery(Scene):
         naive, ours = self.verdicts[page.name]
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
+    def finding(self):
+        """The errors of both ways on this page so far, and how many pages have shown what they are there for."""
+        naive, ours = self.sides
+        if not naive.steps:
+            return "not yet: the page has to be stepped"
+        page = self.page
+        errors = ", ".join(f"{side.way.name} {amount(side.error)}" for side in (naive, ours))
+        told = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
+        met = sum(is_met(page, *self.verdicts[page.name]) for page in PAGES if page.name in self.verdicts)
+        judged = f"; {met} of {len(self.verdicts)} judged pages came out as expected" if self.verdicts else ""
+        full = [found for side in self.sides if (found := self.larger(side)) is not None]
+        if len(full) == len(self.sides) and page.larger is not None:
+            told += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
+        return f"{told}, limit {amount(page.limit)}{judged}"
+
     def bot(self):
         """A glance into each page; then each until it is judged."""
         if self.frame < TOURED:
@@ -247,7 +280,7 @@ class Gallery(Scene):
         """The page, its errors, and all verdicts; the worlds hold the rest."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
-        return (self.frame, self.values["page"], self.wait, *sides, *self.verdicts, *verdicts)
+        return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
 
 
 def is_met(page, naive, ours):

@@ -5,6 +5,8 @@ from time import monotonic
 import pygame
 import pytest
 
+from game.drawing.canvas import TEXT, wrap
+from game.run.picture import Picture
 from game.run.replay import Recorder
 from game.run.replay_check import is_possible
 from game.screens.play import Play
@@ -12,6 +14,7 @@ from scenes import SCENES
 from scenes.lab.pyramid import Pyramid
 from scenes.lab.stacks import Stacks
 from scenes.shooter.scene import Shooter
+from tests.game.reading import Reader, assert_text_is_apart
 
 
 def words(frame):
@@ -37,19 +40,40 @@ def look(driver, known):
     return driver.app.arcade.picture.presenter.frame
 
 
-def test_from_the_title_to_a_finding_in_the_shooter_in_three_keys(driver):
-    for key in (pygame.K_RETURN, pygame.K_RETURN, pygame.K_m):
-        assert driver.name != "Play" or key == pygame.K_m
+def test_a_strangers_path_from_the_title_to_what_accuracy_costs_in_the_shooter(driver):
+    """At most four keys; then the plot is up, and its finding stands there whole, at every size of the window."""
+    pressed = []
+
+    def press(key):
+        pressed.append(key)
         driver.key(key)
         driver.turns(30)
+
+    assert driver.name == "Title" and not driver.settings.hint_seen, "nobody has played here before"
+    press(pygame.K_RETURN)
+    assert driver.name == "Menu"
+    press(pygame.K_RETURN)
+    assert driver.name == "Play"
+    press(pygame.K_m)
     play = driver.screen
-    assert isinstance(play.scene, Shooter) and play.costs_open
-    frame = look(driver, lambda survey: survey.finding("verdict", play.measuring.now()))
+    assert len(pressed) <= 4 and isinstance(play.scene, Shooter) and play.costs_open
+    look(driver, lambda survey: survey.finding("verdict", play.measuring.now()))
     finding = play.measuring.surveyor.survey.finding("verdict", play.measuring.now())
-    assert finding and all(word in words(frame) for word in finding.split())
-    assert "What accuracy costs" in words(frame)
-    rows = [rect for rect, _ in play.costs.rows]
-    assert rows and all(frame.surface.get_rect().contains(rect) for rect in rows)
+    assert any(letter.isdigit() for letter in finding)
+    for size in ((960, 540), (1440, 810), (1920, 1080)):
+        with Reader() as reader:
+            frame = play.draw(Picture(pygame.Surface(size)))
+            assert_text_is_apart(frame.boxes, frame.rect)
+            reader.assert_readable()
+        texts = {text: rect for rect, text in frame.boxes}
+        lines = wrap(finding, play.costs.rect.width - 10 * frame.text_scale, TEXT, frame.text_scale)
+        assert lines and " ".join(lines) == finding and "What accuracy costs" in texts
+        for line in lines:
+            assert play.costs.rect.contains(texts[line]) and frame.rect.contains(texts[line]), (size, line)
+        assert len(play.costs.places) > 1, "the dots of the plot"
+        assert all(play.costs.rect.collidepoint(place) for place, _ in play.costs.places)
+        rows = [rect for rect, _ in play.costs.rows]
+        assert rows and all(frame.rect.contains(rect) for rect in rows)
 
 
 def open_scene(driver, name):

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from game.input.devices import DeviceSource
@@ -46,28 +47,32 @@ class Wishing(Arena):
 def test_every_lane_is_run_five_times_in_turns():
     told = []
     measure_lanes([lane_of(1), lane_of(12)], lambda *found: told.append(found), lambda: True)
-    assert [number for number, _, _ in told[:2]] == [0, 1]
-    assert sorted(number for number, _, _ in told) == [0] * RUNS + [1] * RUNS
-    least = {which: min(spent for number, spent, _ in told if number == which) for which in (0, 1)}
+    assert [number for number, *_ in told[:2]] == [0, 1]
+    assert sorted(number for number, *_ in told) == [0] * RUNS + [1] * RUNS
+    least = {which: min(spent for number, spent, *_ in told if number == which) for which in (0, 1)}
     assert 0.0 < least[0] < least[1], "twelve boxes cost more than one"
 
 
 def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
     told = {}
     lanes = [lane_of(8), lane_of(8, stage="broad_phase"), lane_of(8, stage="none of this name")]
-    measure_lanes(lanes, lambda number, spent, _: told.setdefault(number, []).append(spent), lambda: True)
+    measure_lanes(lanes, lambda number, spent, *_: told.setdefault(number, []).append(spent), lambda: True)
     assert min(told[0]) > min(told[1]) > 0.0 and max(told[2]) == 0.0
 
 
-def test_an_overlap_is_that_of_the_steps_that_are_judged():
+def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
     told, snapshot = [], pile(5)
     measure_lanes([Lane([snapshot], "hash", judged=(3, 7))], lambda *found: told.append(found), lambda: True)
-    world, deepest = World(PILE), []
+    world, deepest, farthest = World(PILE), [], []
     world.restore(snapshot)
     for _ in range(7):
+        before = world.bodies.copy()
         world.step()
         deepest.append(max(0.0, -float(world.contacts["separation"].min())))
-    assert {overlap for _, _, overlap in told} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
+        ways = [world.bodies[name] - before[name] for name in ("center_x", "center_y")]
+        farthest.append(float(np.hypot(*ways).max()))
+    assert {overlap for _, _, overlap, _ in told} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
+    assert [far for *_, far in told] == pytest.approx([max(farthest[2:])] * RUNS) and farthest[0] > max(farthest[2:])
 
 
 def test_who_is_asked_for_something_else_stops():

@@ -1,0 +1,45 @@
+"""The questions of lab/queries, asked of a world, and its answers as rows that can be compared."""
+
+from math import atan2, hypot
+
+from physics import Circle, Polygon
+
+
+def ask(world, query, origin, target, size):
+    """What a world answers."""
+    way = target[0] - origin[0], target[1] - origin[1]
+    if query == "ray":
+        return [world.ray_cast(origin, way)]
+    if query == "all":
+        return world.ray_cast_all(origin, way)
+    if query == "cast":
+        return [world.shape_cast(Circle(size), origin, way)]
+    if query == "overlap":
+        return world.overlap(Polygon.box(2.0 * size, 1.2 * size), (*target, angle_of(origin, target)))
+    if query == "closest":
+        return [world.closest(target)]
+    if query == "area":
+        return world.query_aabb((target[0] - size, target[1] - size), (target[0] + size, target[1] + size))
+    return world.query_point(target)
+
+
+def told(found):
+    """An answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for what there is not."""
+    rows = []
+    for each in found:
+        if each is None:
+            continue
+        if isinstance(each, tuple):  # of closest
+            body, point, distance = each
+            rows.append((body.id, *point, 0.0, 0.0, distance))
+        elif hasattr(each, "fraction"):
+            rows.append((each.body.id, *each.point, *each.normal, each.fraction))
+        else:
+            rows.append((each.id, *each.position, 0.0, 0.0, 0.0))
+    return rows
+
+
+def angle_of(origin, target):
+    """The angle of the box that overlaps are asked with: along the line from the origin [rad]."""
+    dx, dy = target[0] - origin[0], target[1] - origin[1]
+    return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0
