@@ -85,6 +85,14 @@ class Rewind:
         return self.position == self.end
 
     @property
+    def following(self) -> InputFrame | None:
+        """The input of the step that came after where the scene stands; None where it stands at the end."""
+        if self.live:
+            return None
+        stretch = next(each for each in reversed(self.stretches) if each.start <= self.position)
+        return stretch.inputs[self.position - stretch.start]
+
+    @property
     def bytes(self) -> int:
         """What is kept of the past takes."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)

@@ -19,6 +19,7 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
+from game.screens.parts.apart import Apart
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.measuring import Measuring
@@ -76,6 +77,7 @@ class Play(SceneScreen):
         self.scrub: Scrub | None = None  # a recording has no other way back than Watch's
         if recording is None:
             self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
+        self.apart = Apart(self.session, self.scrub and self.scrub.rewind, self.overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -148,6 +150,10 @@ class Play(SceneScreen):
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
+        if self.apart.open and not self.devices.changes:
+            self.clock.rest()
+            return
+        self.apart.leave()
         if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
             self.clock.rest()
             return
@@ -172,6 +178,7 @@ class Play(SceneScreen):
 
     def drop_future(self) -> None:
         """From a step of the past the game is played on, its recording too, with what was set since."""
+        self.apart.leave()
         if self.scrub is not None and not self.scrub.rewind.live:
             self.apply_settings()
         if self.scrub is not None:
@@ -225,6 +232,7 @@ class Play(SceneScreen):
 
         Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
         """
+        self.apart.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
         if self.renews:
             self.end_run()
@@ -260,6 +268,15 @@ class Play(SceneScreen):
         self.clock.paused = True
         self.clock.request_step()
 
+    def take_apart(self) -> None:
+        """Freeze, and go into the next step, stage by stage; from there back out of it."""
+        if self.apart.open:
+            self.apart.leave()
+        else:
+            self.clock.paused, self.panel_open = True, False
+            self.close_costs()
+            self.switches.tell(self.apart.enter())
+
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event before the game does; True if it is used up."""
         hint = None if self.open_panel is not None else self.hint
@@ -271,6 +288,8 @@ class Play(SceneScreen):
             if hint.keeps_keys or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
+        if self.apart.feed(event, button):
+            return True
         if button is not None and self._button(button):
             return True
         panel = self.open_panel
@@ -343,20 +362,32 @@ class Play(SceneScreen):
     def close(self) -> None:
         """Called when the screen is left for good."""
         super().close()
+        self.apart.leave()
         self.close_costs()
         self.measuring.leave()
+
+    def _measure(self):
+        self.measuring.beside(self.now, self.panel_open)
+        if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
+            self.switches.tell(news)
+
+    def _below(self) -> Apart | Scrub | None:
+        """What lies over the bottom of the picture while the game stands."""
+        if self.apart.open:
+            return self.apart
+        return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
-        self.measuring.beside(self.now, self.panel_open)
-        if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
-            self.switches.tell(news)
-        scrub = self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
-        reserve = None if scrub is None else scrub.reserve
-        frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
-        if scrub is not None:
-            scrub.draw(frame)
+        if not self.apart.open:  # half a step is no moment to measure from
+            self._measure()
+        below = self._below()
+        reserve = None if below is None else below.reserve
+        with self.apart.showing():
+            frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
+        if below is not None:
+            below.draw(frame)
         if self.measuring.race is not None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)

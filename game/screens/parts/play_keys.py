@@ -36,6 +36,8 @@ def press(play: Played, key: int) -> bool:
         play.toggle_pause()  # not through the input of a step: a paused game makes none
     elif key == pygame.K_o:
         play.single_step()
+    elif key == pygame.K_e:
+        play.take_apart()
     elif key == pygame.K_MINUS:
         play.clock.slower()
     elif key in (pygame.K_EQUALS, pygame.K_PLUS):

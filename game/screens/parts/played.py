@@ -8,6 +8,7 @@ from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
+from game.screens.parts.apart import Apart
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard
 from game.screens.parts.measuring import Measuring
@@ -27,6 +28,7 @@ class Played(Protocol):
     switches: Switches
     settings: Settings | None
     scrub: Scrub | None
+    apart: Apart
     hint: HintCard | LabCard | None
     person: bool
     since_result: int
@@ -49,6 +51,10 @@ class Played(Protocol):
 
     def single_step(self) -> None:
         """Pause, and make one step."""
+        ...
+
+    def take_apart(self) -> None:
+        """Go into the next step, or out of it."""
         ...
 
     def wish_restart(self) -> None:
