@@ -1,6 +1,6 @@
 """A step that stands still after each of its stages, for whoever looks between them. World.step makes it in one go."""
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from time import perf_counter
 
 import numpy as np
@@ -10,7 +10,7 @@ from physics.tables.step_state import Stage, StepState
 from physics.world_state import WorldState
 
 
-def staged_step(world: WorldState, dt: float | None = None) -> Iterator[Stage | None]:
+def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
     """Make the step of World.step(dt): yields None before the first stage, then each stage when it has run.
 
     Meanwhile the world shows what there is so far: bodies, candidates, manifolds, contacts and events of half a step,

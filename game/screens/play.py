@@ -1,6 +1,7 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
 from collections.abc import Iterable
+from functools import partial
 from time import perf_counter
 
 import pygame
@@ -25,7 +26,7 @@ from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
-from game.screens.parts.play_keys import press
+from game.screens.parts.play_keys import press, press_button
 from game.screens.parts.rumble import rumble
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
@@ -34,13 +35,6 @@ from game.screens.parts.why import Why
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
-PANEL_BUTTONS = {
-    "dpad up": pygame.K_UP,
-    "dpad down": pygame.K_DOWN,
-    "dpad left": pygame.K_LEFT,
-    "dpad right": pygame.K_RIGHT,
-    "a": pygame.K_RETURN,
-}
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
 
 
@@ -171,7 +165,8 @@ class Play(SceneScreen):
     def _went(self):
         """The scene was taken to another step of its past."""
         assert self.scrub is not None
-        self.assisted, self.measuring.race = True, None
+        self.assisted = True
+        self.measuring.end_race()
         self.since_result = self.scrub.rewind.since_result
         if self.settings is not None:
             self.scene.set_accessibility(self.settings.accessibility())
@@ -290,7 +285,7 @@ class Play(SceneScreen):
         button = self.devices.pressed_button(event)
         if self.apart.feed(event, button):
             return True
-        if button is not None and self._button(button):
+        if button is not None and press_button(self, button):
             return True
         panel = self.open_panel
         if panel is not None and panel.feed(event):
@@ -298,6 +293,8 @@ class Play(SceneScreen):
             return True
         if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
             return True
+        if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
+            return True  # nothing is where a click on a half would look for it
         if self.why.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
@@ -305,21 +302,6 @@ class Play(SceneScreen):
             self.panel_open, self.hint = False, LabCard(self.scene)
             return True
         return event.type == pygame.KEYDOWN and press(self, event.key)
-
-    def _button(self, button):
-        """A pad's button that does something besides playing."""
-        panel = self.open_panel
-        if button == "start":
-            self.stop()
-        elif button == "back":
-            self.toggle_pause()
-        elif button == "y" or (button == "b" and panel is not None and panel.focused):
-            self.toggle_panel()
-        elif panel is not None and panel.focused and button in PANEL_BUTTONS:
-            panel.key(PANEL_BUTTONS[button])
-        else:
-            return False
-        return True
 
     def stop(self) -> None:
         """To the pause menu; from a game that has ended, to its result; where nobody plays, to the menu."""
@@ -384,11 +366,16 @@ class Play(SceneScreen):
             self._measure()
         below = self._below()
         reserve = None if below is None else below.reserve
-        with self.apart.showing():
-            frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
+        alpha, split = self.clock.alpha, None if self.apart.open else self.measuring.split
+        if split is not None:
+            draw = partial(split.draw, overlays=self.overlays, alpha=alpha)
+            frame = picture.draw_without(draw, self.overlays, self.open_panel)
+        else:
+            with self.apart.showing():
+                frame = picture.draw_scene(self.scene, self.overlays, alpha, self.open_panel, reserve)
         if below is not None:
             below.draw(frame)
-        if self.measuring.race is not None:
+        if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)
         self.why.draw(frame, self.clock.paused)

@@ -20,7 +20,7 @@ def draw_status(frame: Frame, play: Played) -> None:
     """Draw what there is to say of a Play."""
     text, color = status_of(play)
     if text:
-        draw_line(frame, text, color, play.scene.head)
+        draw_line(frame, text, color, play.scene.head if play.measuring.split is None else 0)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
