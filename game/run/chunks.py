@@ -17,6 +17,7 @@ WORD = 8  # bytes: tables whose rows are whole words are laid out by columns
 ALIGNED = 16  # bytes: kernels are compiled for arrays that begin at a multiple of their items
 LONGEST = 8  # chunks that are each read by the one before, the last but one by itself
 WORTH = 0.8  # of a chunk's bytes compressed by itself, below which it is kept as what differs from another
+ALIKE = 0.2  # of a chunk's bytes as what differs from another, below which nobody looks what it takes by itself
 LEVEL = 6  # zlib's: level 1 is three times as fast, for a sixth more bytes
 
 
@@ -41,12 +42,12 @@ class Chunk:
 
     def pack(self) -> None:
         """Compress it, if that makes it smaller: by itself, unless the other one's bytes as dictionary do better."""
-        own = _deflated(self.data, b"")
-        if self.like is not None:
-            by_like = _deflated(self.data, self.like.content())
-            if len(by_like) < WORTH * len(own):
-                self.data, self.packed = by_like, True
-                return
+        by_like = None if self.like is None else _deflated(self.data, self.like.content())
+        alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
+        own = b"" if alike else _deflated(self.data, b"")
+        if by_like is not None and (alike or len(by_like) < WORTH * len(own)):
+            self.data, self.packed = by_like, True
+            return
         self.like = None
         if len(own) < len(self.data):
             self.data, self.packed = own, True
