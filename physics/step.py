@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics import events
+from physics import checks, events
 from physics.broadphase.pair_list import broad_phase
 from physics.broadphase.rectangles import motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
@@ -24,7 +24,7 @@ from physics.dynamics.quarantine import REASONS, quarantine, quarantine_solved
 from physics.dynamics.rest import IslandWorkspace, rest
 from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
-from physics.settings import STALL
+from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import Motions
@@ -145,6 +145,12 @@ def next_span(span: float, dt: float, usual: float) -> float:
     if dt >= span:
         return min(dt, STALL * max(span, usual))
     return span - (span - dt) * dt / span
+
+
+def step_length(world: WorldState, dt: float | None) -> float:
+    """The time [s] that a step takes: None, the world's own; what is shorter than any is none. Raises ValueError."""
+    dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
+    return 0.0 if dt < SHORTEST_STEP else dt
 
 
 def begin(world: WorldState, dt: float) -> StepState:

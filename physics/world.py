@@ -21,13 +21,13 @@ from physics.environment import Environment, checked_accuracy, checked_substeps,
 from physics.events import Events, Pairs
 from physics.queries.index import QueryIndex
 from physics.questions import Questions
-from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, SHORTEST_STEP, STANDARD_GRAVITY, tolerances
+from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
 from physics.shapes.material import Material
 from physics.snapshot import Snapshot
-from physics.step import Workspace, begin, finish, plans
+from physics.step import Workspace, begin, finish, plans, step_length
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
 from physics.tables.manifold import ANCHOR, MANIFOLD
@@ -110,8 +110,7 @@ class World(Environment, Questions):
 
         Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
-        dt = self.dt if dt is None else checks.number("dt", dt, low=0.0)
-        dt = 0.0 if dt < SHORTEST_STEP else dt
+        dt = step_length(self, dt)
         stages, names = self._plan_now
         spent = self.profile.begin(names)
         self._stepping = True

@@ -7,6 +7,7 @@ are what was found. The process ends with its standard input, so that it never o
 import contextlib
 import json
 import os
+import queue
 import sys
 import threading
 from collections.abc import Callable
@@ -125,14 +126,36 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
         asked = {"effects": moment.effects.names(), "broadphase": order["broadphase"], "pieces": order["pieces"]}
         counting.stdin.write(json.dumps(asked) + "\n")
         counting.stdin.flush()
-        measure_effects(moment, lambda name, *costs: say(effect=name, costs=costs), goes_on)
-        for line in counting.stdout:
-            if line.startswith("["):  # libraries greet
-                name, count = json.loads(line)
-                say(effect=name, kernels=count)
+        counted: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+        threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
+
+        def say_counts(wait):
+            """Those that there are by now; wait: all."""
+            while wait or not counted.empty():
+                line = counted.get()
+                if line is None:
+                    counted.put(None)
+                    return
+                if line.startswith("["):  # libraries greet
+                    name, count = json.loads(line)
+                    say(effect=name, kernels=count)
+
+        def say_costs(name, *costs):
+            say(effect=name, costs=costs)
+            say_counts(wait=False)
+
+        measure_effects(moment, say_costs, goes_on)
+        say_counts(wait=True)
     finally:
         end_all([counting])
     say(done=True)
+
+
+def _listen(lines, heard):
+    """Hand on each line, and None after the last."""
+    for line in lines:
+        heard.put(line)
+    heard.put(None)
 
 
 def main() -> None:

@@ -12,10 +12,12 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 CHUNK = 8192  # bytes: two columns of 500 rows
-LOOSE_CHUNK = 32768  # bytes, zlib's window: of what may begin elsewhere each time
+LOOSE_CHUNK = 24576  # bytes, of what may begin elsewhere each time: so far back, and a little, zlib looks (32 kB)
 WORD = 8  # bytes: tables whose rows are whole words are laid out by columns
 ALIGNED = 16  # bytes: kernels are compiled for arrays that begin at a multiple of their items
+LONGEST = 8  # chunks that are each read by the one before, the last but one by itself
 WORTH = 0.8  # of a chunk's bytes compressed by itself, below which it is kept as what differs from another
+ALIKE = 0.2  # of a chunk's bytes as what differs from another, below which nobody looks what it takes by itself
 LEVEL = 6  # zlib's: level 1 is three times as fast, for a sixth more bytes
 
 
@@ -26,16 +28,26 @@ class Chunk:
 
     def __init__(self, data: bytes, like: "Chunk | None" = None) -> None:
         self.data, self.hash, self.packed = data, hash(data), False
-        self.like = like if like is None or like.like is None else like.like  # one that is read by itself
+        self.like = like if like is None or like.depth < LONGEST else like.first
+
+    @property
+    def depth(self) -> int:
+        """How many others are read for it."""
+        return 0 if self.like is None else 1 + self.like.depth
+
+    @property
+    def first(self) -> "Chunk":
+        """The one of these that is read by itself."""
+        return self if self.like is None else self.like.first
 
     def pack(self) -> None:
         """Compress it, if that makes it smaller: by itself, unless the other one's bytes as dictionary do better."""
-        own = _deflated(self.data, b"")
-        if self.like is not None:
-            by_like = _deflated(self.data, self.like.content())
-            if len(by_like) < WORTH * len(own):
-                self.data, self.packed = by_like, True
-                return
+        by_like = None if self.like is None else _deflated(self.data, self.like.content())
+        alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
+        own = b"" if alike else _deflated(self.data, b"")
+        if by_like is not None and (alike or len(by_like) < WORTH * len(own)):
+            self.data, self.packed = by_like, True
+            return
         self.like = None
         if len(own) < len(self.data):
             self.data, self.packed = own, True
@@ -124,7 +136,9 @@ def bytes_of(many: Iterable[Chunks]) -> int:
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
     each = {id(chunk): chunk for part in parts.values() for chunk in part}
-    each |= {id(chunk.like): chunk.like for chunk in each.values() if chunk.like is not None}
+    for chunk in list(each.values()):
+        while chunk.like is not None:
+            chunk = each.setdefault(id(chunk.like), chunk.like)
     lists = sum(map(sys.getsizeof, parts.values())) + sum(map(sys.getsizeof, layouts.values()))
     return lists + sum(sys.getsizeof(chunk) + sys.getsizeof(chunk.data) + 32 for chunk in each.values())
 

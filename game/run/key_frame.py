@@ -19,6 +19,7 @@ import pygame
 from game.run.chunks import Chunks, bytes_of
 from game.scene import Scene
 from physics import World
+from physics.tables.table import Table
 
 OUTSIDE = ("accessibility", "ghost", "best", "figures")  # of a scene: set from outside, whenever that is
 TRAIL = "trail"  # of a scene: it is only ever added to, so that its length says what it was
@@ -35,6 +36,7 @@ class KeyFrame:
         writer = _Writer(stream, scene)
         writer.dump({name: value for name, value in vars(scene).items() if name not in (*OUTSIDE, TRAIL)})
         for world in writer.worlds:  # and those that are met meanwhile
+            writer.tables = {id(value) for value in vars(world).values() if isinstance(value, Table)}
             writer.dump(world.__getstate__())
         self.worlds = _same(tuple(writer.worlds), before and before.worlds)
         self.kept = _same(tuple(writer.kept), before and before.kept)
@@ -62,6 +64,13 @@ def bytes_held(frames: Iterable[KeyFrame]) -> int:
     return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
 
 
+def table_of(rows: np.ndarray, capacity: int) -> Table:
+    """A table with these rows: what stood behind them means nothing, and is not kept."""
+    table = Table(rows.dtype, capacity)
+    table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
+    return table
+
+
 def shared(number: int) -> object:
     """What a pickle calls for an object that is not in it; a key frame reads its own list in place of this."""
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
@@ -76,6 +85,7 @@ class _Writer(pickle.Pickler):
         self.scene = scene
         self.kept, self.worlds = [], []
         self.numbers = {}  # by id
+        self.tables: set[int] = set()  # ids of those that a world has to itself
         self.width = 0  # bytes of an item of the array that is being pickled
 
     def _take(self, buffer):
@@ -87,6 +97,8 @@ class _Writer(pickle.Pickler):
         if kind is np.ndarray:
             self.width = obj.itemsize
             return NotImplemented
+        if kind is Table and id(obj) in self.tables:
+            return table_of, (obj.rows, len(obj.data))
         if obj is shared or not (obj is self.scene or isinstance(obj, (World, *KEPT)) or hasattr(kind, "__deepcopy__")):
             return NotImplemented
         number = self.numbers.get(id(obj))

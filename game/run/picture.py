@@ -79,12 +79,25 @@ class Picture:
         if panel is None:
             overlays.draw_floating(frame, scene.legend_at)
         else:
-            if self.presenter.crowded:
-                frame.begin()  # the panel covers the whole picture, and with it all text so far
-            panel.draw(frame, self.presenter.panel_rect)
-            draw_strip(frame, self.presenter.strip_rect, overlays)
+            self._draw_panel(frame, panel, overlays)
         overlays.draw_labels(frame)
         return frame
+
+    def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
+        """In place of a scene what draw(frame) paints over its part of the picture; the panel stands beside it."""
+        self.canvas.begin(INK)
+        self.presenter.docked = panel is not None
+        frame = self.presenter.present(self.canvas)
+        draw(frame)
+        if panel is not None:
+            self._draw_panel(frame, panel, overlays)
+        return frame
+
+    def _draw_panel(self, frame, panel, overlays):
+        if self.presenter.crowded:
+            frame.begin()  # the panel covers the whole picture, and with it all text so far
+        panel.draw(frame, self.presenter.panel_rect)
+        draw_strip(frame, self.presenter.strip_rect, overlays)
 
     def draw_screen(self, screen: Drawable, alpha: float = 1.0) -> Frame:
         """Draw a title or menu screen."""

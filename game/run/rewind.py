@@ -85,6 +85,14 @@ class Rewind:
         return self.position == self.end
 
     @property
+    def following(self) -> InputFrame | None:
+        """The input of the step that came after where the scene stands; None where it stands at the end."""
+        if self.live:
+            return None
+        stretch = next(each for each in reversed(self.stretches) if each.start <= self.position)
+        return stretch.inputs[self.position - stretch.start]
+
+    @property
     def bytes(self) -> int:
         """What is kept of the past takes."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)
@@ -154,7 +162,7 @@ class Rewind:
         if step == self.position:
             return
         session = self.session
-        stretch = next(each for each in reversed(self.stretches) if each.start < step or each is self.stretches[0])
+        stretch = next(each for each in reversed(self.stretches) if each.start <= step or each is self.stretches[0])
         inputs = stretch.inputs
         if step < self.position or self.position < stretch.start:
             self._put_back(stretch, inputs, step)
@@ -170,10 +178,10 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """The key frame or the stone before a step; one step is then made on, so that what a step tells is there."""
+        """The key frame or the stone at a step, or the last before it."""
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
-        at = max((at for at in self.stones if at < step), default=stretch.start)
+        at = max((at for at in self.stones if at <= step), default=stretch.start)
         key = self.stones[at] if at in self.stones else stretch.key
         key.restore()
         self.position = at

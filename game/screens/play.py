@@ -1,6 +1,7 @@
 """The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
 
 from collections.abc import Iterable
+from functools import partial
 from time import perf_counter
 
 import pygame
@@ -19,12 +20,13 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
+from game.screens.parts.apart import Apart
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
-from game.screens.parts.play_keys import press
+from game.screens.parts.play_keys import press, press_button
 from game.screens.parts.rumble import rumble
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
@@ -33,13 +35,6 @@ from game.screens.parts.why import Why
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
-PANEL_BUTTONS = {
-    "dpad up": pygame.K_UP,
-    "dpad down": pygame.K_DOWN,
-    "dpad left": pygame.K_LEFT,
-    "dpad right": pygame.K_RIGHT,
-    "a": pygame.K_RETURN,
-}
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
 
 
@@ -76,6 +71,7 @@ class Play(SceneScreen):
         self.scrub: Scrub | None = None  # a recording has no other way back than Watch's
         if recording is None:
             self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
+        self.apart = Apart(self.session, self.scrub and self.scrub.rewind, self.overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -148,6 +144,10 @@ class Play(SceneScreen):
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
+        if self.apart.open and not self.devices.changes:
+            self.clock.rest()
+            return
+        self.apart.leave()
         if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
             self.clock.rest()
             return
@@ -165,13 +165,15 @@ class Play(SceneScreen):
     def _went(self):
         """The scene was taken to another step of its past."""
         assert self.scrub is not None
-        self.assisted, self.measuring.race = True, None
+        self.assisted = True
+        self.measuring.end_race()
         self.since_result = self.scrub.rewind.since_result
         if self.settings is not None:
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
         """From a step of the past the game is played on, its recording too, with what was set since."""
+        self.apart.leave()
         if self.scrub is not None and not self.scrub.rewind.live:
             self.apply_settings()
         if self.scrub is not None:
@@ -225,6 +227,7 @@ class Play(SceneScreen):
 
         Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
         """
+        self.apart.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
         if self.renews:
             self.end_run()
@@ -260,6 +263,15 @@ class Play(SceneScreen):
         self.clock.paused = True
         self.clock.request_step()
 
+    def take_apart(self) -> None:
+        """Freeze, and go into the next step, stage by stage; from there back out of it."""
+        if self.apart.open:
+            self.apart.leave()
+        else:
+            self.clock.paused, self.panel_open = True, False
+            self.close_costs()
+            self.switches.tell(self.apart.enter())
+
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event before the game does; True if it is used up."""
         hint = None if self.open_panel is not None else self.hint
@@ -271,7 +283,9 @@ class Play(SceneScreen):
             if hint.keeps_keys or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
-        if button is not None and self._button(button):
+        if self.apart.feed(event, button):
+            return True
+        if button is not None and press_button(self, button):
             return True
         panel = self.open_panel
         if panel is not None and panel.feed(event):
@@ -279,6 +293,8 @@ class Play(SceneScreen):
             return True
         if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
             return True
+        if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
+            return True  # nothing is where a click on a half would look for it
         if self.why.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
@@ -286,21 +302,6 @@ class Play(SceneScreen):
             self.panel_open, self.hint = False, LabCard(self.scene)
             return True
         return event.type == pygame.KEYDOWN and press(self, event.key)
-
-    def _button(self, button):
-        """A pad's button that does something besides playing."""
-        panel = self.open_panel
-        if button == "start":
-            self.stop()
-        elif button == "back":
-            self.toggle_pause()
-        elif button == "y" or (button == "b" and panel is not None and panel.focused):
-            self.toggle_panel()
-        elif panel is not None and panel.focused and button in PANEL_BUTTONS:
-            panel.key(PANEL_BUTTONS[button])
-        else:
-            return False
-        return True
 
     def stop(self) -> None:
         """To the pause menu; from a game that has ended, to its result; where nobody plays, to the menu."""
@@ -343,21 +344,38 @@ class Play(SceneScreen):
     def close(self) -> None:
         """Called when the screen is left for good."""
         super().close()
+        self.apart.leave()
         self.close_costs()
         self.measuring.leave()
+
+    def _measure(self):
+        self.measuring.beside(self.now, self.panel_open)
+        if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
+            self.switches.tell(news)
+
+    def _below(self) -> Apart | Scrub | None:
+        """What lies over the bottom of the picture while the game stands."""
+        if self.apart.open:
+            return self.apart
+        return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and what lies over it; returns the frame."""
         started = perf_counter()
-        self.measuring.beside(self.now, self.panel_open)
-        if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
-            self.switches.tell(news)
-        scrub = self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
-        reserve = None if scrub is None else scrub.reserve
-        frame = picture.draw_scene(self.scene, self.overlays, self.clock.alpha, self.open_panel, reserve)
-        if scrub is not None:
-            scrub.draw(frame)
-        if self.measuring.race is not None:
+        if not self.apart.open:  # half a step is no moment to measure from
+            self._measure()
+        below = self._below()
+        reserve = None if below is None else below.reserve
+        alpha, split = self.clock.alpha, None if self.apart.open else self.measuring.split
+        if split is not None:
+            draw = partial(split.draw, overlays=self.overlays, alpha=alpha)
+            frame = picture.draw_without(draw, self.overlays, self.open_panel)
+        else:
+            with self.apart.showing():
+                frame = picture.draw_scene(self.scene, self.overlays, alpha, self.open_panel, reserve)
+        if below is not None:
+            below.draw(frame)
+        if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)
         self.why.draw(frame, self.clock.paused)

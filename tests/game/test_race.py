@@ -8,6 +8,7 @@ import physics
 from game.files.settings import Settings
 from game.input.devices import DeviceSource
 from game.input.inputs import InputFrame
+from game.measure.moment import here_of
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.run.replay import load_replay
@@ -201,6 +202,88 @@ def test_its_figures_are_whole_beside_an_open_panel(played, size):
         rect for rect, text in frame.boxes if len(text) > 8 and any(text in line for line in play.measuring.race.told())
     ]
     assert len(found) >= 2 and all(inside.contains(rect) for rect in found)
+
+
+def panel_row(play, label):
+    return next(row for row in play_rows(play) if row.label == label)
+
+
+def test_the_panel_starts_it_against_whatever_can_be_played(played):
+    play = played("lab/pyramid", BotSource())
+    steps(play, 20)
+    now, names = play.measuring.now(), []
+    for _ in play.measuring.rivals():
+        row = panel_row(play, "Race against")
+        names.append(row.value)
+        row.turn(1)
+    assert len(set(names)) == len(names) and {"1 substep", "tree", "boxes only", "projection"} <= set(names)
+    assert panel_row(play, "Race against").value == names[0], "around the end"
+    panel_row(play, "Race against").turn(-1)
+    panel_row(play, "Start the race").press()
+    play.step()
+    race = play.measuring.race
+    assert play.scene.frame == race.rival.frame == 1
+    assert here_of(race.rival.world, race.rival.tier).label(now) == names[-1]
+    assert not any(row.label == "Start the race" for row in play_rows(play))
+
+
+@needs_speed
+def test_the_split_screen_shows_both_and_their_difference(played):
+    play = played("lab/pyramid", BotSource())
+    press_k = pygame.event.Event(pygame.KEYDOWN, key=pygame.K_k, mod=0, unicode="k")
+    play.feed(press_k)
+    assert "no race" in play.news and play.measuring.split is None
+    race = race_of(play, substeps=1)
+    steps(play, 60)
+    play.feed(press_k)
+    picture = Picture(pygame.Surface((960, 540)))
+    frame = play.draw(picture)
+    pixels = pygame.surfarray.array3d(frame.surface)
+    left, right = pixels[:478, 40:230], pixels[480:958, 40:230]
+    assert (left != right).any(axis=2).mean() > 0.001, "the crates of the rival have sunk"
+    text = " ".join(text for _, text in frame.boxes)
+    for line in race.told():
+        assert all(part in text for part in line.rsplit(": ", 1)), line
+    apart = race.distances()
+    assert race.apart[-1] == pytest.approx(np.sqrt((apart**2).mean())) and len(race.apart) == 60
+    assert max(race.apart) > race.apart[0]
+    row = panel_row(play, "Split screen")
+    assert row.on and row.key == "K"
+    row.press()
+    assert play.measuring.split is None and "px apart" in " ".join(t for _, t in play.draw(picture).boxes)
+    row.press()
+    play.measuring.end_race()
+    assert play.measuring.split is None
+
+
+@needs_speed
+def test_two_that_are_the_same_look_the_same_side_by_side(played):
+    play = played("shooter", BotSource())
+    race_of(play, broadphase="tree")
+    steps(play, 60)
+    play.measuring.toggle_split()
+    frame = play.draw(Picture(pygame.Surface((960, 540))))
+    pixels = pygame.surfarray.array3d(frame.surface)
+    assert (pixels[2:478, :268] == pixels[482:958, :268]).all()
+    assert any("not by the last bit" in text for _, text in frame.boxes)
+
+
+@pytest.mark.parametrize("panel", [False, True])
+@pytest.mark.parametrize("size", [(480, 270), (960, 540), (1440, 810)])
+def test_the_split_screen_is_whole_at_any_size(played, size, panel):
+    play = played("lab/cradle", BotSource())
+    race = race_of(play, broadphase="brute")
+    steps(play, 4)
+    play.measuring.toggle_split()
+    play.panel_open = panel
+    picture = Picture(pygame.Surface(size))
+    frame = play.draw(picture)
+    if panel and picture.presenter.crowded:
+        return  # the panel has the whole picture
+    inside = frame.area.clip(frame.rect)
+    parts = [part for line in race.told() for part in line.rsplit(": ", 1)]
+    found = {text for rect, text in frame.boxes if text in parts and inside.contains(rect)}
+    assert len(found) >= 4, found
 
 
 @pytest.mark.parametrize("name", SCENES)

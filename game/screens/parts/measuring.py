@@ -6,12 +6,13 @@ from operator import is_
 from game.drawing.number_text import plain_name
 from game.input.devices import DeviceSource
 from game.measure.moment import here_of
-from game.measure.setting import Setting
+from game.measure.setting import Setting, settings_around
 from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
 from game.run.warmup import pieces_of
 from game.scene import SUBSTEPS, Scene
 from game.screens.parts.race import Race
+from game.screens.parts.race_split import SplitScreen
 from game.wishes import Lanes, Sprites
 from physics import World
 
@@ -36,6 +37,8 @@ class Measuring:
         self.weighed = False  # whether they were asked for since then
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
         self.race: Race | None = None  # against another setting
+        self.split: SplitScreen | None = None  # on which it is shown; None: laid over the scene
+        self.against = 0  # which of rivals() the panel offers
 
     @property
     def world(self) -> World:
@@ -144,11 +147,25 @@ class Measuring:
             return changes
         self._prepare(setting)
         self.race = Race(self.scene, changes)
+        if self.split is not None:
+            self.split = SplitScreen(self.race)
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
         """The rival goes."""
-        self.race = None
+        self.race = self.split = None
+
+    def toggle_split(self) -> str:
+        """Show the race on a split screen, or laid over the scene. Returns a line about it where there is none."""
+        if self.race is None:
+            return "no race: the panel starts one, or Shift and a click in the plot of costs"
+        self.split = None if self.split is not None else SplitScreen(self.race)
+        return ""
+
+    def rivals(self) -> list[Setting]:
+        """The settings, one thing changed, that the scene can be raced against."""
+        found = settings_around(self.now(), self.world.effects)[1:]
+        return [setting for setting in found if not isinstance(self._changes(setting), str)]
 
     def _prepare(self, setting):
         if setting.solver is not None and setting.solver != self.now().solver:

@@ -36,9 +36,27 @@ def play_rows(play: Played) -> list[Row]:
 
 
 def _race(play):
-    if play.measuring.race is None:
+    measuring = play.measuring
+    if measuring.race is not None:
+        split = measuring.split is not None
+        hint = "side by side; else the rival lies over the scene"
+        return [
+            Row(CHECK, "Split screen", key="K", on=split, press=measuring.toggle_split, hint=hint),
+            Row(BUTTON, "End the race", press=measuring.end_race, hint="the rival goes"),
+        ]
+    rivals = measuring.rivals()
+    if not rivals:
         return []
-    return [Row(BUTTON, "End the race", press=play.measuring.end_race, hint="the rival goes")]
+    at = measuring.against % len(rivals)
+
+    def turn(way):
+        measuring.against = (at + way) % len(rivals)
+
+    name = rivals[at].label(measuring.now())
+    return [
+        Row(CHOICE, "Race against", name, turn=turn, hint="one scene, one seed, two settings"),
+        Row(BUTTON, "Start the race", press=lambda: play.start_race(rivals[at]), hint="both begin anew"),
+    ]
 
 
 def _switches(play, scene):
@@ -114,6 +132,7 @@ def _time(play):
     return [
         Row(CHECK, "Freeze", key="P", on=clock.paused, press=play.toggle_pause),
         Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
+        Row(BUTTON, "One step, taken apart", key="E", press=play.take_apart, hint="stage by stage, forwards and back"),
         Row(
             CHOICE,
             "Speed",

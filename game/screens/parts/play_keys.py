@@ -1,10 +1,17 @@
-"""The keys of a scene that is played, besides those that play it."""
+"""The keys and buttons of a scene that is played, besides those that play it."""
 
 import pygame
 
 from game.screens.parts.played import Played
 
 KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
+PANEL_BUTTONS = {
+    "dpad up": pygame.K_UP,
+    "dpad down": pygame.K_DOWN,
+    "dpad left": pygame.K_LEFT,
+    "dpad right": pygame.K_RIGHT,
+    "a": pygame.K_RETURN,
+}
 
 
 def press(play: Played, key: int) -> bool:
@@ -36,12 +43,32 @@ def press(play: Played, key: int) -> bool:
         play.toggle_pause()  # not through the input of a step: a paused game makes none
     elif key == pygame.K_o:
         play.single_step()
+    elif key == pygame.K_e:
+        play.take_apart()
+    elif key == pygame.K_k:
+        play.switches.tell(play.measuring.toggle_split())
     elif key == pygame.K_MINUS:
         play.clock.slower()
     elif key in (pygame.K_EQUALS, pygame.K_PLUS):
         play.clock.faster()
     elif key == pygame.K_F12:
         play.wants_screenshot = True
+    else:
+        return False
+    return True
+
+
+def press_button(play: Played, button: str) -> bool:
+    """Do what a pad's button is for besides playing; False: it is for the game."""
+    panel = play.open_panel
+    if button == "start":
+        play.stop()
+    elif button == "back":
+        play.toggle_pause()
+    elif button == "y" or (button == "b" and panel is not None and panel.focused):
+        play.toggle_panel()
+    elif panel is not None and panel.focused and button in PANEL_BUTTONS:
+        panel.key(PANEL_BUTTONS[button])
     else:
         return False
     return True

@@ -4,13 +4,17 @@ from typing import Protocol
 
 from game.files.settings import Settings
 from game.input.devices import DeviceSource
+from game.measure.setting import Setting
 from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
+from game.screens.parts.apart import Apart
+from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard
 from game.screens.parts.measuring import Measuring
+from game.screens.parts.panel import Panel
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.switches import Switches
 
@@ -27,6 +31,7 @@ class Played(Protocol):
     switches: Switches
     settings: Settings | None
     scrub: Scrub | None
+    apart: Apart
     hint: HintCard | LabCard | None
     person: bool
     since_result: int
@@ -34,7 +39,7 @@ class Played(Protocol):
     helped_since: int  # the step from which the keys are shown
 
     @property
-    def open_panel(self) -> object | None:
+    def open_panel(self) -> Panel | CostPanel | None:
         """The panel that is open, else None."""
         ...
 
@@ -49,6 +54,14 @@ class Played(Protocol):
 
     def single_step(self) -> None:
         """Pause, and make one step."""
+        ...
+
+    def take_apart(self) -> None:
+        """Go into the next step, or out of it."""
+        ...
+
+    def start_race(self, setting: Setting) -> None:
+        """From the start, against the same scene under another setting."""
         ...
 
     def wish_restart(self) -> None:

@@ -1,5 +1,6 @@
 """The race: the scene that is played and a rival under another setting, from one seed, by one input."""
 
+from collections import deque
 from dataclasses import replace
 from time import perf_counter
 
@@ -24,6 +25,7 @@ from physics.tables.shape import MASK
 # What the two are set to by themselves; all else that a player does goes to both.
 OWN = ("broadphase", "solver", "substeps", "tier", "narrowphase", "slider:solver", "slider:substeps")
 MOST = 400  # outlines in a picture; the line below says how many bodies are apart
+KEPT = 600  # steps of which is known how far the two were apart
 
 
 class Race:
@@ -42,6 +44,7 @@ class Race:
         self.steps = 0
         self.same = np.zeros(0, np.int64)  # ids of bodies that are the same in both: they came at once, to one place
         self.seen = np.zeros(0, np.int64)  # ids of all that were in either
+        self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS over the bodies that both have, of the last steps
 
     def step(self, session: Session) -> None:
         """The rival makes the step that the session has just made."""
@@ -51,8 +54,11 @@ class Race:
         self.rival.step(self.inputs)
         self.times[1].note(perf_counter() - started)
         self.times[0].note(session.report.last or 0.0)
+        self.rival.observe()
         self.steps += 1
         self._pair(session.inputs.now)
+        gaps = self.distances()
+        self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
 
     def _pair(self, frame):
         """Ids are numbers in the order of coming: once the two are apart, one number may stand for two things."""
@@ -72,18 +78,22 @@ class Race:
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
         return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
 
+    def distances(self) -> np.ndarray:
+        """(n,) how far these are from each other [px]."""
+        ours, theirs = self.gaps()
+        return np.hypot(*(ours - theirs).T)
+
     def told(self) -> list[str]:
         """Three lines: the scene's setting and time, the rival's, how far apart they are."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
-        ours, theirs = self.gaps()
-        apart = np.hypot(*(ours - theirs).T)
-        rms = float(np.sqrt((apart * apart).mean())) if len(apart) else 0.0
+        apart = self.distances()
+        rms = self.apart[-1] if self.apart else 0.0
         seen = int((apart > VISIBLE).sum())
         alone = len(self.scene.world.bodies) + len(self.rival.world.bodies) - 2 * len(apart)
         return [
             f"{now.label(other)}: {1e6 * self.times[0].value:,.0f} us a step",
             f"{other.label(now)}: {1e6 * self.times[1].value:,.0f} us a step",
-            f"after {self.steps / 60:.1f} s {rms:.2g} px apart, {seen} of {len(apart)} bodies by over a pixel"
+            f"after {self.steps / 60:.1f} s {distance_text(rms)} apart, {seen} of {len(apart)} bodies by over a pixel"
             + (f", {alone} without a twin" if alone else ""),
         ]
 
@@ -94,13 +104,21 @@ class Race:
         frame.surface.set_clip(lens.clip)
         if world is self.scene.world:
             self._draw_rival(frame, lens)
+        self.draw_gaps(frame, self.scene)
+        self._draw_figures(frame)
+
+    def draw_gaps(self, frame: Frame, scene: Scene) -> None:
+        """In the picture of one of the two, a line from where each body is here to where it is there."""
+        world, camera = scene.views()[0]
+        if world is scene.world:
+            lens = frame.lens(camera)
+            frame.surface.set_clip(lens.clip)
             ours, theirs = self.gaps()
             far = np.hypot(*(ours - theirs).T) > VISIBLE
             for start, end in zip(ours[far].tolist(), theirs[far].tolist(), strict=True):
                 ends = lens.points(*start), lens.points(*end)
                 pygame.draw.line(frame.surface, frame.tone(ORANGE), *ends, frame.scale)
         frame.surface.set_clip(None)
-        self._draw_figures(frame)
 
     def _draw_rival(self, frame, lens):
         """Its outlines; of masks their boxes."""
@@ -131,3 +149,8 @@ class Race:
             frame.surface.fill(frame.tone(color), (rect.x + 4 * scale, y + scale, 3 * scale, 3 * scale))
             frame.text(text, rect.x + 10 * scale, y, PAPER, SMALL, scale)
         frame.reserve(rect)
+
+
+def distance_text(pixels: float) -> str:
+    """A distance in two figures, or whole pixels where it has more."""
+    return f"{pixels:,.0f} px" if pixels >= 100.0 else f"{pixels:.2g} px"

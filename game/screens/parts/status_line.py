@@ -20,7 +20,7 @@ def draw_status(frame: Frame, play: Played) -> None:
     """Draw what there is to say of a Play."""
     text, color = status_of(play)
     if text:
-        draw_line(frame, text, color, play.scene.head)
+        draw_line(frame, text, color, play.scene.head if play.measuring.split is None else 0)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
@@ -28,8 +28,10 @@ def status_of(play: Played) -> tuple[str, Color]:
     scene, clock = play.scene, play.clock
     if play.news:
         return play.news, GOLD
+    if play.apart.open:
+        return "", GOLD
     if clock.paused:
-        return "FROZEN   P goes on   O one step   R restart   Esc menu", GOLD
+        return "FROZEN   P goes on   O one step   E into it   R restart   Esc menu", GOLD
     if clock.speed < 1.0:
         return f"SPEED {clock.speed:.0%}   - slower   + faster", GOLD
     if play.person and scene.result is not None:

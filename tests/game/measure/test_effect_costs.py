@@ -6,6 +6,7 @@ import subprocess
 import sys
 from time import monotonic
 
+import numpy as np
 import pygame
 import pytest
 
@@ -199,3 +200,19 @@ def test_the_measuring_ends_with_the_panel_and_with_the_scene(driver):
         assert process is not None
         leave()
         assert process.poll() is not None
+
+
+@pytest.mark.skipif(not physics.JIT, reason="there are no types")
+def test_types_are_those_that_numba_says():
+    from numba import njit
+
+    from physics.jit.dispatchers import type_of
+
+    dispatcher = njit(lambda x: x)
+    table = np.zeros(6, [("a", "f8"), ("b", "i4")])
+    sealed = np.zeros((3, 4))
+    sealed.flags.writeable = False
+    values = [table, table[::2], table[1:], np.zeros((3, 4)), np.zeros((3, 4)).T, sealed, np.zeros(3, np.int32)]
+    values += [Cost(*values[:4], table), (table, 1), (table, 1.0), (), 3, 2**63, True, 1.5, "word"]
+    for value in [*values, *values]:
+        assert type_of(dispatcher, value) == dispatcher.typeof_pyval(value), value

@@ -1,0 +1,281 @@
+"""One step, taken apart: the frozen scene stands still after each stage of its next step, and a card tells of it."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
+import pygame
+
+from game.drawing.canvas import SMALL, TEXT, wrap
+from game.drawing.colors import FOG, GOLD, INK, NIGHT, ORANGE, PAPER, SKY, Color, faded
+from game.drawing.number_text import count_text, plain_name
+from game.drawing.presenter import Frame
+from game.invariants.watch import WatchedWorld
+from game.overlays.stack import Overlays
+from game.run.rewind import Rewind
+from game.run.session import Session
+from game.run.taken_apart import Done, TakenApart, next_input
+from game.screens.parts.lab_card import least_covering
+
+WIDTH, ROW, EDGE = 200, 7, 4  # [text px] of the card
+BETWEEN = 2  # [text px] two paragraphs of it
+GAP = 5  # [text px] between two names in the strip
+KEYS_LINE = "\u2190 \u2192 a stage   Home End   E puts the step back"
+WORLDS_LINE = "   \u2191 \u2193 another world"
+WAYS = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1, pygame.K_HOME: -1000, pygame.K_END: 1000}
+WORLD_WAYS = {pygame.K_UP: -1, pygame.K_DOWN: 1}
+PAD_KEYS = {
+    "dpad left": pygame.K_LEFT,
+    "dpad right": pygame.K_RIGHT,
+    "dpad up": pygame.K_UP,
+    "dpad down": pygame.K_DOWN,
+    "b": pygame.K_e,
+}
+PASSED_ON = (pygame.K_0, pygame.K_F11, pygame.K_F12, pygame.K_LSHIFT, pygame.K_RSHIFT, pygame.K_LCTRL, pygame.K_RCTRL)
+COLORS = {"changed": PAPER, "counted": PAPER, "reads": SKY, "may write": ORANGE}
+# The layers that show what a stage has found or moved.
+SHOWN = {
+    "awake": ("islands",),
+    "weigh": ("centers",),
+    "integrate_velocities": ("centers",),
+    "motion_rectangles": ("motion",),
+    "broad_phase": ("pairs", "structure"),
+    "narrow_phase": ("contacts",),
+    "wake": ("islands",),
+    "soft_step": ("impulses", "centers"),
+    "sequential_impulse": ("impulses", "centers"),
+    "projection": ("contacts", "centers"),
+    "blocking": ("contacts", "centers"),
+    "integrate_positions": ("bounds", "centers"),
+    "time_of_impact": ("ghosts",),
+    "carry": ("outlines",),
+    "final_poses": ("bounds", "contacts"),
+    "sensors": ("contacts",),
+    "islands": ("islands",),
+    "events": ("contacts",),
+}
+
+
+class Apart:
+    """enter() and leave(); feed() takes events in between, draw() shows strip and card.
+
+    rewind: knows the input of the next step where it was made before; None: nothing can be taken apart.
+    """
+
+    def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
+        self.session, self.rewind, self.overlays = session, rewind, overlays
+        self.step: TakenApart | None = None
+        self.world = 0  # which of worlds()
+        self.whose = ""  # the input
+        self.names: list[tuple[pygame.Rect, int]] = []  # (place, number) of each stage in the last picture
+        self.corner: int | None = None  # where the card stands, chosen in the first picture
+
+    @property
+    def open(self) -> bool:
+        """True while the scene stands within a step."""
+        return self.step is not None
+
+    def worlds(self) -> list[WatchedWorld]:
+        """The worlds that are seen, each once."""
+        return list({id(world): world for world, _ in self.session.scene.views()}.values())
+
+    def enter(self, world: int = 0) -> str:
+        """Go to where the next step begins. Returns why that cannot be, "" where it can."""
+        self.leave()
+        if self.rewind is None:
+            return "a recording is only watched"
+        session, worlds = self.session, self.worlds()
+        self.world = world % len(worlds)
+        following, self.whose = next_input(session, self.rewind)
+        step = TakenApart(session.scene, worlds[self.world], session.inputs.now, following)
+        if not step.stages:
+            return "the next frame makes no step here: there is nothing to take apart"
+        self.step, self.corner = step, None
+        step.go(1)
+        return ""
+
+    def leave(self) -> None:
+        """The scene is as it was before."""
+        if self.step is not None:
+            self.step.leave()
+            self.step = None
+            self.overlays.watch(self.session.scene)
+
+    def feed(self, event: pygame.event.Event, button: str | None) -> bool:
+        """Take an event; True if it is used up. What is for none of this, nor for the overlays, ends it."""
+        step = self.step
+        if step is None:
+            return False
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            place = next((number for rect, number in self.names if rect.collidepoint(event.pos)), None)
+            if place is not None:
+                step.go(place)
+            return place is not None
+        key = event.key if event.type == pygame.KEYDOWN else PAD_KEYS.get(button or "")
+        if key is None and button is None:
+            return False
+        if key in WAYS:
+            step.go(step.place + WAYS[key])
+        elif key in WORLD_WAYS:
+            self._turn_world(WORLD_WAYS[key])
+        elif key in PASSED_ON or any(key == getattr(pygame, f"K_{layer.key}") for layer in self.overlays.layers):
+            return False
+        else:
+            self.leave()
+            return key in (pygame.K_e, pygame.K_ESCAPE)
+        return True
+
+    def _turn_world(self, way):
+        """The next world that is seen; over those that make no step now."""
+        here, count = self.world, len(self.worlds())
+        for number in range(1, count + 1):
+            if not self.enter(here + way * number):
+                return
+
+    @contextmanager
+    def showing(self) -> Iterator[None]:
+        """Meanwhile the layers are on, besides those that are, that show what the last stage did."""
+        overlays, chosen = self.overlays, self.overlays.on
+        if self.step is not None and self.step.done is not None:
+            overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
+        try:
+            yield
+        finally:
+            overlays.on = chosen
+
+    # --- the picture ------------------------------------------------------------------------------------------------
+
+    def reserve(self, frame: Frame) -> None:
+        """Keep other text away from the strip."""
+        frame.reserve(self._layout(frame)[0])
+
+    def _layout(self, frame):
+        """(rect of the strip, [(text, rect, number)] of the stages in it), over the bottom of the picture."""
+        assert self.step is not None
+        scale, area = frame.text_scale, frame.area.clip(frame.rect)
+        several = len(self.step.starts) > 1
+        names, x, row = [], area.x + EDGE * scale, 0
+        for number, stage in enumerate(self.step.stages):
+            text = plain_name(stage.stage)
+            if several and number in self.step.starts:
+                text = f"step {self.step.starts.index(number) + 1}: {text}"
+            width = frame.measure(text, SMALL, scale)[0]
+            if x + width > area.right - EDGE * scale:
+                x, row = area.x + EDGE * scale, row + 1
+            names.append((text, x, row, width, number + 1))
+            x += width + GAP * scale
+        high = (8 * (row + 2) + 5) * scale
+        rect = pygame.Rect(area.x, area.bottom - high, area.width, high)
+        return rect, [
+            (text, pygame.Rect(x - scale, rect.y + (2 + 8 * row) * scale, width + 2 * scale, 8 * scale), number)
+            for text, x, row, width, number in names
+        ]
+
+    def draw(self, frame: Frame) -> None:
+        """The strip of stages, and the card of the last one that has run."""
+        if self.step is None:
+            return
+        rect, names = self._layout(frame)
+        scale, place = frame.text_scale, self.step.place
+        frame.surface.fill(INK, rect)
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
+        for text, box, number in names:
+            if number == place:
+                frame.surface.fill(GOLD, box)
+            color = INK if number == place else SKY if number < place else FOG
+            frame.text(text, box.x + scale, box.y + scale, color, SMALL, scale)
+        self.names = [(box, number) for _, box, number in names]
+        line = KEYS_LINE + (WORLDS_LINE if len(self.worlds()) > 1 else "")
+        frame.text(line, rect.centerx, rect.bottom - 8 * scale, FOG, SMALL, scale, "center")
+        self._ring_view(frame)
+        self._draw_card(frame, rect.top)
+
+    def _ring_view(self, frame):
+        """Of several worlds, whose step this is."""
+        views = self.session.scene.views()
+        if len(views) > 1 and self.step is not None:
+            camera = next(camera for world, camera in views if world is self.step.world)
+            pygame.draw.rect(frame.surface, GOLD, frame.lens(camera).clip, max(1, frame.scale - 1))
+
+    def _draw_card(self, frame, bottom):
+        scale = frame.text_scale
+        room = WIDTH * scale
+        lines: list[tuple[str, Color, str, int]] = []
+        for text, ink, font, height in self._told():
+            wrapped = wrap(text, room - 2 * EDGE * scale, font, scale)
+            lines += [("", ink, font, BETWEEN)] * bool(lines) + [(each, ink, font, height) for each in wrapped]
+        area = frame.area.clip(frame.rect)
+        area.height = bottom - area.y
+        size = room, (sum(height for *_, height in lines) + 2 * EDGE) * scale
+        rect = self._place(frame, area, size)
+        frame.surface.fill(faded(NIGHT, 0.1), rect)
+        pygame.draw.rect(frame.surface, GOLD, rect, max(1, scale // 2))
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
+        y = rect.y + EDGE * scale
+        for text, ink, font, height in lines:
+            frame.text(text, rect.x + EDGE * scale, y, ink, font, scale)
+            y += height * scale
+        frame.fix(rect)
+
+    def _place(self, frame, area, size):
+        """In the corner on top where it covers least at first: it does not leap about from stage to stage."""
+        corners = area.left, area.right - size[0]
+        if self.corner is None:
+            narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
+            best = least_covering(frame, narrow, (size[0], narrow.height))
+            self.corner = int(best.centerx > area.centerx)
+        return pygame.Rect(corners[self.corner], area.top, *size)
+
+    def _told(self):
+        """(text, colour, font, height) of each paragraph of the card."""
+        step = self.step
+        assert step is not None
+        count, done = len(step.stages), step.done
+        if done is None:
+            yield "Before the first stage", GOLD, TEXT, 10
+            yield (
+                "The scene's rules have run up to the step: velocities and forces are what they set.",
+                PAPER,
+                SMALL,
+                ROW,
+            )
+        else:
+            yield f"{step.place} of {count}: {plain_name(done.stage.stage)}", GOLD, TEXT, 10
+            seconds = step.seconds[step.place - 1]
+            runs = count_text(len(seconds), "run")
+            yield f"{1e6 * min(seconds):,.1f} us, the least of {runs} of this step", PAPER, SMALL, ROW
+            for head, text in described(done):
+                yield f"{head}: {text}", COLORS[head], SMALL, ROW
+        worlds = len(self.worlds())
+        if worlds > 1:
+            yield f"world {self.world + 1} of {worlds}", FOG, SMALL, ROW
+        if len(step.starts) > 1:
+            yield f"{len(step.starts)} steps in this frame, one after the other", FOG, SMALL, ROW
+        yield self.whose, FOG, SMALL, ROW
+
+
+def described(done: Done) -> list[tuple[str, str]]:
+    """(head, text): what a stage changed and counted, and what it says that it touches."""
+    changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
+    for name, rows, columns in done.changed:
+        of = f" ({' '.join(columns)}) of" if columns else ""
+        changes.append(f"{name}{of} {count_text(rows, 'row')}")
+    counted = [f"{plain_name(name)} {count:+,}" for name, count in done.counted.items()]
+    return [
+        ("changed", "; ".join(changes) or "nothing in these tables"),
+        ("counted", ", ".join(counted) or "nothing"),
+        ("reads", grouped(done.stage.reads)),
+        ("may write", grouped(done.stage.writes)),
+    ]
+
+
+def grouped(fields: Iterable[str]) -> str:
+    """Fields of a step, columns of one table together: "dt, library, bodies (x y)"."""
+    whole: dict[str, list[str]] = {}
+    for field in fields:
+        name, _, column = field.partition(".")
+        whole.setdefault(name, [])
+        if column and column not in whole[name]:
+            whole[name].append(column)
+    return ", ".join(
+        plain_name(name) + (f" ({' '.join(columns)})" if columns else "") for name, columns in whole.items()
+    )

@@ -1,0 +1,110 @@
+"""The race on a split screen: the scene left, its rival right, under each its setting and time, below how far apart."""
+
+from collections import deque
+from math import log10
+
+import pygame
+
+from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, wrap
+from game.drawing.colors import FOG, GOLD, INK, NIGHT, ORANGE, PAPER, SKY, SLATE, faded
+from game.drawing.presenter import Frame
+from game.measure.errors import VISIBLE
+from game.overlays.stack import Overlays
+from game.run.picture import Picture
+from game.screens.parts.race import Race
+from game.screens.parts.scrub import BAR_HEIGHT
+
+LEAST, MOST = 1e-3, 1e3  # [px] apart that the plot reaches from and to
+LINE = 9  # [text px]
+NOT_HERE = {"invariants", "disagreement"}  # layers that count steps, which nobody tells them of for the rival
+
+
+class SplitScreen:
+    """draw() paints the two halves of a race over the game's part of a frame."""
+
+    def __init__(self, race: Race) -> None:
+        self.race = race
+        self.overlays = Overlays()  # over the rival
+        self.pictures: list[Picture] = []  # of the two
+
+    def draw(self, frame: Frame, overlays: Overlays, alpha: float) -> None:
+        """Both halves as they stand, under these layers; alpha: between the step before and the last."""
+        area = frame.area.clip(frame.rect)
+        size = area.width // 2, area.width // 2 * CANVAS_SIZE[1] // CANVAS_SIZE[0]
+        race = self.race
+        race.rival.figures, race.rival.accessibility = race.scene.figures, race.scene.accessibility
+        self.overlays.on = overlays.on - NOT_HERE
+        self._make_pictures(size[0])
+        frame.surface.fill(INK, area)
+        for number, (scene, layers) in enumerate(((race.scene, overlays), (race.rival, self.overlays))):
+            half = self.pictures[number].draw_scene(scene, layers, alpha)
+            if number:
+                race.draw_gaps(half, race.rival)
+            whole = half.surface.get_size() == size
+            shown = half.surface if whole else pygame.transform.smoothscale(half.surface, size)
+            frame.surface.blit(shown, (area.x + number * size[0], area.y))
+        frame.surface.fill(SLATE, (area.x + size[0] - 1, area.y, 2, size[1]))
+        frame.fix(pygame.Rect(area.x, area.y, 2 * size[0], size[1]))
+        self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
+
+    def _make_pictures(self, width):
+        """At a whole scale, no smaller than what is shown."""
+        scale = -(-width // CANVAS_SIZE[0])
+        wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
+        if not self.pictures or self.pictures[0].presenter.frame.surface.get_size() != wanted:
+            self.pictures = [Picture(pygame.Surface(wanted)) for _ in range(2)]
+
+    def _draw_below(self, frame, rect):
+        scale = frame.text_scale
+        seconds = [each.value for each in self.race.times]
+        y = rect.y + 3 * scale
+        told = self.race.told()
+        for number, color in enumerate((GOLD, SKY)):
+            left, room = rect.x + number * rect.width // 2 + 4 * scale, rect.width // 2 - 8 * scale
+            name, time = told[number].rsplit(": ", 1)
+            text = wrap(name, room - frame.measure(time, SMALL, scale)[0] - 4 * scale, TEXT, scale)[0]
+            frame.text(text, left, y, color, TEXT, scale)
+            frame.text(time, left + room, y + 2 * scale, PAPER, SMALL, scale, "right")
+            share = seconds[number] / max(*seconds, 1e-9)
+            frame.surface.fill(faded(color, 0.7), (left, y + 11 * scale, room, 2 * scale))
+            frame.surface.fill(frame.tone(color), (left, y + 11 * scale, round(room * share), 2 * scale))
+        lines = wrap(told[2], rect.width - 8 * scale, SMALL, scale)
+        y += 16 * scale
+        for line in lines:
+            frame.text(line, rect.x + 4 * scale, y, ORANGE, SMALL, scale)
+            y += 7 * scale
+        high = rect.bottom - y - (BAR_HEIGHT + 4) * scale
+        if high >= 2 * LINE * scale:
+            self._draw_plot(frame, pygame.Rect(rect.x + 4 * scale, y + 2 * scale, rect.width - 8 * scale, high), scale)
+
+    def _draw_plot(self, frame, rect, scale):
+        """How far apart they were in the last ten seconds, from right to left, on a logarithmic scale."""
+        surface, apart = frame.surface, self.race.apart
+        surface.fill(NIGHT, rect)
+        for value in (0.01, 0.1, VISIBLE, 10.0, 100.0):
+            y = round(_height(value, rect))
+            seen = value == VISIBLE
+            pygame.draw.line(surface, FOG if seen else faded(SLATE, 0.5), (rect.left, y), (rect.right - 1, y))
+            name = f"{value:g} px: seen" if seen else f"{value:g} px"
+            frame.text_if_free(name, rect.right - 2 * scale, y - 7 * scale, FOG, SMALL, scale, "right")
+        points = _curve(apart, rect)
+        if not any(apart):
+            same = "no body that both have was apart, not by the last bit"
+            frame.text_if_free(same, rect.centerx, rect.bottom - 10 * scale, FOG, SMALL, scale, "center")
+        if len(points) > 1:
+            pygame.draw.lines(surface, frame.tone(ORANGE), False, points, scale)
+        pygame.draw.rect(surface, SLATE, rect, 1)
+        frame.reserve(rect)
+
+
+def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
+    """The places of these distances [px], the last one on the right."""
+    width = rect.width / (apart.maxlen or len(apart))
+    first = rect.right - width * len(apart)
+    return [(first + width * number, _height(value, rect)) for number, value in enumerate(apart)]
+
+
+def _height(value, rect):
+    """Frame y of a distance [px]; none lies on the floor."""
+    share = log10(min(max(value, LEAST), MOST) / LEAST) / log10(MOST / LEAST)
+    return rect.bottom - 2 - share * (rect.height - 4)

@@ -1,0 +1,76 @@
+"""`python -m tests.bench.rewind [SCENE …] [--cpu]`: what ten seconds of rewind take, scene by scene.
+
+Bytes of all that is kept, per moving body and frame beyond 64 kB; the slowest of the seeks from the end to each key
+frame's last step, where most steps have to be made, and of seeks one step back from there. --cpu: seconds of this
+process in place of those on the clock, for a machine that others use too; rewind itself then measures so as well.
+"""
+
+import argparse
+from time import perf_counter, process_time
+from unittest.mock import patch
+
+from game.run.rewind import STEPS, Rewind
+from game.run.session import Session
+from game.run.sources import BotSource
+from game.scene import set_loaded_aside
+from scenes import SCENES
+from tests.game.test_rewind import A_BODY, BESIDE, moving_bodies
+from tests.lockstep import make_scene
+
+EXTRA = 60  # steps more than are kept, so that the oldest are dropped
+SLOWEST = 0.1  # [s] that a seek may take
+
+
+def measured(name: str, clock) -> dict[str, float]:
+    """One scene: bytes in all and a body and frame, key frames, and of seeks the slowest and their mean [s]."""
+    with patch("game.run.rewind.perf_counter", clock), patch("game.run.session.perf_counter", clock):
+        session = Session(make_scene(name), BotSource())
+        set_loaded_aside()  # as the game does when a scene begins
+        rewind, bodies, noting = Rewind(session), 0, 0.0
+        for _ in range(STEPS + EXTRA):
+            session.step()
+            started = clock()
+            rewind.note()
+            noting = max(noting, clock() - started)
+            bodies += moving_bodies(session.scene)
+        held, bodies = rewind.bytes, bodies * STEPS / (STEPS + EXTRA)
+        ends = [each.start for each in rewind.stretches[1:]] + [rewind.end]
+        seeks = []
+        for end in ends:
+            for goal in (rewind.end, end, max(end - 1, rewind.start)):
+                started = clock()
+                rewind.seek(goal)
+                seeks.append(clock() - started)
+    return {
+        "kB": held / 1000,
+        "a body": max(0.0, held - BESIDE) / bodies if bodies else 0.0,
+        "bodies": bodies / STEPS,
+        "key frames": len(rewind.stretches),
+        "note": noting,
+        "slowest": max(seeks),
+        "mean": sum(seeks) / len(seeks),
+        "misses": sum(each > SLOWEST for each in seeks),
+        "of": len(seeks),
+    }
+
+
+def main() -> None:
+    """Measure, and print a line a scene."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", nargs="*", default=list(SCENES), metavar="SCENE")
+    parser.add_argument("--cpu", action="store_true")
+    options = parser.parse_args()
+    print(f"{'scene':<18} moving      kB  B/body/frame  keys  note ms  seek ms  mean ms  over {1e3 * SLOWEST:.0f} ms")
+    for name in options.scenes:
+        found = measured(name, process_time if options.cpu else perf_counter)
+        print(
+            f"{name:<18} {found['bodies']:6.0f} {found['kB']:7.0f}  {found['a body']:12.0f}  {found['key frames']:4.0f}"
+            f"  {1e3 * found['note']:7.1f}  {1e3 * found['slowest']:7.1f}  {1e3 * found['mean']:7.1f}"
+            f"  {found['misses']:3.0f} of {found['of']:.0f}"
+            + ("  MISSES THE BYTES" if found["a body"] > A_BODY else ""),
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main()
