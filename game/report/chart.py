@@ -22,15 +22,24 @@ class Axis(NamedTuple):
     mark: float | None = None
 
 
+class Curve(NamedTuple):
+    """A line over x that no row stands for, as a limit of arithmetic."""
+
+    label: str
+    at: Callable[[float], float]
+
+
 class Panel(NamedTuple):
     """One plot. line: "front" joins the dots that none beats, "medians" the series whose medians none
-    beats, "series" the dots of each in the order of x, "" nothing."""
+    beats, "series" the dots of each in the order of x, "" nothing. series: what a row's dot is drawn as one of."""
 
     title: str
     x: Axis
     y: Axis
     shows: Callable[[Row], bool] = lambda row: True
     line: str = "front"
+    series: Callable[[Row], str] = lambda row: str(row["series"])
+    curves: tuple[Curve, ...] = ()
 
 
 class Chart(NamedTuple):

@@ -24,6 +24,7 @@ INK, PAPER, FAINT = INKS
 # Okabe and Ito's colours, which most who see colours otherwise can tell apart, dark enough for both papers.
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56a0d9", "#8064c8", "#7a7a7a", "#c0392b", "#4d8f1f")
 MARKERS = "osD^vP*X<>"
+CURVES = (":", "-.")
 
 
 class Dot(NamedTuple):
@@ -67,7 +68,7 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
     axes = figure.add_subplot()
     figure.patch.set_alpha(0.0)
     axes.set_facecolor(PAPER)
-    for number, (series, members) in enumerate(_series(dots)):
+    for number, (series, members) in enumerate(_series(dots, panel)):
         color, marker = COLORS[number % len(COLORS)], MARKERS[number % len(MARKERS)]
         if panel.line == "series":
             ordered = sorted(members, key=lambda pair: pair[1].x[1])
@@ -83,18 +84,19 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
     if panel.line in ("front", "medians"):
         points = {str(k): (dot.x[1], dot.y[1]) for k, dot in enumerate(dots)}
         if panel.line == "medians":
-            points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots)}
+            points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots, panel)}
         axes.plot(*zip(*(points[each] for each in pareto(points)), strict=True), color=INK, linewidth=1.0, zorder=2)
     _scale(axes, "x", panel.x, [dot.x for dot in dots])
+    _curves(axes, panel, dots)
     _scale(axes, "y", panel.y, [dot.y for dot in dots])
     _dress(axes, panel)
     return _page_colors(figure), dots
 
 
-def _series(dots) -> Iterator[tuple[str, list[tuple[int, Dot]]]]:
+def _series(dots, panel) -> Iterator[tuple[str, list[tuple[int, Dot]]]]:
     groups: dict[str, list[tuple[int, Dot]]] = {}
     for k, dot in enumerate(dots):
-        groups.setdefault(str(dot.row["series"]), []).append((k, dot))
+        groups.setdefault(panel.series(dot.row), []).append((k, dot))
     yield from groups.items()
 
 
@@ -110,6 +112,13 @@ def _bars(axes, dot, color):
             if not flat:
                 at = (dot.x[1], dot.x[1]), (values[0], values[2])
             axes.plot(*at, color=color, linewidth=1.0, alpha=0.5)
+
+
+def _curves(axes, panel, dots):
+    """Dotted, over the values of x that are measured; what lies below the axis is cut."""
+    at = sorted({dot.x[1] for dot in dots if dot.x[1] > 0.0})
+    for curve, style in zip(panel.curves, CURVES, strict=False):
+        axes.plot(at, [curve.at(x) for x in at], linestyle=style, color=INK, linewidth=1.0, label=curve.label)
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):

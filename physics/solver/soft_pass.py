@@ -178,9 +178,22 @@ def make_warm_lanes(rotation: bool) -> Callable:
     return warm_lanes
 
 
+@subkernel
+def forget_lanes(count, motions, blocks_inout):
+    """Start from no impulse instead: no solver does; what the memory is worth is measured by it. O(count)."""
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(LANES):
+            c[at.NORMAL_1 + lane] = 0.0
+            c[at.TANGENT_1 + lane] = 0.0
+            c[at.NORMAL_2 + lane] = 0.0
+            c[at.TANGENT_2 + lane] = 0.0
+            c[at.ROLLING + lane] = 0.0
+
+
 def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
-    """One pass over blocks: with bias (and no friction), or relaxing (with friction where declared)."""
-    rubs = friction and not biased
+    """One pass over blocks: with bias, or relaxing; with friction or without. What rubs or relaxes sums up impulses."""
+    rubs, counts = friction, friction or not biased
     rub_1, rub_2 = make_rub(False, rotation), make_rub(True, rotation)
 
     @subkernel
@@ -261,7 +274,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 if biased:
                     presses = (c[at.RESTS + lane] > 0.0) | (impulse_1 + impulse_2 > 0.0)
                     c[at.OUTCOME + lane] = (PRESSED if presses else 0.0) + (FREE if free else 0.0)
-                else:
+                if counts:
                     c[at.TOTAL_1 + lane] += impulse_1
                     c[at.TOTAL_2 + lane] += impulse_2
                 change = impulse_1 - old_1 + impulse_2 - old_2
