@@ -14,12 +14,14 @@ SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """label: with its unit; mark: where a line is drawn, as at what a player can see."""
+    """label: with its unit; log: where values span a decade; mark: where a line is drawn, as at what a player can see;
+    decades: of a logarithmic axis, at most."""
 
     label: str
     read: Reading
     log: bool = True
     mark: float | None = None
+    decades: int = 6
 
 
 class Curve(NamedTuple):

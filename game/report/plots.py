@@ -7,7 +7,7 @@ import io
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from math import isfinite
+from math import ceil, floor, isfinite, log10
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -17,7 +17,6 @@ from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
 SIZE = (6.4, 4.0)  # [inch]
-DECADES = 6  # of a logarithmic axis
 # Inks that no drawing has by chance, and what the page calls them.
 INKS = {"#010203": "var(--ink)", "#040506": "var(--paper)", "#070809": "var(--faint)"}
 INK, PAPER, FAINT = INKS
@@ -122,18 +121,24 @@ def _curves(axes, panel, dots):
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Logarithmic where that is asked for; what is DECADES below the largest lies at the foot, with zero. Told after
-    all is drawn."""
+    """Logarithmic where that is asked for and values span a decade: in less, its ticks run into each other. What is so
+    many decades below the largest lies at the foot, with zero. Told after all is drawn."""
     positive = [high for _, _, high in values if high > 0.0]
-    if not axis.log or not positive:
+    if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
         return
     set_scale, set_limits = getattr(axes, f"set_{which}scale"), getattr(axes, f"set_{which}lim")
-    floor = max(positive) * 10.0**-DECADES
-    if all(low > floor for low, _, _ in values):
+    foot = max(positive) * 10.0**-axis.decades
+    if all(low > foot for low, _, _ in values):
         set_scale("log")
         return
-    least = min(middle for _, middle, _ in values if middle > floor) if any(v[1] > floor for v in values) else floor
-    set_scale("symlog", linthresh=least, linscale=0.3)
+    least = min(middle for _, middle, _ in values if middle > foot) if any(v[1] > foot for v in values) else foot
+    first, last = ceil(log10(least) - 1e-9), floor(log10(max(positive)) + 1e-9)
+    if last <= first:
+        return
+    set_scale("symlog", linthresh=least, linscale=max(0.3, 0.08 * (last - first + 1)))
+    getattr(axes, f"set_{which}ticks")(
+        [0.0, *(10.0**power for power in range(first, last + 1, 1 + (last - first) // 9))]
+    )
     set_limits(-0.1 * least, max(positive) * 1.6)
 
 

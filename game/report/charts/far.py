@@ -84,7 +84,7 @@ ULPS = (
     Curve("1 ulp of float32", lambda away: float(np.spacing(np.float32(away)))),
     Curve("1 ulp of float64", lambda away: float(np.spacing(away))),
 )
-_away = Axis("from the origin [px]", value("away"))
+_away = Axis("from the origin [px]", value("away"), decades=7)
 CHART = Chart(
     9,
     "far",
@@ -95,14 +95,12 @@ CHART = Chart(
         Panel(
             "boxes",
             _away,
-            Axis("apart from those at the origin [px]", value("apart"), mark=1.0),
+            Axis("apart from those at the origin [px]", value("apart"), mark=1.0, decades=16),
             panel_is("far"),
             "series",
             curves=ULPS,
         ),
-        Panel(
-            "overlap", _away, Axis("overlap [px]", value("overlap"), mark=1.0), panel_is("far"), "series", curves=ULPS
-        ),
+        Panel("overlap", _away, Axis("overlap [px]", value("overlap"), mark=1.0), panel_is("far"), "series"),
         Panel(
             "time", Axis("us a step", time("cost")), Axis("apart [px]", value("apart"), mark=1.0), panel_is("far"), ""
         ),
