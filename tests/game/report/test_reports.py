@@ -195,6 +195,13 @@ def test_without_matplotlib_the_extra_is_named(tmp_path, monkeypatch, capsys):
     plots.library.cache_clear()
 
 
+def test_without_a_scheduler_no_folder_is_made(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("game.report.runners.PATIENCE", "200ms")
+    assert report(tmp_path / "r", "--dask", "tcp://127.0.0.1:9") == 2
+    assert "no scheduler answers at tcp://127.0.0.1:9" in capsys.readouterr().err and not (tmp_path / "r").exists()
+
+
 def test_only_what_is_sure_is_claimed():
     sure = ordering("x", {"a": (1.0, 1.1), "b": (2.0, 2.1), "c": (1.9, 2.2)})
     assert sure.verdict == HOLDS and sure.order == ("a",)
