@@ -1,5 +1,5 @@
-"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and how their
-times stand to each other, chart by chart and series by series.
+"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and which
+series of which charts are surely slower, or faster, in the second.
 
 What is sure in one must not be wrong in the other. A tie contradicts nobody that is in it.
 """
@@ -9,13 +9,16 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
+from typing import NamedTuple
 
+from game.measure.front import TIE as TIE_SHARE
 from game.report.chart import Chart
 from game.report.charts import CHARTS
 from game.report.claim import FAILS, HOLDS, TIE, Claim
 from game.report.job import Row
 
 Reports = dict[str, list[Row]]
+SURE = 0.6  # of a series' rows that must be slower beyond their intervals
 
 
 def read(folder: Path) -> Reports:
@@ -46,22 +49,39 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
     return [(name, ours[name], theirs[name]) for name in both if contradicts(ours[name], theirs[name])]
 
 
-def ratios(first: Reports, second: Reports) -> dict[tuple[str, str], float]:
-    """{(chart, series): median of the second's times over the first's}, all relative to the median of all: a machine
-    that is slower in one run is slower everywhere."""
-    found: dict[tuple[str, str], list[float]] = {}
+class Change(NamedTuple):
+    """How a series' times in the second report stand to those in the first."""
+
+    ratio: float  # median of the least times, relative to that of all series
+    sure: float  # share of its rows whose intervals are apart, the second's above the first's
+
+    @property
+    def slower(self) -> bool:
+        """For sure, and by more than what is a tie in a report."""
+        return self.ratio >= 1.0 + TIE_SHARE and self.sure >= SURE
+
+
+def changes(first: Reports, second: Reports) -> dict[tuple[str, str], Change]:
+    """{(chart, series): Change}, all relative to the median of all: a machine that is slower in one run is slower
+    everywhere. What charts show of others' rows is told once."""
+    pairs: dict[tuple[str, str], list[tuple[list[float], list[float]]]] = {}
+    shown = {chart.key for chart in CHARTS if chart.of}
     for key, rows in first.items():
-        theirs = {_name(row): row for row in second[key]}
+        theirs = {_name(row): row for row in second[key]} if key not in shown else {}
         for row in rows:
             for name, cost in _costs(row):
                 other = theirs.get(_name(row), {}).get(name)
                 if other:
-                    ratio = other["seconds"][0] / cost["seconds"][0]
-                    found.setdefault((key, str(row["series"])), []).append(ratio)
-    if not found:
+                    pairs.setdefault((key, str(row["series"])), []).append((cost["seconds"], other["seconds"]))
+    if not pairs:
         return {}
-    usual = median(each for every in found.values() for each in every)
-    return {name: median(every) / usual for name, every in found.items()}
+    usual = median(b[0] / a[0] for every in pairs.values() for a, b in every)
+    return {
+        name: Change(
+            median(b[0] / a[0] for a, b in every) / usual, sum(b[0] > usual * a[2] for a, b in every) / len(every)
+        )
+        for name, every in pairs.items()
+    }
 
 
 def _costs(row) -> Iterator[tuple[str, Row]]:
@@ -86,8 +106,11 @@ def main(first: Path, second: Path) -> int:
         print(f"  {name}")
         for each in (one, other):
             print(f"    {each.text}: {each.figure} ({each.verdict})")
-    for (chart, series), ratio in sorted(ratios(a, b).items(), key=lambda pair: -abs(pair[1] - 1.0))[:12]:
-        print(f"  {ratio:6.2f} x  {chart}, {series}")
+    for word, one, other in (("slower", a, b), ("faster", b, a)):
+        slower = [(name, change) for name, change in changes(one, other).items() if change.slower]
+        print(f"{len(slower)} series surely {word} in the second")
+        for (chart, series), change in sorted(slower, key=lambda pair: -pair[1].ratio):
+            print(f"  {change.ratio:6.2f} x  {chart}, {series}")
     return 1 if found else 0
 
 
