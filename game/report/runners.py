@@ -88,7 +88,7 @@ def connect(address: str) -> Any:
     no scheduler answers there."""
     try:
         from dask.distributed import Client  # pyright: ignore[reportMissingImports]
-        from distributed.comm import get_address_host_port  # pyright: ignore[reportMissingImports]
+        from distributed.comm.addressing import get_address_host_port  # pyright: ignore[reportMissingImports]
     except ImportError as error:
         raise UsageError('--dask needs Dask; it comes with: pip install -e ".[cluster]"') from error
     try:

@@ -19,6 +19,7 @@ from game.report.job import Row
 
 Reports = dict[str, list[Row]]
 SURE = 0.6  # of a series' rows that must be slower beyond their intervals
+LEAST = 3  # series of a job, of which the median is what the machine does
 
 
 def read(folder: Path) -> Reports:
@@ -50,10 +51,10 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
 
 
 class Change(NamedTuple):
-    """How a series' times in the second report stand to those in the first."""
+    """How a series' times in the second report stand to those in the first, beside what was timed in turns with it."""
 
-    ratio: float  # median of the least times, relative to that of all series
-    sure: float  # share of its rows whose intervals are apart, the second's above the first's
+    ratio: float  # median of the least times
+    sure: float  # share of its rows whose intervals, least to median, are apart
 
     @property
     def slower(self) -> bool:
@@ -61,27 +62,37 @@ class Change(NamedTuple):
         return self.ratio >= 1.0 + TIE_SHARE and self.sure >= SURE
 
 
-def changes(first: Reports, second: Reports) -> dict[tuple[str, str], Change]:
-    """{(chart, series): Change}, all relative to the median of all: a machine that is slower in one run is slower
-    everywhere. What charts show of others' rows is told once."""
-    pairs: dict[tuple[str, str], list[tuple[list[float], list[float]]]] = {}
-    shown = {chart.key for chart in CHARTS if chart.of}
-    for key, rows in first.items():
-        theirs = {_name(row): row for row in second[key]} if key not in shown else {}
-        for row in rows:
-            for name, cost in _costs(row):
-                other = theirs.get(_name(row), {}).get(name)
-                if other:
-                    pairs.setdefault((key, str(row["series"])), []).append((cost["seconds"], other["seconds"]))
-    if not pairs:
-        return {}
-    usual = median(b[0] / a[0] for every in pairs.values() for a, b in every)
+def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
+    """{(chart, series): Change}, relative to the median of the same job: a machine is as fast as at any other time for
+    minutes, not for a whole report. Jobs of fewer than LEAST series go by their chart's median. What charts show of
+    others' rows is told once."""
+    found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
+    for chart in charts:
+        if chart.of:
+            continue
+        pairs = list(_pairs(first[chart.key], second[chart.key]))
+        of_chart = [b[0] / a[0] for _, a, b in pairs]
+        for job in dict.fromkeys(row["job"] for row, _, _ in pairs):
+            mine = [pair for pair in pairs if pair[0]["job"] == job]
+            alone = len({row["series"] for row, _, _ in mine}) < LEAST
+            usual = median(of_chart if alone else [b[0] / a[0] for _, a, b in mine])
+            for row, a, b in mine:
+                name = chart.key, str(row["series"])
+                found.setdefault(name, []).append((b[0] / a[0] / usual, b[0] > usual * a[1]))
     return {
-        name: Change(
-            median(b[0] / a[0] for a, b in every) / usual, sum(b[0] > usual * a[2] for a, b in every) / len(every)
-        )
-        for name, every in pairs.items()
+        name: Change(median(ratio for ratio, _ in every), sum(sure for _, sure in every) / len(every))
+        for name, every in found.items()
     }
+
+
+def _pairs(rows, others) -> Iterator[tuple[Row, list[float], list[float]]]:
+    """(row, its seconds, the same in the other report) of every time that both have."""
+    theirs = {_name(row): row for row in others}
+    for row in rows:
+        for name, cost in _costs(row):
+            other = theirs.get(_name(row), {}).get(name)
+            if other:
+                yield row, cost["seconds"], other["seconds"]
 
 
 def _costs(row) -> Iterator[tuple[str, Row]]:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from game.measure.power_law import fit_power_law
-from game.measure.timing import Cost, undisturbed
+from game.measure.staged import seconds_of_stage
+from game.measure.timing import Cost
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
 from game.report.job import Job, Plan, Row, spread
@@ -103,10 +104,10 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
         world.step()
         counters[name] = dict(world.profile.counters)
     truth = len(worlds["hash"].contacts)  # of boxes
-    with undisturbed():
-        for _ in range(RUNS):
-            for name, world in worlds.items():
-                spent[name].append(_broad_phase_of(world))
+    for _ in range(RUNS):
+        for name, world in worlds.items():
+            # Over STEPS, as what moves is looked for once in a few.
+            spent[name].append(seconds_of_stage(world, "broad_phase", STEPS))
     return [
         {
             "series": name,
@@ -124,15 +125,6 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
         }
         for name in worlds
     ]
-
-
-def _broad_phase_of(world):
-    """Seconds of it a step, over STEPS, as what moves is looked for once in a few."""
-    spent = 0.0
-    for _ in range(STEPS):
-        world.step()
-        spent += world.profile.stages["broad_phase"]
-    return spent / STEPS
 
 
 def _jobs(plan: Plan) -> list[Job]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from game.measure.front import TIE as SHARE
 from game.measure.moment import failures_of
+from game.measure.staged import advance, stages_of
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, Claim
@@ -19,8 +20,6 @@ from game.report.piles import PILES, world_of
 from game.report.standing import VISIBLE, Watch
 from physics import World
 from physics.solver import studied
-from physics.step import begin, finish, plan
-from physics.tables.step_state import Stage
 
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)
@@ -60,19 +59,13 @@ class Studied:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
         if parts.solver == SEQUENTIAL:
             self.divided, stage = parts.substeps, studied.sequential_impulse(parts.iterations, parts.warm)
-        own = plan(world.effects, world.solver, characters=False)
-        self.stages: tuple[Stage, ...] = tuple(stage if each.stage == stage.stage else each for each in own)
-        self.names = [each.stage for each in self.stages]
+        self.stages = stages_of(world, stage)
         self.failures: Counter[str] | None = None  # looked for where somebody asks
 
     def step(self) -> None:
         """As the world's own."""
         for _ in range(self.divided):
-            self.world.profile.begin(self.names)
-            state = begin(self.world, self.world.dt / self.divided)
-            for stage in self.stages:
-                stage(state)
-            finish(self.world, state)
+            advance(self.world, self.stages, self.world.dt / self.divided)
             if self.failures is not None:
                 self.failures += failures_of(self.world)
 

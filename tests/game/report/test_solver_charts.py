@@ -139,5 +139,7 @@ def test_a_line_through_two_sizes_is_no_fit():
         return [{"series": "s", "panel": "p", "n": n, "cost": {"seconds": [n, n**2.0, n]}} for n in sizes]
 
     assert growth(rows((10, 100, 1000)), "s", "p") is None
-    power, unsure = growth(rows((10, 100, 300, 1000)), "s", "p")
+    found = growth(rows((10, 100, 300, 1000)), "s", "p")
+    assert found is not None
+    power, unsure = found
     assert power == pytest.approx(2.0) and unsure < 1e-9
