@@ -239,3 +239,13 @@ def test_every_job_of_every_chart_can_be_handed_to_another_process():
                 assert json.loads(json.dumps(job._asdict())) == job._asdict()
     keys = [chart.key for chart in CHARTS]
     assert len(set(keys)) == len(keys) and [c.number for c in CHARTS] == sorted(c.number for c in CHARTS)
+
+
+def test_a_slowest_step_that_is_near_the_budget_is_no_verdict():
+    from game.report.charts.latency import CHART, HALF_BUDGET
+
+    def verdict(most):
+        row = {"label": "x", "cost": {"seconds": [1e-4, 2e-4, 1e-3 * most]}}
+        return CHART.claims([row])[0].verdict
+
+    assert [verdict(share * HALF_BUDGET) for share in (0.85, 0.95, 1.05, 1.15)] == [HOLDS, TIE, TIE, FAILS]
