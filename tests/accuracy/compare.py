@@ -64,18 +64,18 @@ class Change(NamedTuple):
 
 def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
     """{(chart, series): Change}, relative to the median of the same job: a machine is as fast as at any other time for
-    minutes, not for a whole report. Jobs of fewer than LEAST series go by their chart's median. What charts show of
-    others' rows is told once."""
+    minutes, not for a whole report. Jobs of fewer than LEAST series have nothing to be compared with, and are left out.
+    What charts show of others' rows is told once."""
     found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
     for chart in charts:
         if chart.of:
             continue
         pairs = list(_pairs(first[chart.key], second[chart.key]))
-        of_chart = [b[0] / a[0] for _, a, b in pairs]
         for job in dict.fromkeys(row["job"] for row, _, _ in pairs):
             mine = [pair for pair in pairs if pair[0]["job"] == job]
-            alone = len({row["series"] for row, _, _ in mine}) < LEAST
-            usual = median(of_chart if alone else [b[0] / a[0] for _, a, b in mine])
+            if len({row["series"] for row, _, _ in mine}) < LEAST:
+                continue
+            usual = median(b[0] / a[0] for _, a, b in mine)
             for row, a, b in mine:
                 name = chart.key, str(row["series"])
                 found.setdefault(name, []).append((b[0] / a[0] / usual, b[0] > usual * a[1]))
@@ -119,7 +119,7 @@ def main(first: Path, second: Path) -> int:
             print(f"    {each.text}: {each.figure} ({each.verdict})")
     for word, one, other in (("slower", a, b), ("faster", b, a)):
         slower = [(name, change) for name, change in changes(one, other).items() if change.slower]
-        print(f"{len(slower)} series surely {word} in the second")
+        print(f"{len(slower)} of {len(changes(one, other))} series surely {word} in the second")
         for (chart, series), change in sorted(slower, key=lambda pair: -pair[1].ratio):
             print(f"  {change.ratio:6.2f} x  {chart}, {series}")
     return 1 if found else 0
