@@ -20,6 +20,7 @@ from game.report.job import Row
 Reports = dict[str, list[Row]]
 SURE = 0.6  # of a series' rows that must be slower beyond their intervals
 LEAST = 3  # series of a job, of which the median is what the machine does
+ROWS = 4  # of a series, at least: two rows of one tier were 1.16 times slower by what else the machine did
 
 
 def read(folder: Path) -> Reports:
@@ -65,7 +66,7 @@ class Change(NamedTuple):
 def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
     """{(chart, series): Change}, relative to the median of the same job: a machine is as fast as at any other time for
     minutes, not for a whole report. Jobs of fewer than LEAST series have nothing to be compared with, and are left out.
-    What charts show of others' rows is told once."""
+    So are series of fewer than ROWS times. What charts show of others' rows is told once."""
     found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
     for chart in charts:
         if chart.of:
@@ -82,6 +83,7 @@ def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -
     return {
         name: Change(median(ratio for ratio, _ in every), sum(sure for _, sure in every) / len(every))
         for name, every in found.items()
+        if len(every) >= ROWS
     }
 
 

@@ -20,9 +20,10 @@ CHART = Chart(8, "c", "", "", "", (), lambda plan: [], of_series)
 
 def report(**seconds):
     rows = []
-    for name, least in seconds.items():
-        cost = spread(Cost(least, 1.02 * least, 1.05 * least, 5, 60))
-        rows.append({"job": "c/1", "series": name, "label": name, "panel": "p", "cost": cost})
+    for job in range(4):
+        for name, least in seconds.items():
+            cost = spread(Cost(least, 1.02 * least, 1.05 * least, 5, 60))
+            rows.append({"job": f"c/{job}", "series": name, "label": name, "panel": "p", "cost": cost})
     return {"c": rows}
 
 
@@ -45,6 +46,13 @@ def test_what_got_slower_stands_out_on_a_slower_machine():
     found = changes(report(a=1.0, b=2.0, c=3.0), report(a=1.3, b=2.6, c=7.8), (CHART,))
     assert found["c", "c"].ratio == 2.0 and found["c", "a"].ratio == found["c", "b"].ratio == 1.0
     assert [name for name, change in found.items() if change.slower] == [("c", "c")]
+
+
+def test_what_has_nothing_beside_it_and_what_is_one_row_is_not_judged():
+    two, three = report(a=1.0, b=2.0), report(a=1.0, b=2.0, c=3.0)
+    assert not changes(two, report(a=1.0, b=4.0), (CHART,))
+    once = {"c": three["c"][:3]}
+    assert not changes(once, report(a=1.0, b=2.0, c=9.0), (CHART,))
 
 
 def test_in_a_kept_report_the_series_that_was_slowed_down_is_named_and_no_other():
