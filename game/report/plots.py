@@ -130,6 +130,13 @@ def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
     foot = max(positive) * 10.0**-axis.decades
     if all(low > foot for low, _, _ in values):
         set_scale("log")
+        least, most = min(low for low, _, _ in values), max(positive)
+        if most < 100.0 * least:  # its own ticks would run into each other
+            powers = range(ceil(log10(least)) - 1, ceil(log10(most)))
+            ticks = [each * 10.0**power for power in powers for each in (1.0, 2.0, 5.0)]
+            ticks = [each for each in ticks if least <= each <= most]
+            getattr(axes, f"set_{which}ticks")(ticks, labels=[f"{each:g}" for each in ticks])
+            getattr(axes, f"{which}axis").set_minor_formatter("")
         return
     least = min(middle for _, middle, _ in values if middle > foot) if any(v[1] > foot for v in values) else foot
     first, last = ceil(log10(least) - 1e-9), floor(log10(max(positive)) + 1e-9)
