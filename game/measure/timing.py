@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from random import Random
 from statistics import median
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 RUNS = 5
 LEAST_PAIRS = 1000  # what a cost per pair is measured on, at least
+Name = TypeVar("Name")
 FINE = 1e-6  # [s] a clock that is coarser is no clock for a step
 
 # The processor's time, which is not ours while others have it, where it is told finely enough (not on Windows).
@@ -65,6 +66,15 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
             step()
             spent += clock() - started
     return spent / steps
+
+
+def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
+    """Seconds a step of worlds by their step, which go on in turns of count: with the usual ones 300 steps each."""
+    spent: dict[Name, list[float]] = {name: [] for name in steps}
+    for _ in range(runs):
+        for name, step in steps.items():
+            spent[name].append(seconds_a_step(step, count))
+    return {name: Cost.of(seconds, count) for name, seconds in spent.items()}
 
 
 def timed_in_turns(

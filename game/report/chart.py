@@ -14,23 +14,34 @@ SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """label: with its unit; mark: where a line is drawn, as at what a player can see."""
+    """label: with its unit; log: where values span a decade; mark: where a line is drawn, as at what a player can see;
+    decades: of a logarithmic axis, at most."""
 
     label: str
     read: Reading
     log: bool = True
     mark: float | None = None
+    decades: int = 6
+
+
+class Curve(NamedTuple):
+    """A line over x that no row stands for, as a limit of arithmetic."""
+
+    label: str
+    at: Callable[[float], float]
 
 
 class Panel(NamedTuple):
     """One plot. line: "front" joins the dots that none beats, "medians" the series whose medians none
-    beats, "series" the dots of each in the order of x, "" nothing."""
+    beats, "series" the dots of each in the order of x, "" nothing. series: what a row's dot is drawn as one of."""
 
     title: str
     x: Axis
     y: Axis
     shows: Callable[[Row], bool] = lambda row: True
     line: str = "front"
+    series: Callable[[Row], str] = lambda row: str(row["series"])
+    curves: tuple[Curve, ...] = ()
 
 
 class Chart(NamedTuple):

@@ -1,52 +1,83 @@
 """Piles whose rest is known in closed form: how high they stand, and that nothing in them overlaps."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from math import atan2, cos, radians, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from physics import Effects, Material, Polygon, World
+from physics import Capsule, Circle, Effects, Material, Polygon, World
 
 BOX, GRAVITY, FRICTION = 32.0, 320.0, 0.6  # [px], [px/s2], -
 EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
+SHARED = 0.25  # of a box, that its neighbours overlap it by where all do
+CARD, THICK, LEAN, PLANK = 48.0, 2.0, radians(25.0), 4.0  # [px] between a card's ends, their radius; [px] of a plank
 
 
 class Pile(NamedTuple):
-    """Boxes of one size, where they stand, and of what density each is."""
+    """Where bodies stand, their densities, shapes and angles [rad]; rests: they may stay where they are."""
 
     places: list[tuple[float, float]]
     density: list[float]
+    shapes: Sequence[Circle | Capsule | Polygon]
+    angles: list[float]
+    rests: bool = True
 
     @property
     def height(self) -> float:
-        """Of the highest box's centre over the ground [px]."""
+        """Of the highest body's centre over the ground [px]."""
         return -min(y for _, y in self.places)
 
 
-def stack(count: int) -> Pile:
+def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
+    """Upright, of one size [px], as dense as told, else all alike."""
+    count = len(places)
+    return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
+
+
+def stack(count: int, size: float = BOX) -> Pile:
     """One upon the other."""
-    return Pile([(0.0, -BOX / 2 - BOX * k) for k in range(count)], [1.0] * count)
+    return boxes([(0.0, -size / 2 - size * k) for k in range(count)], size=size)
 
 
-def pyramid(rows: int) -> Pile:
-    """Rows that grow shorter."""
-    places = [
-        ((column - (rows - row - 1) / 2) * 1.1 * BOX, -BOX / 2 - BOX * row)
-        for row in range(rows)
-        for column in range(rows - row)
-    ]
-    return Pile(places, [1.0] * len(places))
+def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
+    """Rows that grow shorter; across, up: from box to box, in boxes."""
+    return boxes(
+        [
+            ((column - (rows - row - 1) / 2) * across * BOX, -BOX / 2 - up * BOX * row)
+            for row in range(rows)
+            for column in range(rows - row)
+        ]
+    )
 
 
 def heavy(ratio: float) -> Pile:
     """One of so many times the density on a light one."""
-    return Pile(stack(2).places, [1.0, ratio])
+    return boxes(stack(2).places, [1.0, ratio])
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
     """A stack whose boxes stand by up to aside [px] beside the middle: 2 cm."""
     shifts = np.random.default_rng(seed).uniform(-aside, aside, count)
-    return Pile([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)], [1.0] * count)
+    return boxes([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)])
+
+
+def card_house(storeys: int) -> Pile:
+    """Pairs of cards that lean on each other, planks on them, and again; lab/card_house is built alike."""
+    reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
+    apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
+    card, plank = Capsule((-CARD / 2, 0), (CARD / 2, 0), THICK), Polygon.box(apart - 0.5, PLANK)
+    places, shapes, angles = [], [], []
+    for level in range(storeys):
+        pairs, foot = storeys - level, -storey * level
+        left = -(pairs - 1) * apart / 2
+        for side in (-1, 1):
+            places += [(left + k * apart + side * (THICK + reach / 2), foot - THICK - rise / 2) for k in range(pairs)]
+            angles += [atan2(-rise, -side * reach)] * pairs
+        places += [(left + (k + 0.5) * apart, foot - rise - 2.0 * THICK - PLANK / 2) for k in range(pairs - 1)]
+        angles += [0.0] * (pairs - 1)
+        shapes += [card] * (2 * pairs) + [plank] * (pairs - 1)
+    return Pile(places, [1.0] * len(places), shapes, angles)
 
 
 PILES: dict[str, Callable[[], Pile]] = {
@@ -57,6 +88,8 @@ PILES: dict[str, Callable[[], Pile]] = {
     "10:1": lambda: heavy(10.0),
     "100:1": lambda: heavy(100.0),
     "1000:1": lambda: heavy(1000.0),
+    "card house": lambda: card_house(4),
+    "ten in each other": lambda: pyramid(4, 1.0 - SHARED, 1.0 - SHARED)._replace(rests=False),
 }
 
 
@@ -67,9 +100,15 @@ def world_of(pile: Pile, solver: str, substeps: int | str, effects: Effects = EF
     width = float(np.ptp(places[:, 0])) + 40.0 * BOX
     ground = Polygon.box(width, 64.0, center=(0.0, 32.0))
     world.add_body(ground, position=(away, away), kind="static", material=Material(friction=FRICTION))
-    for density in dict.fromkeys(pile.density):
-        chosen = [k for k, each in enumerate(pile.density) if each == density]
-        world.add_bodies(Polygon.box(BOX, BOX), places[chosen], material=Material(friction=FRICTION, density=density))
+    kinds = [(id(shape), density) for shape, density in zip(pile.shapes, pile.density, strict=True)]
+    for kind in dict.fromkeys(kinds):
+        chosen = [k for k, each in enumerate(kinds) if each == kind]
+        world.add_bodies(
+            pile.shapes[chosen[0]],
+            places[chosen],
+            angles=[pile.angles[k] for k in chosen],
+            material=Material(friction=FRICTION, density=kind[1]),
+        )
     return world
 
 
@@ -77,3 +116,15 @@ def overlap(world: World) -> float:
     """The deepest that contacts tell [px]."""
     found = world.contacts["separation"]
     return max(0.0, -float(found.min())) if len(found) else 0.0
+
+
+def sunk(world: World, pile: Pile) -> float:
+    """By how much the highest centre is below where it was set [px]."""
+    return pile.height + float(world.bodies["center_y"][1:].min())
+
+
+def energy(world: World) -> float:
+    """Of motion and of height over the ground, of all bodies [mass px2/s2]."""
+    rows = world.bodies[1:]
+    moving = rows["mass"] * (rows["vx"] ** 2 + rows["vy"] ** 2) + rows["inertia"] * rows["angular_velocity"] ** 2
+    return float((0.5 * moving - rows["mass"] * GRAVITY * rows["center_y"]).sum())

@@ -7,7 +7,7 @@ import io
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from math import isfinite
+from math import ceil, floor, isfinite, log10
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -17,13 +17,13 @@ from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
 SIZE = (6.4, 4.0)  # [inch]
-DECADES = 6  # of a logarithmic axis
 # Inks that no drawing has by chance, and what the page calls them.
 INKS = {"#010203": "var(--ink)", "#040506": "var(--paper)", "#070809": "var(--faint)"}
 INK, PAPER, FAINT = INKS
 # Okabe and Ito's colours, which most who see colours otherwise can tell apart, dark enough for both papers.
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56a0d9", "#8064c8", "#7a7a7a", "#c0392b", "#4d8f1f")
 MARKERS = "osD^vP*X<>"
+CURVES = (":", "-.")
 
 
 class Dot(NamedTuple):
@@ -67,7 +67,7 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
     axes = figure.add_subplot()
     figure.patch.set_alpha(0.0)
     axes.set_facecolor(PAPER)
-    for number, (series, members) in enumerate(_series(dots)):
+    for number, (series, members) in enumerate(_series(dots, panel)):
         color, marker = COLORS[number % len(COLORS)], MARKERS[number % len(MARKERS)]
         if panel.line == "series":
             ordered = sorted(members, key=lambda pair: pair[1].x[1])
@@ -83,18 +83,19 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
     if panel.line in ("front", "medians"):
         points = {str(k): (dot.x[1], dot.y[1]) for k, dot in enumerate(dots)}
         if panel.line == "medians":
-            points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots)}
+            points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots, panel)}
         axes.plot(*zip(*(points[each] for each in pareto(points)), strict=True), color=INK, linewidth=1.0, zorder=2)
     _scale(axes, "x", panel.x, [dot.x for dot in dots])
+    _curves(axes, panel, dots)
     _scale(axes, "y", panel.y, [dot.y for dot in dots])
     _dress(axes, panel)
     return _page_colors(figure), dots
 
 
-def _series(dots) -> Iterator[tuple[str, list[tuple[int, Dot]]]]:
+def _series(dots, panel) -> Iterator[tuple[str, list[tuple[int, Dot]]]]:
     groups: dict[str, list[tuple[int, Dot]]] = {}
     for k, dot in enumerate(dots):
-        groups.setdefault(str(dot.row["series"]), []).append((k, dot))
+        groups.setdefault(panel.series(dot.row), []).append((k, dot))
     yield from groups.items()
 
 
@@ -112,19 +113,39 @@ def _bars(axes, dot, color):
             axes.plot(*at, color=color, linewidth=1.0, alpha=0.5)
 
 
+def _curves(axes, panel, dots):
+    """Dotted, over the values of x that are measured; what lies below the axis is cut."""
+    at = sorted({dot.x[1] for dot in dots if dot.x[1] > 0.0})
+    for curve, style in zip(panel.curves, CURVES, strict=False):
+        axes.plot(at, [curve.at(x) for x in at], linestyle=style, color=INK, linewidth=1.0, label=curve.label)
+
+
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Logarithmic where that is asked for; what is DECADES below the largest lies at the foot, with zero. Told after
-    all is drawn."""
+    """Logarithmic where that is asked for and values span a decade: in less, its ticks run into each other. What is so
+    many decades below the largest lies at the foot, with zero. Told after all is drawn."""
     positive = [high for _, _, high in values if high > 0.0]
-    if not axis.log or not positive:
+    if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
         return
     set_scale, set_limits = getattr(axes, f"set_{which}scale"), getattr(axes, f"set_{which}lim")
-    floor = max(positive) * 10.0**-DECADES
-    if all(low > floor for low, _, _ in values):
+    foot = max(positive) * 10.0**-axis.decades
+    if all(low > foot for low, _, _ in values):
         set_scale("log")
+        least, most = min(low for low, _, _ in values), max(positive)
+        if most < 100.0 * least:  # its own ticks would run into each other
+            powers = range(ceil(log10(least)) - 1, ceil(log10(most)))
+            ticks = [each * 10.0**power for power in powers for each in (1.0, 2.0, 5.0)]
+            ticks = [each for each in ticks if least <= each <= most]
+            getattr(axes, f"set_{which}ticks")(ticks, labels=[f"{each:g}" for each in ticks])
+            getattr(axes, f"{which}axis").set_minor_formatter("")
         return
-    least = min(middle for _, middle, _ in values if middle > floor) if any(v[1] > floor for v in values) else floor
-    set_scale("symlog", linthresh=least, linscale=0.3)
+    least = min(middle for _, middle, _ in values if middle > foot) if any(v[1] > foot for v in values) else foot
+    first, last = ceil(log10(least) - 1e-9), floor(log10(max(positive)) + 1e-9)
+    if last <= first:
+        return
+    set_scale("symlog", linthresh=least, linscale=max(0.3, 0.08 * (last - first + 1)))
+    getattr(axes, f"set_{which}ticks")(
+        [0.0, *(10.0**power for power in range(first, last + 1, 1 + (last - first) // 9))]
+    )
     set_limits(-0.1 * least, max(positive) * 1.6)
 
 

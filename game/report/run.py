@@ -18,7 +18,7 @@ from game.report.charts import CHARTS
 from game.report.job import Job, Plan
 from game.report.page import Measured, as_csv, write_page
 from game.report.plots import library
-from game.report.runners import run_here, run_in_processes, run_on_dask
+from game.report.runners import connect, run_here, run_in_processes, run_on_dask
 from game.report.store import Store
 from game.run.headless import start_dummy_display
 from game.run.options import Options
@@ -31,11 +31,12 @@ def run_report(options: Options, registry: Registry) -> int:
     start_dummy_display()
     jobs = all_jobs(Plan(options.quick, registry.listing))
     chosen = chosen_jobs(jobs, options.only)
+    client = connect(options.dask) if options.dask is not None else None  # before a folder is made for nothing
     store = Store(Path(options.report), options.quick)
     done = {job.name for job in jobs if _is_done(store, job)}
     due = [job for job in chosen if options.only is not None or job.name not in done]
-    if options.dask is not None:
-        results = run_on_dask(due, options.dask)
+    if client is not None:
+        results = run_on_dask(due, client)
     elif options.workers is not None and options.workers > 1:
         results = run_in_processes(due, options.workers)
     else:

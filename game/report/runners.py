@@ -83,17 +83,28 @@ def _serve(waiting, found, running, stopped):
             found.put({"name": job.name, "failed": DIED, "spent": 0.0})
 
 
-def run_on_dask(jobs: Sequence[Job], address: str) -> Iterator[Row]:
-    """As they are done, on the workers of a Dask cluster that has this program. Raises UsageError where there is no
-    Dask, or no scheduler at the address."""
+def connect(address: str) -> Any:
+    """A client of the Dask cluster at an address. Raises UsageError where there is no Dask, the address is none, or
+    no scheduler answers there."""
     try:
-        from dask.distributed import Client, as_completed  # pyright: ignore[reportMissingImports]
+        from dask.distributed import Client  # pyright: ignore[reportMissingImports]
+        from distributed.comm.addressing import get_address_host_port  # pyright: ignore[reportMissingImports]
     except ImportError as error:
         raise UsageError('--dask needs Dask; it comes with: pip install -e ".[cluster]"') from error
     try:
-        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        get_address_host_port(address)  # a client that cannot even try waits for itself when it is thrown away
+    except ValueError as error:
+        raise UsageError(f"--dask: {address} is no address such as tcp://host:8786: {error}") from error
+    try:
+        return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
+
+
+def run_on_dask(jobs: Sequence[Job], client: Any) -> Iterator[Row]:
+    """As they are done, on the workers of a cluster that has this program; its client is closed at the end."""
+    from dask.distributed import as_completed  # pyright: ignore[reportMissingImports]
+
     with client:
         futures = {client.submit(run_job, *job[:3], pure=False, retries=TRIES - 1): job for job in jobs}
         for future in as_completed(list(futures), loop=client.loop):

@@ -22,6 +22,8 @@ from physics.solver.two_points import solve_two
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
+# of a CONSTRAINT row, that the passes of a step start from
+IMPULSES = ("normal_impulse_1", "normal_impulse_2", "tangent_impulse_1", "tangent_impulse_2", "rolling_impulse")
 
 
 class Pace(NamedTuple):
@@ -300,16 +302,22 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
 PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
 
 
-def solve(state: StepState, contacts: ContactSet) -> float:
-    """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to."""
+def solve(state: StepState, contacts: ContactSet, passes: int | None = None, warm: bool = True) -> float:
+    """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to.
+
+    For measuring alone (studied.py): passes, else those of the substeps; warm: they start from the impulses of the step
+    before."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
     slow = BAUMGARTE / state.span * tolerances.speculative
     run = PASSES[effects.drag, effects.rotation, effects.friction]
     for group in contacts.choose(state, motions, state.substeps or AUTO_SUBSTEPS[0]):
         rows = contacts.prepare(state, motions, group, dt)
-        passes = math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps)
-        pace = Pace(passes, dt, 1.0 / dt, 1.0 / state.span, state.drag, tolerances.push_speed)
+        if not warm:
+            for name in IMPULSES:
+                rows[name] = 0.0
+        count = passes or math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps)
+        pace = Pace(count, dt, 1.0 / dt, 1.0 / state.span, state.drag, tolerances.push_speed)
         run(group.members, motions.driven, pace, slow, tolerances.slop, motions.used, rows)
         contacts.store(state, motions, rows, dt)
     return dt

@@ -179,9 +179,30 @@ def make_warm_lanes(rotation: bool) -> Callable:
     return warm_lanes
 
 
-def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
-    """One pass over blocks: with bias (and no friction), or relaxing (with friction where declared)."""
-    rubs = friction and not biased
+@subkernel
+def forget_impulses(members, count, motions_inout, blocks_inout):
+    """Have a substep begin with no impulse: no solver does; what the memory is worth is measured by it.
+    O(members + count)."""
+    for i in range(len(members)):
+        m = motions_inout[members[i]]
+        m.free_vx = m.vx
+        m.free_vy = m.vy
+        m.free_w = m.angular_velocity
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(LANES):
+            c[at.NORMAL_1 + lane] = 0.0
+            c[at.TANGENT_1 + lane] = 0.0
+            c[at.NORMAL_2 + lane] = 0.0
+            c[at.TANGENT_2 + lane] = 0.0
+            c[at.ROLLING + lane] = 0.0
+
+
+def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
+    """One pass over blocks: with bias (and no friction), or relaxing (with friction where declared); alone: with bias,
+    where no other pass relaxes, measures, rubs and sums up."""
+    last = alone or not biased
+    rubs = friction and last
     rub_1, rub_2 = make_rub(False, rotation), make_rub(True, rotation)
 
     @separate
@@ -202,7 +223,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
                 gather_speeds(a, b, lane, s)
-                if not biased:
+                if last:
                     gather_poses(a, b, lane, s)
             for lane in range(LANES):
                 nx = c[at.NX + lane]
@@ -211,7 +232,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 ii_b = c[at.II_B + lane]
                 masses = c[at.IM_A + lane] + c[at.IM_B + lane]
                 a_1, b_1, a_2, b_2 = levers_of(c, lane)
-                if not biased:
+                if last:
                     measure_gaps(lane, s, c)
                 gap_1 = c[at.GAP_1 + lane]
                 gap_2 = c[at.GAP_2 + lane]
@@ -263,7 +284,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool) -> Callable:
                 if biased:
                     presses = (c[at.RESTS + lane] > 0.0) | (impulse_1 + impulse_2 > 0.0)
                     s[at.OUTCOME + lane] = (PRESSED if presses else 0.0) + (FREE if free else 0.0)
-                else:
+                if last:
                     c[at.TOTAL_1 + lane] += impulse_1
                     c[at.TOTAL_2 + lane] += impulse_2
                 change = impulse_1 - old_1 + impulse_2 - old_2

@@ -7,7 +7,7 @@ in Physics Simulation, SCA 2019; Catto, Soft Constraints, GDC 2011, and Solver2D
 friction in the relaxing pass alone.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from physics.jit import kernel
 from physics.solver.contacts import ContactSet
@@ -15,16 +15,24 @@ from physics.solver.demand import ask_for_substeps
 from physics.solver.lanes import pack_rows, unpack_rows
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.pace import pace_of
-from physics.solver.soft_pass import PUSH_OUT, RELAX, WARM_LANES
+from physics.solver.soft_pass import PUSH_OUT, RELAX, WARM_LANES, forget_impulses, make_soft_pass
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
 
 
-def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
-    """All substeps of a step in a world with these effects."""
+def make_substeps(
+    drag: bool, rotation: bool, friction: bool, iterations: int = 1, warm: bool = True, relaxed: bool = True
+) -> Callable:
+    """All substeps of a step in a world with these effects.
+
+    What each part is worth is measured with others (studied.py): iterations: pushing passes in a substep; warm: each
+    starts from the impulses of the one before; relaxed: not so, friction is in the pushing pass.
+    """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, push_out, relax = WARM_LANES[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]
+    if not relaxed:
+        push_out = make_soft_pass(biased=True, rotation=rotation, friction=friction, alone=True)
 
     @kernel
     def run_substeps(
@@ -47,13 +55,17 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
         count = pack_rows(constraints_inout, starts, motions_inout, pace, blocks_out)
         move_driven(driven, 0.0, motions_inout)
         for n in range(pace.substeps):
+            if not warm:
+                forget_impulses(members, count, motions_inout, blocks_out)
             velocities(members, h, pace.drag, motions_inout)
-            if n == 0:
+            if warm and n == 0:
                 warm_start(count, motions_inout, blocks_out)
-            push_out(count, pace, motions_inout, blocks_out)
+            for _ in range(iterations):
+                push_out(count, pace, motions_inout, blocks_out)
             positions(members, h, pace.push_speed, motions_inout)
             move_driven(driven, (n + 1) * h, motions_inout)
-            relax(count, pace, motions_inout, blocks_out)
+            if relaxed:
+                relax(count, pace, motions_inout, blocks_out)
         unpack_rows(blocks_out, count, constraints_inout)
 
     return run_substeps
@@ -62,10 +74,10 @@ def make_substeps(drag: bool, rotation: bool, friction: bool) -> Callable:
 SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
 
 
-def solve(state: StepState, contacts: ContactSet) -> float:
+def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -> float:
     """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    run, h = SUBSTEPS[effects.drag, effects.rotation, effects.friction], dt
+    run, h = kernels[effects.drag, effects.rotation, effects.friction], dt
     asked = state.substeps == 0
     for group in contacts.choose(state, motions, state.substeps):
         pace = pace_of(

@@ -1,5 +1,5 @@
-"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and how their
-times stand to each other, chart by chart and series by series.
+"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and which
+series of which charts are surely slower, or faster, in the second.
 
 What is sure in one must not be wrong in the other. A tie contradicts nobody that is in it.
 """
@@ -9,13 +9,18 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
+from typing import NamedTuple
 
+from game.measure.front import TIE as TIE_SHARE
 from game.report.chart import Chart
 from game.report.charts import CHARTS
 from game.report.claim import FAILS, HOLDS, TIE, Claim
 from game.report.job import Row
 
 Reports = dict[str, list[Row]]
+SURE = 0.6  # of a series' rows that must be slower beyond their intervals
+LEAST = 3  # series of a job, of which the median is what the machine does
+ROWS = 4  # of a series, at least: two rows of one tier were 1.16 times slower by what else the machine did
 
 
 def read(folder: Path) -> Reports:
@@ -46,22 +51,50 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
     return [(name, ours[name], theirs[name]) for name in both if contradicts(ours[name], theirs[name])]
 
 
-def ratios(first: Reports, second: Reports) -> dict[tuple[str, str], float]:
-    """{(chart, series): median of the second's times over the first's}, all relative to the median of all: a machine
-    that is slower in one run is slower everywhere."""
-    found: dict[tuple[str, str], list[float]] = {}
-    for key, rows in first.items():
-        theirs = {_name(row): row for row in second[key]}
-        for row in rows:
-            for name, cost in _costs(row):
-                other = theirs.get(_name(row), {}).get(name)
-                if other:
-                    ratio = other["seconds"][0] / cost["seconds"][0]
-                    found.setdefault((key, str(row["series"])), []).append(ratio)
-    if not found:
-        return {}
-    usual = median(each for every in found.values() for each in every)
-    return {name: median(every) / usual for name, every in found.items()}
+class Change(NamedTuple):
+    """How a series' times in the second report stand to those in the first, beside what was timed in turns with it."""
+
+    ratio: float  # median of the least times
+    sure: float  # share of its rows whose intervals, least to median, are apart
+
+    @property
+    def slower(self) -> bool:
+        """For sure, and by more than what is a tie in a report."""
+        return self.ratio >= 1.0 + TIE_SHARE and self.sure >= SURE
+
+
+def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
+    """{(chart, series): Change}, relative to the median of the same job: a machine is as fast as at any other time for
+    minutes, not for a whole report. Jobs of fewer than LEAST series have nothing to be compared with, and are left out.
+    So are series of fewer than ROWS times. What charts show of others' rows is told once."""
+    found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
+    for chart in charts:
+        if chart.of:
+            continue
+        pairs = list(_pairs(first[chart.key], second[chart.key]))
+        for job in dict.fromkeys(row["job"] for row, _, _ in pairs):
+            mine = [pair for pair in pairs if pair[0]["job"] == job]
+            if len({row["series"] for row, _, _ in mine}) < LEAST:
+                continue
+            usual = median(b[0] / a[0] for _, a, b in mine)
+            for row, a, b in mine:
+                name = chart.key, str(row["series"])
+                found.setdefault(name, []).append((b[0] / a[0] / usual, b[0] > usual * a[1]))
+    return {
+        name: Change(median(ratio for ratio, _ in every), sum(sure for _, sure in every) / len(every))
+        for name, every in found.items()
+        if len(every) >= ROWS
+    }
+
+
+def _pairs(rows, others) -> Iterator[tuple[Row, list[float], list[float]]]:
+    """(row, its seconds, the same in the other report) of every time that both have."""
+    theirs = {_name(row): row for row in others}
+    for row in rows:
+        for name, cost in _costs(row):
+            other = theirs.get(_name(row), {}).get(name)
+            if other:
+                yield row, cost["seconds"], other["seconds"]
 
 
 def _costs(row) -> Iterator[tuple[str, Row]]:
@@ -86,8 +119,11 @@ def main(first: Path, second: Path) -> int:
         print(f"  {name}")
         for each in (one, other):
             print(f"    {each.text}: {each.figure} ({each.verdict})")
-    for (chart, series), ratio in sorted(ratios(a, b).items(), key=lambda pair: -abs(pair[1] - 1.0))[:12]:
-        print(f"  {ratio:6.2f} x  {chart}, {series}")
+    for word, one, other in (("slower", a, b), ("faster", b, a)):
+        slower = [(name, change) for name, change in changes(one, other).items() if change.slower]
+        print(f"{len(slower)} of {len(changes(one, other))} series surely {word} in the second")
+        for (chart, series), change in sorted(slower, key=lambda pair: -pair[1].ratio):
+            print(f"  {change.ratio:6.2f} x  {chart}, {series}")
     return 1 if found else 0
 
 

@@ -16,7 +16,7 @@ STORY = {  # by chart: the panel that tells the most
     "tiers": "wrong hits, poses all around",
     "contacts": "normal, disc against disc",
     "fit": "largest distance",
-    "solvers": "pyramid of 20 rows: overlap after 2 s",
+    "solvers": "pyramid of 20 rows: overlap",
     "integration": "slide down 30 degrees: over dt",
     "continuous": "missed",
     "continuous-time": "100 discs",

@@ -13,27 +13,14 @@ from statistics import median
 from time import perf_counter
 
 import numpy as np
-import pymunk
 
-from physics import Effects, Material, Polygon, World
+from game.report.piles import BOX, EFFECTS, GRAVITY, overlap, pyramid, world_of
+from game.report.pymunk_piles import overlap_in, space_of
 from tests.bench.timing import table
 
-BOX, GAP, FRICTION, GRAVITY = 32.0, 3.2, 0.6, 320.0  # [px], [px] between boxes of a row, -, [px/s2]
 ROWS = (10, 20, 45, 80)  # 55, 210, 1,035, 3,240 boxes
 SECONDS, RATE = 10, 60
 PROJECTION_LIMIT = 20
-EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
-
-
-def places(rows):
-    """(n, 2) centres of the boxes, row by row from the ground."""
-    return np.array(
-        [
-            ((column - (rows - row - 1) / 2) * (BOX + GAP), -BOX / 2 - BOX * row)
-            for row in range(rows)
-            for column in range(rows - row)
-        ]
-    )
 
 
 class Ours:
@@ -41,12 +28,7 @@ class Ours:
 
     def __init__(self, rows, solver, substeps, effects=EFFECTS):
         self.name = f"{solver} {substeps}" if solver != "projection" else solver
-        self.world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
-        width = 2.0 * rows * (BOX + GAP) + 20 * BOX
-        self.world.add_body(
-            Polygon.box(width, 64.0, center=(0.0, 32.0)), kind="static", material=Material(friction=FRICTION)
-        )
-        self.world.add_bodies(Polygon.box(BOX, BOX), places(rows), material=Material(friction=FRICTION))
+        self.world = world_of(pyramid(rows), solver, substeps, effects)
         self.step = self.world.step
 
     def state(self):
@@ -55,8 +37,7 @@ class Ours:
         return np.stack([rows["x"], rows["y"]]), np.stack([rows["vx"], rows["vy"]]), rows["angular_velocity"]
 
     def depth(self):
-        found = self.world.contacts["separation"]
-        return max(0.0, -float(found.min())) if len(found) else 0.0
+        return overlap(self.world)
 
 
 class Pymunk:
@@ -64,41 +45,22 @@ class Pymunk:
 
     def __init__(self, rows):
         self.name = "pymunk"
-        self.space = pymunk.Space()
-        self.space.gravity = (0.0, GRAVITY)
-        width = 2.0 * rows * (BOX + GAP) + 20 * BOX
-        ground = pymunk.Poly(
-            self.space.static_body, [(-width / 2, 0), (width / 2, 0), (width / 2, 64), (-width / 2, 64)]
-        )
-        ground.friction = FRICTION
-        self.space.add(ground)
-        self.bodies = []
-        for x, y in places(rows):
-            body = pymunk.Body(BOX * BOX, pymunk.moment_for_box(BOX * BOX, (BOX, BOX)))
-            body.position = (x, y)
-            shape = pymunk.Poly.create_box(body, (BOX, BOX))
-            shape.friction = FRICTION
-            self.space.add(body, shape)
-            self.bodies.append(body)
+        self.space = space_of(pyramid(rows))
 
     def step(self):
         self.space.step(1 / RATE)
 
     def state(self):
+        bodies = self.space.bodies
         return (
-            np.array([body.position for body in self.bodies]).T,
-            np.array([body.velocity for body in self.bodies]).T,
-            np.array([body.angular_velocity for body in self.bodies]),
+            np.array([body.position for body in bodies]).T,
+            np.array([body.velocity for body in bodies]).T,
+            np.array([body.angular_velocity for body in bodies]),
         )
 
     def depth(self):
-        """By its own contact points, at the poses of now; asked outside of the timed steps."""
-        found = 0.0
-        for body in self.bodies:
-            for shape in body.shapes:
-                for each in self.space.shape_query(shape):
-                    found = max([found] + [-point.distance for point in each.contact_point_set.points])
-        return found
+        """Asked outside of the timed steps."""
+        return overlap_in(self.space)
 
 
 class Run:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from game.measure.power_law import fit_power_law
-from game.measure.timing import Cost, undisturbed
+from game.measure.staged import seconds_of_stage
+from game.measure.timing import Cost
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
 from game.report.job import Job, Plan, Row, spread
@@ -19,7 +20,8 @@ from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effect
 
 SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
 STEPS, RUNS = 60, 5  # 300 steps in all
-SIZES = (10, 100, 1000, 10_000)
+SIZES = (10, 100, 300, 1000, 10_000)
+FROM = 100  # bodies: below, the call costs more than the work
 NAIVE_LIMIT = 1000  # above, a step of every pair takes seconds in all
 WAYS: dict[str, Callable[[], Any]] = {
     **BROADPHASES,
@@ -102,10 +104,10 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
         world.step()
         counters[name] = dict(world.profile.counters)
     truth = len(worlds["hash"].contacts)  # of boxes
-    with undisturbed():
-        for _ in range(RUNS):
-            for name, world in worlds.items():
-                spent[name].append(_broad_phase_of(world))
+    for _ in range(RUNS):
+        for name, world in worlds.items():
+            # Over STEPS, as what moves is looked for once in a few.
+            spent[name].append(seconds_of_stage(world, "broad_phase", STEPS))
     return [
         {
             "series": name,
@@ -125,17 +127,8 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
     ]
 
 
-def _broad_phase_of(world):
-    """Seconds of it a step, over STEPS, as what moves is looked for once in a few."""
-    spent = 0.0
-    for _ in range(STEPS):
-        world.step()
-        spent += world.profile.stages["broad_phase"]
-    return spent / STEPS
-
-
 def _jobs(plan: Plan) -> list[Job]:
-    sizes = SIZES[:3] if plan.quick else SIZES
+    sizes = SIZES[:4] if plan.quick else SIZES
     found = []
     for layout in LAYOUTS:
         for moving in MOVERS:
@@ -153,16 +146,11 @@ def _jobs(plan: Plan) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """(power of n by which a cost grows, its standard error), from 100 bodies on: below, the call costs more than the
-    work. None of fewer than two sizes; two leave no error."""
-    points = [(r["n"], r["cost"]["seconds"][1]) for r in rows if r["series"] == series and r["panel"] == panel]
-    points = [(n, cost) for n, cost in points if n >= 100]
-    if len(points) < 2:
-        return None
-    if len(points) == 2:
-        (n, cost), (other, dearer) = points
-        return math.log(dearer / cost) / math.log(other / n), 0.0
-    return fit_power_law(points)[:2]
+    """(power of n by which a cost grows, its standard error), from FROM bodies on. None of fewer than three sizes: a
+    line through two leaves no error, so how sure it is cannot be told."""
+    mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
+    points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
+    return fit_power_law(points)[:2] if len(points) >= 3 else None
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

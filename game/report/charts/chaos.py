@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
-from game.report.charts.solvers import times_of
 from game.report.claim import HOLDS, TIE, Claim
 from game.report.job import Job, Plan, Row, spread
 from game.report.piles import BOX, EFFECTS, pyramid, world_of
@@ -46,7 +46,7 @@ def measure(seeds: int) -> list[Row]:
             "spread": [float(each) for each in np.percentile(gaps[:, -1], (5, 50, 95))],
             "together": [int((parted >= STEPS / 60.0).sum()), seeds],
         }
-    costs = times_of(steps)
+    costs = timed_steps(steps)
     return [row | {"cost": spread(costs[label])} for label, row in rows.items()]
 
 

@@ -19,7 +19,7 @@ from physics.queries.pair_batch import PairBatch
 RADIUS = 12.0  # [px] of the disc, half the width of the square
 POSES, POSES_QUICK = 4000, 1200
 DEEPEST = 0.2  # of the least extent: what lies deeper has no one way out
-REPEATS = 3
+REPEATS = 10  # tests of a batch in a run: 40,000 pairs, 200,000 in all
 
 
 def disc_mask() -> PixelMask:

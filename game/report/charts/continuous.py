@@ -171,6 +171,11 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
                     "1 - chord / (v dt), averaged over where it flies",
                 )
             )
+    return found
+
+
+def _time_claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
     timed = [row for row in rows if row["panel"] == "time"]
     for count in dict.fromkeys(row["n"] for row in timed):
         sure = {
@@ -240,5 +245,6 @@ TIME_CHART = Chart(
         for count in COUNTS
     ),
     lambda plan: [],
+    _time_claims,
     of="continuous",
 )

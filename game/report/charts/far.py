@@ -1,58 +1,104 @@
 """Chart 9: how far from the origin a pile still is the pile that it is at the origin."""
 
+from collections import Counter
+from collections.abc import Sequence
+
 import numpy as np
 
-from game.report.chart import Axis, Chart, Panel, panel_is, time, value
-from game.report.charts.solvers import times_of
+from game.measure.moment import failures_of
+from game.measure.timing import timed_steps
+from game.report.chart import Axis, Chart, Curve, Panel, panel_is, time, value
+from game.report.claim import FAILS, HOLDS, Claim
 from game.report.job import Job, Plan, Row, spread
 from game.report.piles import overlap, stack, world_of
+from physics import World
 
-DISTANCES = (0.0, 1e3, 1e5, 1e6, 1e7, 1e8, 1e9)  # [px], both ways
+METER = 32.0  # [px]
+DISTANCES = (0.0, 1e3, 1e4, 1e5, 5000.0 * METER, 1e6, 1e7, 1e8, 1e9)  # [px], both ways
 SOLVERS = ("sequential_impulse", "soft_step")
 STEPS, BOXES = 120, 10
+SIZE = 30.3  # [px] of a box: places in round numbers would stay where they are, on the grid of a coarse float
+VISIBLE = 1.0  # [px]
+ROUNDED = ("x", "y", "angle")
+
+
+def round_poses(world: World) -> None:
+    """As where poses are kept in float32, and all else is worked out in float64."""
+    for name in ROUNDED:
+        world.bodies[name] = world.bodies[name].astype(np.float32)
+    world.touch(world.bodies["id"])
 
 
 def measure(solver: str) -> list[Row]:
-    """A row per distance: how far boxes are from where they are in the same run at the origin, and their overlap."""
+    """Two rows per distance: how far boxes are from where they are in the same run at the origin, and their overlap;
+    with poses as they are and rounded after every step. There is no solver in float32: only the first has a time."""
     steps, rows, near = {}, {}, None
-    for away in DISTANCES:
-        world = world_of(stack(BOXES), solver, 4, away=away)
-        for _ in range(STEPS):
-            world.step()
-        places = np.stack([world.bodies["x"], world.bodies["y"]], axis=1) - away
-        near = places if near is None else near
-        steps[away] = world.step
-        rows[away] = {
-            "series": solver,
-            "label": f"{solver}, {away:g} px away",
-            "panel": "far",
-            "away": away,
-            "ulp": float(np.spacing(away)),
-            "apart": float(np.hypot(*(places - near).T).max()),
-            "overlap": overlap(world),
-        }
-    costs = times_of(steps)
-    return [row | {"cost": spread(costs[away])} for away, row in rows.items()]
+    for single in (False, True):
+        for away in DISTANCES:
+            world, failures = world_of(stack(BOXES, SIZE), solver, 4, away=away), Counter()
+            for _ in range(STEPS):
+                world.step()
+                failures += failures_of(world)
+                if single:
+                    round_poses(world)
+            places = np.stack([world.bodies["x"], world.bodies["y"]], axis=1) - away
+            near = places if near is None else near
+            if not single:
+                steps[single, away] = world.step
+            series = f"{solver}, poses in float32" if single else solver
+            rows[single, away] = {
+                "series": series,
+                "label": f"{series}, {away:g} px away",
+                "panel": "far",
+                "solver": solver,
+                "away": away,
+                "single": single,
+                "ulp": float(np.spacing(np.float32(away) if single else away)),
+                "apart": float(np.hypot(*(places - near).T).max()),
+                "overlap": overlap(world),
+                "failures": dict(failures),
+            }
+    costs = timed_steps(steps)
+    return [row | ({"cost": spread(costs[key])} if key in costs else {}) for key, row in rows.items()]
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    return [Job(f"far/{solver}", "game.report.charts.far:measure", {"solver": solver}, 1.5) for solver in SOLVERS]
+    return [Job(f"far/{solver}", "game.report.charts.far:measure", {"solver": solver}, 2.5) for solver in SOLVERS]
 
 
-_away = Axis("from the origin [px]", value("away"))
+def _claims(rows: Sequence[Row]) -> list[Claim]:
+    found = []
+    for solver in SOLVERS:
+        for single, limit, source in ((False, max(DISTANCES), ""), (True, 5000.0 * METER, "Jolt: about 5 km")):
+            mine = [row for row in rows if (row["solver"], row["single"]) == (solver, single) and row["away"] <= limit]
+            if mine:
+                worst = max(mine, key=lambda row: row["apart"])
+                kind = "float32, solved in float64" if single else "float64"
+                text = f"{solver}, poses in {kind}: within a pixel as far as {limit / METER / 1000.0:,.0f} km"
+                figure = f"{worst['apart']:.3g} px at most, {worst['away'] / METER / 1000.0:,.0f} km away"
+                found.append(Claim(text, figure, HOLDS if worst["apart"] <= VISIBLE else FAILS, source))
+    return found
+
+
+ULPS = (
+    Curve("1 ulp of float32", lambda away: float(np.spacing(np.float32(away)))),
+    Curve("1 ulp of float64", lambda away: float(np.spacing(away))),
+)
+_away = Axis("from the origin [px]", value("away"), decades=7)
 CHART = Chart(
     9,
     "far",
     "Far from the origin",
     "How far out do a pile's boxes lie where they lie at the origin?",
-    f"the same {BOXES} boxes at the origin, two seconds later; a dash is what a player can see",
+    f"the same {BOXES} boxes at the origin, two seconds later; dots are what a float32, a float64 can tell apart",
     (
         Panel(
             "boxes",
             _away,
-            Axis("apart from those at the origin [px]", value("apart"), mark=1.0),
+            Axis("apart from those at the origin [px]", value("apart"), mark=1.0, decades=16),
             panel_is("far"),
             "series",
+            curves=ULPS,
         ),
         Panel("overlap", _away, Axis("overlap [px]", value("overlap"), mark=1.0), panel_is("far"), "series"),
         Panel(
@@ -60,4 +106,5 @@ CHART = Chart(
         ),
     ),
     _jobs,
+    _claims,
 )

@@ -5,9 +5,8 @@ from math import pi
 
 import numpy as np
 
-from game.measure.timing import timed_in_turns
+from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
-from game.report.charts.solvers import times_of
 from game.report.claim import Claim, at_least, at_most, ratio_of
 from game.report.job import Job, Plan, Row, spread
 from game.report.piles import EFFECTS, pyramid, world_of
@@ -97,7 +96,7 @@ def measure_events() -> list[Row]:
             "contacts": len(worlds[name].contacts),
             "cost": spread(cost),
         }
-        for name, cost in times_of({name: world.step for name, world in worlds.items()}).items()
+        for name, cost in timed_steps({name: world.step for name, world in worlds.items()}).items()
     ]
 
 

@@ -12,12 +12,12 @@ import pygame
 
 from game.drawing.sprites import load_atlas
 from game.measure.rates import Rate
-from game.measure.timing import timed_in_turns
+from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
-from game.report.charts.solvers import times_of
 from game.report.claim import Claim, at_most, ordering, pair, ratio_of
 from game.report.job import Job, Plan, Row, counted, spread
-from game.report.piles import BOX, FRICTION, GRAVITY, overlap, pyramid, world_of
+from game.report.piles import overlap, pyramid, world_of
+from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
 
 SPRITES = ("player", "saucer_0", "gunship_0")
@@ -26,7 +26,6 @@ RUNS = 5
 ITERATIONS = (2, 5, 10, 20, 40)  # of pymunk's solver
 SUBSTEPS = (1, 2, 4, 8, "auto")
 SETTLE = 120
-PYMUNK_SLOP = 0.1  # [px] its default, which it lets bodies overlap by
 
 
 class Traffic:
@@ -150,10 +149,6 @@ def _step(world, speeds):
 
 def measure_piles(rows: int) -> list[Row]:
     """A row per engine and effort: a pyramid that stands since two seconds. ModuleNotFoundError: no pymunk."""
-    try:
-        import pymunk
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError('pymunk is not installed; it comes with: pip install -e ".[bench]"') from error
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:
         world, label = world_of(made, "soft_step", substeps), f"ours: {substeps} substeps"
@@ -161,11 +156,11 @@ def measure_piles(rows: int) -> list[Row]:
             world.step()
         steps[label], found[label] = world.step, ("ours", overlap(world))
     for count in ITERATIONS:
-        space, label = _space(pymunk, made, count), f"pymunk: {count} iterations"
+        space, label = space_of(made, count), f"pymunk: {count} iterations"
         for _ in range(SETTLE):
             space.step(1 / 60)
-        steps[label], found[label] = partial(space.step, 1 / 60), ("pymunk", _depth(space))
-    costs = times_of(steps)
+        steps[label], found[label] = partial(space.step, 1 / 60), ("pymunk", overlap_in(space))
+    costs = timed_steps(steps)
     return [
         {
             "series": engine,
@@ -176,32 +171,6 @@ def measure_piles(rows: int) -> list[Row]:
         }
         for label, (engine, deep) in found.items()
     ]
-
-
-def _space(pymunk, pile, iterations):
-    space = pymunk.Space()
-    space.gravity, space.iterations, space.collision_slop = (0.0, GRAVITY), iterations, PYMUNK_SLOP
-    width = 60.0 * BOX
-    ground = pymunk.Poly(space.static_body, [(-width, 0), (width, 0), (width, 64), (-width, 64)])
-    ground.friction = FRICTION
-    space.add(ground)
-    for x, y in pile.places:
-        body = pymunk.Body(BOX * BOX, pymunk.moment_for_box(BOX * BOX, (BOX, BOX)))
-        body.position = x, y
-        shape = pymunk.Poly.create_box(body, (BOX, BOX))
-        shape.friction = FRICTION
-        space.add(body, shape)
-    return space
-
-
-def _depth(space):
-    """By its own contact points, at the poses of now [px]."""
-    found = 0.0
-    for shape in space.shapes:
-        if shape.body is not space.static_body:
-            for each in space.shape_query(shape):
-                found = max([found, *(-point.distance for point in each.contact_point_set.points)])
-    return found
 
 
 def _jobs(plan: Plan) -> list[Job]:

@@ -11,12 +11,13 @@ import numpy as np
 from game.measure.rates import Rate
 from game.measure.tiers import Poses, TierFigures, measure_at, poses_around
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
-from game.report.claim import FAILS, HOLDS, Claim, ordering, pair
+from game.report.claim import FAILS, HOLDS, TIE, Claim, ordering, pair
 from game.report.job import Job, Plan, Row, counted, spread
 from game.report.sprites import FEW, SPRITES, mask_of
 from physics import PixelMask, distance, fit
 
 BAND = 2.0  # [px] apart or deep: where tiers differ
+VISIBLE = 1.0  # [px]
 TRIED, TRIED_QUICK = 2000, 500  # poses whose distance is measured, of which some lie within the band
 LEAST_EACH = 20  # hits, and misses, that a set must have
 AROUND, NEAR = "poses all around", "within 2 px of touching"
@@ -102,6 +103,33 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
     return found
 
 
+def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
+    """Who fits within a pixel is a fact; of those the lightest, and the one that is made the fastest."""
+    rows = [row for row in rows if row["panel"] == AROUND]
+    fits = {}
+    for row in rows:
+        fits.setdefault(row["series"], []).append(row["hausdorff"])
+    close = [tier for tier, found in fits.items() if max(found) <= VISIBLE]
+    if len(close) < 2:
+        return []
+    weights = {tier: sum(row["bytes"] for row in rows if row["series"] == tier) for tier in close}
+    ordered = sorted(weights, key=lambda tier: weights[tier])
+    found = [
+        Claim(
+            f"of what fits every sprite within a pixel, {ordered[0]} is the lightest",
+            ", ".join(f"{tier} {weights[tier] / 1024.0:.3g} kB" for tier in ordered)
+            + f" ({len(fits[ordered[0]])} sprites)",
+            HOLDS if weights[ordered[0]] < weights[ordered[1]] else TIE,
+        )
+    ]
+    for sprite in dict.fromkeys(row["sprite"] for row in rows):
+        costs = {
+            row["series"]: pair(row["build_cost"]) for row in rows if row["sprite"] == sprite and row["series"] in close
+        }
+        found.append(ordering(f"{sprite}, to be made within a pixel", costs))
+    return found
+
+
 def _rates(kind, wrong, word, panel):
     return Panel(
         f"{word}, {panel}",
@@ -164,5 +192,6 @@ FIT_CHART = Chart(
         ),
     ),
     lambda plan: [],
+    _fit_claims,
     of="tiers",
 )

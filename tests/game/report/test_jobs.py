@@ -4,7 +4,7 @@ import pytest
 
 from game.errors import UsageError
 from game.report.job import Job, facts_of, run_job
-from game.report.runners import run_here, run_in_processes, run_on_dask
+from game.report.runners import connect, run_here, run_in_processes, run_on_dask
 
 WORK = "tests.game.report.work"
 JOBS = [Job(f"fall/{n}", f"{WORK}:fall", {"bodies": n}) for n in (1, 3, 5, 8)]
@@ -30,7 +30,7 @@ def test_a_cluster_finds_the_same_facts_as_this_process():
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, protocol="tcp", silence_logs=50
     ) as cluster:
-        told = facts(run_on_dask(JOBS, cluster.scheduler_address))
+        told = facts(run_on_dask(JOBS, connect(cluster.scheduler_address)))
     assert told == facts(run_here(JOBS))
 
 
@@ -38,13 +38,20 @@ def test_a_scheduler_that_does_not_answer_is_told(monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.setattr("game.report.runners.PATIENCE", "200ms")
     with pytest.raises(UsageError, match="--dask: no scheduler answers at tcp://127.0.0.1:9"):
-        list(run_on_dask(JOBS, "tcp://127.0.0.1:9"))
+        connect("tcp://127.0.0.1:9")
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://host", "tcp://host:port", "ftp://host:1", ""])
+def test_an_address_that_is_none_is_told_at_once(address):
+    pytest.importorskip("distributed")
+    with pytest.raises(UsageError, match=rf"--dask: {address} is no address such as tcp://host:8786"):
+        connect(address)
 
 
 def test_without_dask_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "dask.distributed", None)
     with pytest.raises(UsageError, match=r"\.\[cluster\]"):
-        list(run_on_dask(JOBS, "tcp://127.0.0.1:9"))
+        connect("tcp://127.0.0.1:9")
 
 
 def test_what_a_job_raises_is_its_result():

@@ -147,6 +147,10 @@ def test_folders_that_cannot_be_used(charts, tmp_path, monkeypatch):
     Store(tmp_path / "r", True)
     with pytest.raises(UsageError, match="holds a quick report"):
         Store(tmp_path / "r", False)
+    with monkeypatch.context() as older:
+        older.setattr("game.report.store.FORMAT", 1)
+        with pytest.raises(UsageError, match="of format 2, this is 1; name another folder"):
+            Store(tmp_path / "r", True)
     monkeypatch.setattr("game.report.store.VERSION", "9.9")
     with pytest.raises(UsageError, match="of version .*, this is 9.9"):
         Store(tmp_path / "r", True)
@@ -195,6 +199,13 @@ def test_without_matplotlib_the_extra_is_named(tmp_path, monkeypatch, capsys):
     plots.library.cache_clear()
 
 
+def test_without_a_scheduler_no_folder_is_made(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("game.report.runners.PATIENCE", "200ms")
+    assert report(tmp_path / "r", "--dask", "tcp://127.0.0.1:9") == 2
+    assert "no scheduler answers at tcp://127.0.0.1:9" in capsys.readouterr().err and not (tmp_path / "r").exists()
+
+
 def test_only_what_is_sure_is_claimed():
     sure = ordering("x", {"a": (1.0, 1.1), "b": (2.0, 2.1), "c": (1.9, 2.2)})
     assert sure.verdict == HOLDS and sure.order == ("a",)
@@ -228,3 +239,13 @@ def test_every_job_of_every_chart_can_be_handed_to_another_process():
                 assert json.loads(json.dumps(job._asdict())) == job._asdict()
     keys = [chart.key for chart in CHARTS]
     assert len(set(keys)) == len(keys) and [c.number for c in CHARTS] == sorted(c.number for c in CHARTS)
+
+
+def test_a_slowest_step_that_is_near_the_budget_is_no_verdict():
+    from game.report.charts.latency import CHART, HALF_BUDGET
+
+    def verdict(most):
+        row = {"label": "x", "cost": {"seconds": [1e-4, 2e-4, 1e-3 * most]}}
+        return CHART.claims([row])[0].verdict
+
+    assert [verdict(share * HALF_BUDGET) for share in (0.85, 0.95, 1.05, 1.15)] == [HOLDS, TIE, TIE, FAILS]

@@ -1,0 +1,39 @@
+"""The report's piles of boxes in pymunk, the peer that pip installs. ModuleNotFoundError names the extra it is in."""
+
+from typing import Any
+
+from game.report.piles import BOX, FRICTION, GRAVITY, Pile
+
+SLOP = 0.1  # [px] its default, which it lets bodies overlap by
+ITERATIONS = 10  # its default
+
+
+def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
+    """Boxes, all as dense as each other, on a wide ground."""
+    try:
+        import pymunk
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError('pymunk is not installed; it comes with: pip install -e ".[bench]"') from error
+    space = pymunk.Space()
+    space.gravity, space.iterations, space.collision_slop = (0.0, GRAVITY), iterations, SLOP
+    width = max(abs(x) for x, _ in pile.places) + 20.0 * BOX
+    ground = pymunk.Poly(space.static_body, [(-width, 0), (width, 0), (width, 64), (-width, 64)])
+    ground.friction = FRICTION
+    space.add(ground)
+    for x, y in pile.places:
+        body = pymunk.Body(BOX * BOX, pymunk.moment_for_box(BOX * BOX, (BOX, BOX)))
+        body.position = x, y
+        shape = pymunk.Poly.create_box(body, (BOX, BOX))
+        shape.friction = FRICTION
+        space.add(body, shape)
+    return space
+
+
+def overlap_in(space: Any) -> float:
+    """The deepest by its own contact points, at the poses of now [px]."""
+    found = 0.0
+    for shape in space.shapes:
+        if shape.body is not space.static_body:
+            for each in space.shape_query(shape):
+                found = max([found, *(-point.distance for point in each.contact_point_set.points)])
+    return found
