@@ -14,12 +14,12 @@ LINE = 64  # [bytes]
 def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
     """The dtype of rows of these fields, in C's alignment, that fill whole lines."""
     packed = np.dtype(list(fields), align=True)
-    names = packed.names or ()
+    placed: Any = packed.fields
     return np.dtype(
         {
-            "names": names,
-            "formats": [packed[name] for name in names],
-            "offsets": [packed.fields[name][1] for name in names],
+            "names": [name for name, _ in fields],
+            "formats": [kind for _, kind in fields],
+            "offsets": [placed[name][1] for name, _ in fields],
             "itemsize": -(-packed.itemsize // LINE) * LINE,
         },
         align=True,
