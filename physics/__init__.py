@@ -10,6 +10,7 @@ from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character, Moved
+from physics.digest import PHYSICS_VERSION
 from physics.effects import Effects
 from physics.jit import JIT
 from physics.queries.casts import RayHit
@@ -58,6 +59,7 @@ __all__ = [
     "Mass",
     "Material",
     "Moved",
+    "PHYSICS_VERSION",
     "PixelMask",
     "Polygon",
     "RayHit",

@@ -63,6 +63,9 @@ def run_headless(options: Options, registry: Registry) -> int:
     finally:
         if recorder is not None and options.record:
             save_or_fail(recorder.save, options.record)
+    if recording is not None and recording.outdated:
+        same = f"{recording.path}: {recording.outdated}, and went the same way"
+        print(recording.parted or same, file=sys.stderr)
     if options.screenshot:
         save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)
     return finish(scene, session.report, options, broken)

@@ -2,7 +2,8 @@
 
 A replay runs the scene again and names the first frame whose digest differs. The file is JSON with one
 line per run of equal input, so that it can be read, compared and repaired by hand. Version 2 also says which level
-was played, when, and how it ended; version 1 is still read.
+was played, when, and how it ended; version 1 is still read. What was recorded under another physics plays, and says
+where it goes another way.
 """
 
 import json
@@ -17,6 +18,7 @@ from game.files.own_levels import level_digest
 from game.input.inputs import ACTIONS, NOTHING, InputFrame
 from game.run.digest import scene_digest
 from game.scene import ASSISTS, Result, Scene
+from physics import PHYSICS_VERSION
 
 FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
@@ -38,6 +40,7 @@ class Recorder:
         self.head = {
             "format": FORMAT,
             "version": VERSION,
+            "physics": PHYSICS_VERSION,
             "scene": scene.name,
             "seed": scene.seed,
             "broadphase": scene.broadphase,
@@ -105,14 +108,21 @@ class Replay:
         self.broadphase, self.solver, self.tier = data["broadphase"], data["solver"], data["tier"]
         self.bot, self.every = data["bot"], data["every"]
         self.level, self.date, self.result = data["level"], data["date"], data["result"]
-        self.digests = data["digests"]
+        self.digests, self.physics = data["digests"], data["physics"]
         self.inputs = frames
         self.index = 0
+        self.parted = ""  # where it went another way than under the physics of then
 
     @property
     def frames(self) -> int:
         """How many steps were recorded."""
         return len(self.inputs)
+
+    @property
+    def outdated(self) -> str:
+        """In words that it was recorded under another physics, "" where it was not."""
+        then = self.physics
+        return "" if then == PHYSICS_VERSION else f"recorded under physics {then}, played under {PHYSICS_VERSION}"
 
     def level_path(self) -> Path | None:
         """The file of the level that was played, None for the scene's own. Raises FileError if it is another now."""
@@ -132,14 +142,17 @@ class Replay:
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
-        """Compare after a step. Raises ReplayDiverged naming the frame."""
+        """Compare after a step. Raises ReplayDiverged naming the frame; under another physics it is noted instead."""
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):
             return
         expected, found = self.digests[frame // self.every - 1], scene_digest(scene)[:DIGITS]
         if found != expected:
             since = "" if self.every == 1 else f" (since frame {frame - self.every})"
-            raise ReplayDiverged(f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}")
+            text = f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}"
+            if not self.outdated:
+                raise ReplayDiverged(text)
+            self.parted = self.parted or f"{text}; {self.outdated}"
 
 
 def load_replay(path: str | Path) -> Replay:
@@ -147,6 +160,8 @@ def load_replay(path: str | Path) -> Replay:
     data = read_json(path)
     if isinstance(data, dict) and data.get("version") == 1:
         data = {**data, "level": None, "date": "", "result": None}
+    if isinstance(data, dict):
+        data.setdefault("physics", 1)  # it was not said
     _check_head(path, data)
     frames = []
     for index, run in enumerate(data["inputs"]):
@@ -196,6 +211,7 @@ def _check_head(path, data):
         "date": str,
         "result": (dict, type(None)),
         "bot": bool,
+        "physics": int,
         "every": int,
         "frames": int,
         "inputs": list,
@@ -206,7 +222,12 @@ def _check_head(path, data):
             raise FileError(path, name, "is missing")
         if not isinstance(data[name], kind) or (kind is int and not _whole(data[name])):
             raise FileError(path, name, f"has the wrong kind of value: {data[name]!r:.60}")
-    for name, least, most in (("every", 1, None), ("frames", 0, LONGEST), ("seed", 0, LARGEST_SEED)):
+    for name, least, most in (
+        ("physics", 1, None),
+        ("every", 1, None),
+        ("frames", 0, LONGEST),
+        ("seed", 0, LARGEST_SEED),
+    ):
         if data[name] < least or (most is not None and data[name] > most):
             must = f"at least {least}" if most is None else f"{least} to {most}"
             raise FileError(path, name, f"must be {must} (got {data[name]!r:.40})")

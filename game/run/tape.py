@@ -64,6 +64,8 @@ class Tape:
         except ReplayDiverged as error:
             if self.diverged_at is None or self.position <= self.diverged_at:
                 self.diverged, self.diverged_at = str(error), self.position
+        if self.recording.parted and self.diverged_at is None:
+            self.diverged, self.diverged_at = self.recording.parted, self.position
         self._note_key()
 
     def _note_key(self):

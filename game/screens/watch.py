@@ -74,8 +74,8 @@ class Watch(SceneScreen):
 
     @property
     def failure(self) -> str:
-        """Where the game differed from the recording, if it did."""
-        return self.tape.diverged
+        """Where the game differed from the recording, if it did; of another physics nothing else is to be expected."""
+        return "" if self.tape.recording.outdated else self.tape.diverged
 
     @property
     def diverged(self) -> bool:
@@ -254,7 +254,8 @@ class Watch(SceneScreen):
 
     def _draw_diverged(self, frame):
         scale = frame.scale_for(LEAST_WIDTH)
-        text = f"DIVERGED at frame {self.tape.diverged_at}: this is not what was played"
+        why = "it was played under another physics" if self.tape.recording.outdated else "this is not what was played"
+        text = f"DIVERGED at frame {self.tape.diverged_at}: {why}"
         width, height = frame.measure(text, TEXT, scale)
         size = (width + 12 * scale, height + 8 * scale)
         area = frame.area.clip(frame.rect)

@@ -12,7 +12,9 @@ from game.run.replay import Recorder, load_replay
 from game.run.replay_check import load_replay_for
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
+from game.run.tape import Tape
 from game.scene import Result
+from physics import PHYSICS_VERSION
 from tests.game.arena import LISTING, Arena, Race
 
 
@@ -26,13 +28,16 @@ def record(path, frames=40, source=None, **chosen):
     return scene
 
 
-def replay(path, **chosen):
-    replay = load_replay(path)
+def played(replay, **chosen):
     scene = Arena(seed=replay.seed, **chosen)
     session = Session(scene, replay, replay=replay)
     for _ in range(replay.frames):
         session.step()
     return scene
+
+
+def replay(path, **chosen):
+    return played(load_replay(path), **chosen)
 
 
 def test_a_replay_ends_in_the_same_state(tmp_path):
@@ -72,7 +77,34 @@ def test_a_divergence_names_its_frame(tmp_path):
         replay(path)
 
 
+@pytest.mark.parametrize("then", [1, PHYSICS_VERSION + 1])
+def test_what_was_recorded_under_another_physics_plays_and_says_where_it_parts(tmp_path, then):
+    path = tmp_path / "run.json"
+    first = record(path)
+    data = json.loads(path.read_text())
+    assert data["physics"] == PHYSICS_VERSION
+    if then == 1:
+        del data["physics"]  # before it was said
+    else:
+        data["physics"] = then
+    path.write_text(json.dumps(data))
+    same = load_replay(path)
+    assert scene_digest(played(same)) == scene_digest(first)
+    assert same.parted == "" and same.outdated == f"recorded under physics {then}, played under {PHYSICS_VERSION}"
+    data["digests"][20:] = ["0" * 16] * (len(data["digests"]) - 20)
+    path.write_text(json.dumps(data))
+    other = load_replay(path)
+    assert scene_digest(played(other)) == scene_digest(first)
+    assert "diverged at frame 21:" in other.parted and other.parted.endswith(other.outdated)
+    tape = Tape(lambda: Arena(seed=other.seed), load_replay(path))
+    while not tape.ended:
+        tape.step()
+    assert tape.diverged_at == 21 and tape.diverged == other.parted
+
+
 DAMAGE = [
+    (lambda d: d.update(physics="new"), "physics"),
+    (lambda d: d.update(physics=0), "physics"),
     (lambda d: d.pop("seed"), "seed"),
     (lambda d: d.update(seed="one"), "seed"),
     (lambda d: d.update(version=3), "version"),
