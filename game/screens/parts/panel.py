@@ -17,6 +17,7 @@ HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE, LINE = "head", "check", "choice", "sl
 LIVE = (CHECK, CHOICE, SLIDER, BUTTON, LINE)
 ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9, LINE: 9}  # [text px]
 CELL = 34  # [text px] that a column of a table is wide
+LABEL, ARROWS = 24, 20  # [text px] that a choice leaves to its label, and that stand beside what is chosen
 WHEEL_ROWS = 3
 
 
@@ -177,7 +178,9 @@ class Panel:
         if row.key:
             frame.text(row.key, right, rect.y + 3 * scale, FOG, SMALL, scale, "right")
             right -= 18 * scale
-        value = row.value if row.kind != CHOICE else f"\u2190 {row.value} \u2192"
+        value = row.value
+        if row.kind == CHOICE:
+            value = f"\u2190 {shorten(value, right - x - (LABEL + ARROWS) * scale, TEXT, scale)} \u2192"
         if value:
             right = frame.text(value, right, text_y, SKY if row.turn or row.put else FOG, TEXT, scale, "right").left
         label = shorten(row.label, right - x - 4 * scale, TEXT, scale)
