@@ -16,6 +16,7 @@ from physics import World
 DRIFT = 1e-10  # of the momentum's scale in LONG steps (hard_cases U3) …
 TWIST = 1e-3  # … and of the spin's, which letting overlaps out breaks slightly (U4)
 GAIN = 0.01  # of the energy in play (U5)
+STILL = 1e-9  # sleeping speeds: what is slower is what rounding leaves of a stop
 LONG = 600  # steps
 APART = 2.0  # slops that bodies may overlap by at the start: what lies deeper is lifted out
 
@@ -162,8 +163,9 @@ class Account:
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
         """(how far the energy is above the start, how far it may be).
 
-        1 % of the energy in play and m g slop of each body, and the overlap that it is let out of. A body that is
-        stopped on its way keeps the speed it would have had at the end of it: m g v dt for those.
+        1 % of the energy in play and m g slop of each body, and the overlap that it is let out of, and what rounding
+        leaves of a stop. A body that is stopped on its way keeps the speed it would have had at the end of it: m g v dt
+        for those.
         """
         self._span(now)
         energy = now.energy
@@ -171,7 +173,9 @@ class Account:
         in_play = now.kinetic + now.total_mass * max(0.0, self.high - self.low)
         late = world.bodies["fraction"] < 1.0
         ahead = float((now.mass * now.speed)[late].sum()) * math.hypot(*now.gravity) * world.dt
-        return energy - self.start, GAIN * in_play + now.weight * (world.tolerances.slop + self.overlap) + ahead
+        rounding = 0.5 * now.total_mass * (STILL * world.tolerances.sleep_speed) ** 2
+        allowed = GAIN * in_play + now.weight * (world.tolerances.slop + self.overlap) + ahead + rounding
+        return energy - self.start, allowed
 
 
 class Energy(Invariant):
