@@ -71,22 +71,29 @@ class Direct(Dispatcher):
     """A kernel that is always called with the same types: after the first call they are not looked at again.
 
     Measured: numba takes 1.07 us to look at six tables, and 0.1 for the call; a step of 55 boxes makes 30 of them. What
-    differs in size is still refused by the compiled function; what differs in kind, or does not lie side by side, under
-    HITBOX_CHECK_CALLS=1.
+    differs in size, and a fraction for a whole number, is still refused; what differs in kind, or does not lie side by
+    side, under HITBOX_CHECK_CALLS=1. A kernel that is called with several types is a `generic` one.
     """
 
     compiled: Callable | None = None
     types: tuple = ()
+    whole: tuple[int, ...] = ()  # which arguments are whole numbers
 
     def __call__(self, *arguments):
         compiled = self.compiled
         if compiled is not None:
+            for place in self.whole:
+                if isinstance(arguments[place], float):
+                    self._check(arguments)
             if CHECKING:
                 self._check(arguments)
             return compiled(*arguments)
         result = Dispatcher.__call__(self, *arguments)
         self.types = tuple(type_of(self, each) for each in arguments)
         if self.types in self.overloads:
+            self.whole = tuple(
+                k for k, each in enumerate(self.types) if isinstance(each, (types.Integer, types.Boolean))
+            )
             self.compiled = self.overloads[self.types].entry_point
         return result
 

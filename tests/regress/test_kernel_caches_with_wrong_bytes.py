@@ -14,13 +14,13 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 ROOT = Path(physics.__file__).parent.parent
 # A kernel that calls another, with two versions of each: of whole numbers and of fractions.
 KERNELS = """
-from physics.jit import kernel, subkernel
+from physics.jit import generic, subkernel
 
 @subkernel
 def twice(value):
     return value + value
 
-@kernel
+@generic
 def total(values):
     found = values[0] - values[0]
     for value in values:
