@@ -196,8 +196,6 @@ def pack_rows(
             c = blocks_out.lines[found * SIZE : (found + 1) * SIZE]
             for lane in range(LANES):
                 i = at + lane if lane < count else -1
-                if i < 0 and blocks_out.row_of[found, lane] < 0:
-                    continue  # nothing comes of nothing: it is what it was
                 blocks_out.row_of[found, lane] = i
                 if i < 0:
                     blocks_out.motion_a[found, lane] = 0
