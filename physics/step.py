@@ -33,6 +33,7 @@ from physics.solver.pushes import PushSet
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
 from physics.tables.counters import CARVED_PIXELS
+from physics.tables.lines import zeros_in_lines
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.step_state import Stage, StepState, stage
 from physics.targets import aim, arrive
@@ -107,6 +108,18 @@ def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
+class ContactRows(NamedTuple):
+    """Room for contacts: rows of both tables belong together."""
+
+    manifolds: np.ndarray  # MANIFOLD
+    anchors: np.ndarray  # ANCHOR
+
+
+def contact_rows(count: int) -> ContactRows:
+    """Room for so many contacts."""
+    return ContactRows(zeros_in_lines(count, MANIFOLD), zeros_in_lines(count, ANCHOR))
+
+
 class Workspace:
     """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
 
@@ -122,15 +135,16 @@ class Workspace:
         self.motions = Motions() if stacks else None
         self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
-        self._anchors = [np.zeros(16, ANCHOR), np.zeros(16, ANCHOR)] if stacks else []
+        self._contacts = [contact_rows(16), contact_rows(16)] if stacks else []
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
 
-    def anchors_for(self, count: int) -> np.ndarray:
-        """ANCHOR rows for the manifolds of this step; those of the step before stay as they are."""
-        self._anchors.reverse()
-        if len(self._anchors[0]) < count:
-            self._anchors[0] = np.zeros(2 * count, ANCHOR)
-        return self._anchors[0][:count]
+    def contacts_beside(self, manifolds: np.ndarray, count: int) -> ContactRows:
+        """Room for so many contacts in the tables that do not hold these manifolds."""
+        if manifolds.base is self._contacts[0].manifolds.base:
+            self._contacts.reverse()
+        if len(self._contacts[0].anchors) < count:
+            self._contacts[0] = contact_rows(2 * count)
+        return self._contacts[0]
 
     def rows_for(self, count: int) -> np.ndarray:
         """Room for that many row numbers."""

@@ -22,6 +22,7 @@ from physics.dynamics.sleepers import in_order, order_of
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.counters import CAP_HITS
 from physics.tables.manifold import MANIFOLD
+from physics.tables.rows import joined
 from physics.tables.shape import MASK
 from physics.tables.step_state import StepState, stage
 
@@ -183,7 +184,7 @@ def detect_moved(state: StepState) -> None:
     # Where nothing responds it may have ended inside, nearer to the far side.
     manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
-    state.manifolds = in_order(np.concatenate([manifolds, met]))
+    state.manifolds = in_order(joined([manifolds, met]))
 
 
 def _written(state, impacts, response) -> np.ndarray:
@@ -353,7 +354,7 @@ def _tell(state, met):
         # The impact is told, with its impulse, by the contact of the next step.
         touch_where_they_are(state, new)
         new["speed_1"] = new["speed_2"] = 0.0
-        both = np.concatenate([state.manifolds, new])
+        both = joined([state.manifolds, new])
         order = order_of(both)
         state.manifolds = both[order]
-        state.anchors = np.concatenate([state.anchors, anchors_of(state, new)])[order]
+        state.anchors = joined([state.anchors, anchors_of(state, new)])[order]

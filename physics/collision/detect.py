@@ -3,12 +3,13 @@
 import numpy as np
 
 from physics.collision.approach import measure_approach
-from physics.collision.box_pairs import SENSORS, SOLIDS
-from physics.collision.persist import carry_over
+from physics.collision.box_pairs import SENSORS
+from physics.collision.carry_over import carry_over, take_places
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel
 from physics.shapes.rasters import draw_masks
 from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.rows import joined
 from physics.tables.step_state import StepState, stage
 
 NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
@@ -73,29 +74,31 @@ def detect_ended(state: StepState) -> None:
 )
 def detect_piles(state: StepState) -> None:
     """Manifolds where the step begins, up to the speculative distance, with the forces of the step before."""
-    tolerances, previous, bodies = state.tolerances, state.manifolds, state.bodies
+    tolerances, previous, anchors = state.tolerances, state.manifolds, state.anchors
     if not len(state.awake.bodies):
         state.manifolds, state.anchors = NOTHING, UNANCHORED
         return
-    tables, narrow = state.library.tables, state.workspace.narrow
-    manifolds = narrow.collide(
-        tables,
-        bodies,
-        state.shapes,
+    places = state.library.tables, state.bodies, state.shapes
+    found, stale = state.workspace.narrow.update(
+        *places,
         state.pairs.rows,
         tolerances.speculative,
         state.work,
-        which=SOLIDS,
         bias=BIAS * tolerances.slop,
-        previous=previous,
-        anchors=state.anchors,
-        recycle=tolerances.recycle,
         graze=GRAZE * tolerances.slop,
         ahead=state.dt,
+        previous=previous,
+        anchors=anchors,
+        recycle=tolerances.recycle,
     )
-    anchors = state.workspace.anchors_for(len(manifolds))
-    carry_over(tables, bodies, state.shapes, previous, state.anchors, manifolds, anchors)
-    state.manifolds, state.anchors = manifolds, anchors
+    if not (len(found) or len(stale)):
+        return  # all are used again, where they stand
+    kept = len(previous) - len(stale)
+    others = state.workspace.contacts_beside(previous, kept + len(found))
+    if kept and take_places(*places, stale, found, others.anchors, previous, anchors):
+        return
+    count = carry_over(*places, previous, anchors, stale, found, *others)
+    state.manifolds, state.anchors = others.manifolds[:count], others.anchors[:count]
 
 
 @kernel
@@ -140,7 +143,7 @@ def sense(state: StepState) -> None:
     if len(swept):
         known = sensed["shape_a"] << 32 | sensed["shape_b"]
         swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
-        sensed = in_order(np.concatenate([sensed, swept]))
+        sensed = in_order(joined([sensed, swept]))
         state.swept_sensors = swept[:0]
     measure_approach(bodies, sensed)
     state.sensed = sensed

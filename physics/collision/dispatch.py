@@ -1,11 +1,13 @@
 """From candidate pairs to contacts: one pass per kind of pair, called only when such pairs are there."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from physics.collision.ahead import reach_of
-from physics.collision.approach import nearing
-from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, collide_boxes, may_change
+from physics.collision.box_pairs import ALL, SOLIDS, collide_boxes
+from physics.collision.carry_over import copy_kept
 from physics.collision.chain_pairs import collide_chain_pairs
+from physics.collision.classify import PARTED, classify
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.left_over import drop_opposed, settle_left
 from physics.collision.manifold import (
@@ -34,107 +36,17 @@ from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_p
 from physics.collision.persist import recycle_manifolds, remember_ground
 from physics.collision.surfaces import admit_to_surfaces
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
-from physics.jit import kernel, subkernel
-from physics.tables.counters import COUNTERS, NARROW_TESTS, SENSOR_TESTS
+from physics.tables.counters import COUNTERS
 from physics.tables.geometry import Geometry
+from physics.tables.lines import zeros_in_lines
 from physics.tables.manifold import MANIFOLD
-from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
-
-PARTED = NOTHING + 1  # behind the kinds of pairs: where it is counted how many are of parts
 
 
-@subkernel
-def kind_of_pair(low, high):
-    """The kind of pair of two shape kinds, the lower first."""
-    if low == CIRCLE and high == CIRCLE:
-        return CIRCLES
-    # Grids and chains carry, and are never moved by what they meet.
-    if high == CHAIN:
-        return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
-    if high == TILES or low == TILES:
-        return GRID_ANY if low != high else NOTHING
-    if low == MASK and high == MASK:
-        return MASKS
-    if low == MASK or high == MASK:
-        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
-    return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+class Found(NamedTuple):
+    """What became of the manifolds of the step before, and what was found beside those that are used again."""
 
-
-@subkernel
-def as_snapped(kind, a, b):
-    """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
-    snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
-    surface."""
-    if kind == CHAIN_ANY:
-        chain = a if a.kind == CHAIN else b
-        return SURFACE_ANY if chain.role == PART else kind
-    if kind == MASKS:
-        return kind if a.snap and b.snap else MASKS_EXACT
-    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
-        return kind if a.snap or b.snap else MASK_HULL_EXACT
-    return kind
-
-
-@subkernel
-def boxes_apart(a, b, margin):
-    """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
-    return (
-        a.min_x - margin > b.max_x
-        or b.min_x - margin > a.max_x
-        or a.min_y - margin > b.max_y
-        or b.min_y - margin > a.max_y
-    )
-
-
-@kernel
-def classify(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    count,
-    margin,
-    ahead,
-    which,
-    # write
-    kind_out,
-    counts_out,
-    work_inout,
-):
-    """Write the kind of every candidate pair, how many there are of each, and in how many, counts_out[PARTED], a side
-    is a part of another shape. O(candidates).
-
-    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
-    within `ahead` [s], or only the SENSORS. The others are NOTHING.
-    """
-    for i in range(len(counts_out)):
-        counts_out[i] = 0
-    sensors = 0
-    for i in range(count):
-        a = shapes[candidates[i, 0]]
-        b = shapes[candidates[i, 1]]
-        sensor = a.sensor or b.sensor
-        kind = NOTHING
-        if which == ALL or sensor == (which == SENSORS):
-            kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
-        if kind != NOTHING and which != ALL:
-            apart = boxes_apart(a, b, margin)
-            if apart and ahead > 0.0 and kind <= POLYGONS:
-                p = bodies[a.body_row]
-                q = bodies[b.body_row]
-                _, _, speed = nearing(p, q)
-                apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
-            if apart:
-                kind = NOTHING
-            elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
-                kind = NOTHING
-        kind_out[i] = kind
-        counts_out[kind] += 1
-        if kind != NOTHING and (a.owner != a.id or b.owner != b.id):
-            counts_out[PARTED] += 1
-        sensors += int(sensor and kind != NOTHING)
-    work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
-    work_inout[SENSOR_TESTS] += sensors
+    rows: np.ndarray  # MANIFOLD, in the order of their candidates: until the next call
+    stale: np.ndarray  # int32 rows of those before that are not used again where they stand, ascending
 
 
 class NarrowPhase:
@@ -163,8 +75,8 @@ class NarrowPhase:
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts, self.deep = np.zeros(PARTED + 1, np.int64), np.zeros(64, bool)
-        self.raw, self.ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
-        self.last_raw, self.last_ordered = np.zeros(64, MANIFOLD), np.zeros(64, MANIFOLD)
+        self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, MANIFOLD) for _ in range(4))
+        self.stale = np.zeros(64, np.int32)
 
     def collide(
         self,
@@ -177,8 +89,6 @@ class NarrowPhase:
         which: int = ALL,
         bias: float = 0.0,
         previous: np.ndarray | None = None,
-        anchors: np.ndarray | None = None,
-        recycle: float = 0.0,
         graze: float = 0.0,
         ahead: float = 0.0,
     ) -> np.ndarray:
@@ -186,48 +96,83 @@ class NarrowPhase:
 
         candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
         which: see classify; bias [px]: see hulls.collide_hulls. previous: manifolds of the step before, which tell who
-        stood on what is open from below; with their anchors they are used again where nothing moved by more than
-        `recycle` [px]. graze [px], ahead [s]: see Batch.
+        stood on what is open from below. graze [px], ahead [s]: see Batch.
         """
-        count = len(candidates)
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
-        if len(self.kinds) < count + 1:
-            self.kinds = np.zeros(2 * count + 1, np.int64)
-        batch = Batch(
-            geometry,
-            bodies,
-            shapes,
-            candidates,
-            self.kinds,
-            count,
-            float(margin),
-            float(bias),
-            float(graze),
-            float(ahead),
-        )
+        count = len(candidates)
+        self._make_room_for_pairs(count)
+        margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
+        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
         if self.boxes_only:
-            return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+            return self._boxes(batch, which, work)
         classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
-        again, workspace = 0, self.workspace
-        if previous is not None and len(previous):
-            if anchors is not None:
-                again = self._recycle(batch, previous, anchors, recycle)
-            if self.one_way and (self.counts[GRID_ANY] or self.counts[SURFACE_ANY]):
-                workspace = self._remember(batch, previous)
-        if self.one_way and self.counts[SURFACE_ANY]:
-            admit_to_surfaces(batch, workspace is not self.workspace, workspace, self.kinds, self.counts)
-        counts, found, orders = self.counts.tolist(), again, int(again > 0)
+        return self._complete(batch, previous, 0, work)
+
+    def update(
+        self,
+        geometry: Geometry,
+        bodies: np.ndarray,
+        shapes: np.ndarray,
+        candidates: np.ndarray,
+        margin: float,
+        work: np.ndarray,
+        bias: float,
+        graze: float,
+        ahead: float,
+        previous: np.ndarray,
+        anchors: np.ndarray,
+        recycle: float,
+    ) -> Found:
+        """As `collide` of what is solid, but manifolds of the step before whose points moved by no more than `recycle`
+        [px] follow their bodies where they stand: previous, with their anchors. What else is found stands beside them.
+        """
+        count = len(candidates)
+        self._make_room_for_pairs(count)
+        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        if len(self.stale) < len(previous):
+            self.stale = np.zeros(2 * len(previous), np.int32)
+        if self.boxes_only:
+            return Found(self._boxes(batch, SOLIDS, work), self._all_stale(previous))
+        classify(bodies, shapes, candidates, count, margin, ahead, SOLIDS, self.kinds, self.counts, work)
+        left = recycle_manifolds(batch, recycle, previous, anchors, self.kinds, self.counts, self.stale)
+        stale = self.stale[:left]
+        again = 0
+        if left < len(previous) and self.counts[PARTED]:
+            # Parts are told by what the others of their shape tell: all stand together.
+            again = len(previous) - left
+            self._make_room(again)
+            copy_kept(previous, stale, self.raw)
+            stale = self._all_stale(previous)
+        return Found(self._complete(batch, previous, again, work), stale)
+
+    def _boxes(self, batch, which, work) -> np.ndarray:
+        return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+
+    def _all_stale(self, previous) -> np.ndarray:
+        self.stale[: len(previous)] = np.arange(len(previous))
+        return self.stale[: len(previous)]
+
+    def _complete(self, batch, previous, again, work) -> np.ndarray:
+        """The manifolds of all pairs whose kinds are counted, in the order of the candidates; `again`: how many there
+        are already."""
+        workspace, counts = self.workspace, self.counts
+        if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
+            remembered = previous is not None and len(previous) > 0
+            workspace = self._remember(batch, previous) if remembered else workspace
+            if counts[SURFACE_ANY]:
+                admit_to_surfaces(batch, remembered, workspace, self.kinds, counts)
+        counts, found, orders = counts.tolist(), again, int(again > 0)
         if any(counts[:NOTHING]):
             found, parts = self._detect(batch, workspace, previous, counts, again, work)
             orders += parts
         if counts[PARTED] and (counts[POLYGONS] or again):
-            found = drop_opposed(bodies, found, margin, self._deep_for(found), self.raw)
+            found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
         if orders < 2:
             return self.raw[:found]
         if len(self.ordered) < len(self.raw):
-            self.ordered = np.zeros(len(self.raw), MANIFOLD)
-        place_in_order(self.raw, found, count, self.kinds, self.ordered)
+            self.ordered = zeros_in_lines(len(self.raw), MANIFOLD)
+        place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
@@ -254,12 +199,6 @@ class NarrowPhase:
         self.raw[found : found + len(rest)] = rest
         return found + len(rest), len(used) + (len(rest) > 0)
 
-    def _recycle(self, batch, previous, anchors, distance) -> int:
-        """Use manifolds of the step before again, at the beginning of `raw`. Returns their number."""
-        if len(previous) > len(self.raw):
-            self.raw = np.zeros(2 * len(previous), MANIFOLD)
-        return recycle_manifolds(batch, previous, anchors, distance, self.kinds, self.counts, self.raw)
-
     def _remember(self, batch, previous):
         """The workspace with the previous manifolds of every pair with ground that may be open from below."""
         if len(self.workspace.memory) < batch.count:
@@ -277,6 +216,10 @@ class NarrowPhase:
             found = run()
         return found
 
+    def _make_room_for_pairs(self, count):
+        if len(self.kinds) < count + 1:
+            self.kinds = np.zeros(2 * count + 1, np.int64)
+
     def _deep_for(self, count) -> np.ndarray:
         """Room for so many flags."""
         if len(self.deep) < count:
@@ -286,8 +229,8 @@ class NarrowPhase:
     def _make_room(self, count):
         if count > len(self.raw):
             kept = self.raw
-            self.raw = np.zeros(2 * count, MANIFOLD)
-            self.raw[: len(kept)] = kept  # the recycled ones stand at the beginning
+            self.raw = zeros_in_lines(2 * count, MANIFOLD)
+            self.raw[: len(kept)] = kept  # what is used again may stand at the beginning
 
 
 def narrow_phase_for_queries() -> NarrowPhase:

@@ -4,7 +4,7 @@ Solvers, sweeps and characters move bodies one after the other. What is told, se
 after all of them; contacts are carried there by their anchors, nothing is detected twice.
 """
 
-from physics.collision.persist import follow_bodies
+from physics.collision.follow import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.tables.step_state import StepState, stage
 

@@ -7,9 +7,9 @@ the spot, and each new point takes over from the old one that stood where it sta
 import numpy as np
 
 from physics.collision.box_pairs import SOLIDS
+from physics.collision.carry_over import carry_over
 from physics.collision.detect import BIAS
 from physics.collision.dispatch import no_work
-from physics.collision.persist import carry_over
 from physics.dynamics.sleepers import order_of
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.manifold import ANCHOR, MANIFOLD
@@ -59,14 +59,14 @@ class KeptForces:
             which=SOLIDS,
             bias=BIAS * slop,
             previous=self._stood_on(shapes, pairs),
-        ).copy()
-        anchors = np.zeros(len(found), ANCHOR)
-        none = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
-        carry_over(tables.library.tables, tables.bodies, shapes, *none, found, anchors)
-        for manifold, anchor in zip(found, anchors, strict=True):
+        )
+        manifolds, anchors = np.zeros(len(found), MANIFOLD), np.zeros(len(found), ANCHOR)
+        none = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR), np.zeros(0, np.int32)
+        carry_over(tables.library.tables, tables.bodies, shapes, *none, found, manifolds, anchors)
+        for manifold, anchor in zip(manifolds, anchors, strict=True):
             for k in range(1, int(manifold["count"]) + 1):
                 self._take(manifold, anchor, k, speculative)
-        known = joined([tables.manifolds, found])
+        known = joined([tables.manifolds, manifolds])
         order = order_of(known)
         tables.manifolds, tables.anchors = known[order], joined([tables.anchors, anchors])[order]
 

@@ -157,9 +157,9 @@ def order_edges(
     # write
     starts_out,
     cursors_out,
-    ordered_out,
+    places_out,
 ):
-    """Sort the edges by class and colour, keeping their order within one: ordered_out (count) int32 edge numbers.
+    """Sort the edges by class and colour, keeping their order within one: places_out (count) int32 where each comes.
 
     classes (nodes) int32, 0 for what joins no island; or NO_CLASSES. starts_out: where each slot starts, and where the
     last ends; cursors_out: scratch as long. O(count).
@@ -171,9 +171,8 @@ def order_edges(
     add_up(starts_out, cursors_out)
     for i in range(count):
         slot = slot_of(i, edges, colors, classes)
-        at = cursors_out[slot]
-        cursors_out[slot] = at + 1
-        ordered_out[at] = i
+        places_out[i] = cursors_out[slot]
+        cursors_out[slot] += 1
 
 
 @kernel

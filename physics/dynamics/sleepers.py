@@ -6,6 +6,7 @@ import numpy as np
 
 from physics.tables.contact import EVENT
 from physics.tables.manifold import MANIFOLD
+from physics.tables.rows import joined
 from physics.tables.world_tables import WorldTables
 
 
@@ -86,11 +87,11 @@ class Sleepers:
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].manifolds
             parts.append(m[(m["body_a"] == identity) | (m["body_b"] == identity)])
-        return in_order(np.concatenate(parts))
+        return in_order(joined(parts))
 
     def manifolds(self) -> np.ndarray:
         """MANIFOLD rows of all islands in the order of shape ids."""
-        return in_order(np.concatenate([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
+        return in_order(joined([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
 
     def keep_told(self, tables: WorldTables) -> None:
         """Put the pairs aside that touch, or are sensed, and of which neither side is in the step any longer."""

@@ -31,6 +31,7 @@ from physics.shapes.rows import place
 from physics.shapes.tiles import TileGrid
 from physics.tables.body import BODY
 from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
+from physics.tables.rows import joined
 from physics.tables.shape import CHAIN, MASK, PART, PIXELS, SHAPE
 from physics.vec2 import Vec2
 
@@ -273,8 +274,8 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
 def _contacts(world, bodies, shapes, rows):
     """Manifolds of a probe, as B, with the shapes in these rows; `candidate` tells which."""
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
-    all_bodies = np.concatenate([world.bodies[others], bodies])
-    all_shapes = np.concatenate([world.shapes[rows], shapes])
+    all_bodies = joined([world.bodies[others], bodies])
+    all_shapes = joined([world.shapes[rows], shapes])
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
     narrow = narrow_phase_for_queries()

@@ -6,7 +6,8 @@ import numpy as np
 
 from physics import checks
 from physics.checks import Pose
-from physics.collision.dispatch import exact_narrow_phase, kind_of_pair, no_work
+from physics.collision.classify import kind_of_pair
+from physics.collision.dispatch import exact_narrow_phase, no_work
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
 from physics.queries.pair_rows import any_pair, hull_pair, hull_row, name_of

@@ -15,7 +15,7 @@ from physics.ccd.sweep import push_stopped
 from physics.collision.anchors import anchors_of
 from physics.collision.approach import closing_speed
 from physics.collision.detect import detect
-from physics.collision.persist import follow_bodies
+from physics.collision.follow import follow_bodies
 from physics.dynamics.integrate import place_shapes
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel, subkernel
@@ -23,6 +23,7 @@ from physics.math2d import turned
 from physics.solver.pushes import PushSet
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.counters import SOLVER_ROWS
+from physics.tables.rows import joined
 from physics.tables.step_state import StepState, stage
 
 
@@ -100,7 +101,7 @@ def _make_way(state, stayed):
     """
     bodies, manifolds, sweeper = state.bodies, state.manifolds, state.workspace.sweep
     overlaps = (manifolds["separation_1"] < 0.0) | ((manifolds["count"] == 2) & (manifolds["separation_2"] < 0.0))
-    met = np.concatenate([manifolds[overlaps & ~manifolds["sensor"]], stayed])
+    met = joined([manifolds[overlaps & ~manifolds["sensor"]], stayed])
     rows = np.union1d(met["body_row_a"], met["body_row_b"])
     rows = rows[bodies["kind"][rows] == DYNAMIC]
     moving = state.awake.bodies
@@ -128,14 +129,14 @@ def solve(state: StepState, contacts: PushSet) -> float:
         anchors.append(seen[met])
         place_shapes(state)
         state.manifolds = detect(state)
-    _make_way(state, np.concatenate([state.manifolds[:0], *stopped]))
+    _make_way(state, joined([state.manifolds[:0], *stopped]))
     stop_approach(bodies, state.manifolds)
     if stopped:
-        met = np.concatenate(stopped)
+        met = joined(stopped)
         stop_approach(bodies, met)
-        follow_bodies(bodies, np.concatenate(anchors), met)
+        follow_bodies(bodies, joined(anchors), met)
         others = state.manifolds[~np.isin(state.manifolds["candidate"], met["candidate"])]
-        state.manifolds = in_order(np.concatenate([others, met]))
+        state.manifolds = in_order(joined([others, met]))
     return state.dt
 
 

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from physics.collision.anchors import write_anchors
+from physics.collision.follow import follow_bodies
 from physics.collision.materials import mixed
-from physics.collision.persist import follow_bodies
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.tables.constraint import PUSH

@@ -19,11 +19,12 @@ from physics.tables.step_state import StepState
 class Plan(NamedTuple):
     """Which manifolds are solved, and in which order."""
 
+    count: int  # edges in use
     selected: np.ndarray  # (edges) manifold of each edge
     edges: np.ndarray  # (edges, 2) int32 rows of MOTION
     colors: np.ndarray  # (edges) int32 of each edge
     degrees: np.ndarray  # (motions) edges of each
-    ordered: np.ndarray  # (edges) int32 edges by group and colour
+    places: np.ndarray  # (edges) int32 row of each among the constraints, by group and colour
 
 
 class Group(NamedTuple):
@@ -157,7 +158,7 @@ class Selection:
 
     def __init__(self) -> None:
         self.count = 0
-        self.selected, self.ordered, self.colors = (np.zeros(16, np.int32) for _ in range(3))
+        self.selected, self.places, self.colors = (np.zeros(16, np.int32) for _ in range(3))
         self.edges = np.zeros((16, 2), np.int32)
         self.taken, self.degrees = np.zeros(16, np.int64), np.zeros(16, np.int64)
         self.parents, self.classes, self.members = (np.zeros(16, np.int32) for _ in range(3))
@@ -172,7 +173,7 @@ class Selection:
             self.parents, self.classes, self.members = (np.zeros(2 * motions, np.int32) for _ in range(3))
         if len(self.selected) < manifolds:
             self.edges = np.zeros((2 * manifolds, 2), np.int32)
-            self.selected, self.ordered, self.colors = (np.zeros(2 * manifolds, np.int32) for _ in range(3))
+            self.selected, self.places, self.colors = (np.zeros(2 * manifolds, np.int32) for _ in range(3))
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Select, colour and order the contacts; substeps 0: as many as each island asks for."""
@@ -184,14 +185,14 @@ class Selection:
         )
         if substeps:
             starts = self.starts[: COLORS + 2]
-            order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.ordered)
+            order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.places)
             return [Group(substeps, 0, self.count, motions.movers, starts)]
         classes, parents = self.classes[: len(rows)], self.parents[: len(rows)]
         class_motions(rows, degrees, self.choices, classes)
         rate = demand_rate(state)
         expect_impacts(manifolds, self.selected, self.edges, self.count, rows, state.dt, rate, self.choices, classes)
         join_classes(self.edges, self.count, motions.joins, classes, parents)
-        order_edges(self.edges, self.count, self.colors, classes, self.starts, self.cursors, self.ordered)
+        order_edges(self.edges, self.count, self.colors, classes, self.starts, self.cursors, self.places)
         order_nodes(motions.movers, classes, self.firsts, self.next, self.members)
         colors, firsts = COLORS + 1, self.firsts.tolist()
         ends = self.starts[::colors].tolist()
@@ -212,4 +213,4 @@ class Selection:
     @property
     def plan(self) -> Plan:
         """What was chosen, for the kernels."""
-        return Plan(self.selected, self.edges, self.colors, self.degrees, self.ordered)
+        return Plan(self.count, self.selected, self.edges, self.colors, self.degrees, self.places)

@@ -1,14 +1,16 @@
-"""Table: a structured array that grows."""
+"""Table: a structured array that grows, and begins where a line of the cache does."""
 
 import numpy as np
 from numpy.typing import DTypeLike
+
+from physics.tables.lines import zeros_in_lines
 
 
 class Table:
     """A structured array that grows by doubling; `rows` is the used part."""
 
     def __init__(self, dtype: DTypeLike, capacity: int = 16) -> None:
-        self.data: np.ndarray = np.zeros(capacity, dtype)
+        self.data: np.ndarray = zeros_in_lines(capacity, dtype)
         self.count = 0
 
     @property
@@ -18,7 +20,7 @@ class Table:
     def reserve(self, count: int) -> None:
         """Make room for `count` rows, keeping what is there."""
         if count > len(self.data):
-            grown = np.zeros(max(count, 2 * len(self.data)), self.data.dtype)
+            grown = zeros_in_lines(max(count, 2 * len(self.data)), self.data.dtype)
             grown[: self.count] = self.rows
             self.data = grown
 

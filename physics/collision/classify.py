@@ -1,0 +1,118 @@
+"""Which kind of pair each candidate is, and which of them a pass looks at."""
+
+from physics.collision.ahead import reach_of
+from physics.collision.approach import nearing
+from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, may_change
+from physics.collision.manifold import (
+    CHAIN_ANY,
+    CIRCLES,
+    GRID_ANY,
+    MASK_CIRCLE,
+    MASK_HULL_EXACT,
+    MASK_POLYGON,
+    MASKS,
+    MASKS_EXACT,
+    NOTHING,
+    POLYGON_CIRCLE,
+    POLYGONS,
+    SURFACE_ANY,
+)
+from physics.jit import kernel, subkernel
+from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
+from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
+
+PARTED = NOTHING + 1  # behind the kinds of pairs: where it is counted how many are of parts
+
+
+@subkernel
+def kind_of_pair(low, high):
+    """The kind of pair of two shape kinds, the lower first."""
+    if low == CIRCLE and high == CIRCLE:
+        return CIRCLES
+    # Grids and chains carry, and are never moved by what they meet.
+    if high == CHAIN:
+        return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
+    if high == TILES or low == TILES:
+        return GRID_ANY if low != high else NOTHING
+    if low == MASK and high == MASK:
+        return MASKS
+    if low == MASK or high == MASK:
+        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+    return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+
+
+@subkernel
+def as_snapped(kind, a, b):
+    """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
+    snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
+    surface."""
+    if kind == CHAIN_ANY:
+        chain = a if a.kind == CHAIN else b
+        return SURFACE_ANY if chain.role == PART else kind
+    if kind == MASKS:
+        return kind if a.snap and b.snap else MASKS_EXACT
+    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
+        return kind if a.snap or b.snap else MASK_HULL_EXACT
+    return kind
+
+
+@subkernel
+def boxes_apart(a, b, margin):
+    """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
+    return (
+        a.min_x - margin > b.max_x
+        or b.min_x - margin > a.max_x
+        or a.min_y - margin > b.max_y
+        or b.min_y - margin > a.max_y
+    )
+
+
+@kernel
+def classify(
+    # read
+    bodies,
+    shapes,
+    candidates,
+    count,
+    margin,
+    ahead,
+    which,
+    # write
+    kind_out,
+    counts_out,
+    work_inout,
+):
+    """Write the kind of every candidate pair, how many there are of each, and in how many, counts_out[PARTED], a side
+    is a part of another shape. O(candidates).
+
+    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
+    within `ahead` [s], or only the SENSORS. The others are NOTHING.
+    """
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    sensors = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        sensor = a.sensor or b.sensor
+        kind = NOTHING
+        if which == ALL or sensor == (which == SENSORS):
+            kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
+        if kind != NOTHING and which != ALL:
+            apart = boxes_apart(a, b, margin)
+            if apart and ahead > 0.0 and kind <= POLYGONS:
+                p = bodies[a.body_row]
+                q = bodies[b.body_row]
+                _, _, speed = nearing(p, q)
+                apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
+            if apart:
+                kind = NOTHING
+            elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
+                kind = NOTHING
+        kind_out[i] = kind
+        counts_out[kind] += 1
+        if kind != NOTHING and (a.owner != a.id or b.owner != b.id):
+            counts_out[PARTED] += 1
+        sensors += int(sensor and kind != NOTHING)
+    work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
+    work_inout[SENSOR_TESTS] += sensors
