@@ -119,7 +119,7 @@ def compare_pairs(
     before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
     nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; persisting: 1 to
     tell which pairs go on touching; slop [px]: a pair that touched goes on touching up to it; hit_speed [px/s].
-    O(both).
+    Returns whether all is told: not so where a part of a shape touches, which is to be told by its owner. O(both).
     """
     counts = told_inout.counts
     now = told_inout.now
@@ -160,6 +160,8 @@ def compare_pairs(
             i += 1
             continue
         m = manifolds[j]
+        if sensors == 0 and (m.owner_a != m.shape_a or m.owner_b != m.shape_b):
+            return False
         last = j
         while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
             last += 1
@@ -202,6 +204,7 @@ def compare_pairs(
         if old:
             i += 1
         j = last
+    return True
 
 
 class Pairs:
@@ -226,8 +229,9 @@ class Pairs:
 
     def compare(
         self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
-    ) -> Told:
-        """Take in the manifolds of a step. Returns what is told of them, each array as long as it is."""
+    ) -> Told | None:
+        """Take in the manifolds of a step. Returns what is told of them, each array as long as it is; None where a part
+        of a shape touches, and nothing is taken in."""
         room = self.count + len(manifolds)
         if room > len(self.told.keep):
             self.told = new_told(2 * room)
@@ -235,8 +239,9 @@ class Pairs:
             before[: self.count] = self.rows
             self.before = before
         whole = self.told
-        compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, whole)
-        now, begin, persist, end, aside, hits, points = whole.counts.tolist()
+        if not compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, whole):
+            return None
+        now, begin, persist, end, aside, hits, _ = whole.counts.tolist()
         # What touches now is what touched before, next time: the two tables change places.
         self.told, self.count, self.before = Told(self.before, *whole[1:]), now, whole.now
         return Told(
@@ -308,13 +313,17 @@ class Events:
 def tell(state: StepState) -> None:
     """Compare what touches with what touched before, and say what changed."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
-    whole, order = by_owner(manifolds)
-    parked, keys = NOTHING, None
-    if state.parked is not None:
-        parked, keys = state.parked
+    parked, keys = state.parked or (NOTHING, None)
+    usual = False, effects.persist, tolerances.slop, tolerances.hit_speed
+    told, order = None, None
+    if keys is None:
+        told = state.touching.compare(manifolds, parked, *usual)
+    if told is None:
+        whole, order = by_owner(manifolds)
         parked, parked_order = by_owner(parked)
-        keys = keys if parked_order is None else keys[parked_order]
-    told = state.touching.compare(whole, parked, False, effects.persist, tolerances.slop, tolerances.hit_speed)
+        if keys is not None and parked_order is not None:
+            keys = keys[parked_order]
+        told = state.touching.compare(whole, parked, *usual)
     events.begin, events.end, events.hits = told.begin, told.end, told.hits
     events.persist = told.persist
     keep = told.keep

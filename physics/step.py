@@ -108,18 +108,6 @@ def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
-class ContactRows(NamedTuple):
-    """Room for contacts: rows of both tables belong together."""
-
-    manifolds: np.ndarray  # MANIFOLD
-    anchors: np.ndarray  # ANCHOR
-
-
-def contact_rows(count: int) -> ContactRows:
-    """Room for so many contacts."""
-    return ContactRows(zeros_in_lines(count, MANIFOLD), zeros_in_lines(count, ANCHOR))
-
-
 class Workspace:
     """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
 
@@ -135,16 +123,22 @@ class Workspace:
         self.motions = Motions() if stacks else None
         self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
-        self._contacts = [contact_rows(16), contact_rows(16)] if stacks else []
+        # Two tables of contacts and their anchors: those that there are, and room for those of the next step.
+        self._manifolds = [zeros_in_lines(16, MANIFOLD) for _ in range(2 if stacks else 0)]
+        self._anchors = [zeros_in_lines(16, ANCHOR) for _ in range(2 if stacks else 0)]
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
 
-    def contacts_beside(self, manifolds: np.ndarray, count: int) -> ContactRows:
-        """Room for so many contacts in the tables that do not hold these manifolds."""
-        if manifolds.base is self._contacts[0].manifolds.base:
-            self._contacts.reverse()
-        if len(self._contacts[0].anchors) < count:
-            self._contacts[0] = contact_rows(2 * count)
-        return self._contacts[0]
+    def contacts_beside(self, manifolds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Room for so many MANIFOLD and ANCHOR rows in the tables that do not hold these manifolds."""
+        if manifolds.base is self._manifolds[0].base:
+            self._manifolds.reverse()
+            self._anchors.reverse()
+        if len(self._anchors[0]) < count:
+            self._manifolds[0], self._anchors[0] = (
+                zeros_in_lines(2 * count, MANIFOLD),
+                zeros_in_lines(2 * count, ANCHOR),
+            )
+        return self._manifolds[0], self._anchors[0]
 
     def rows_for(self, count: int) -> np.ndarray:
         """Room for that many row numbers."""

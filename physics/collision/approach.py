@@ -1,6 +1,6 @@
 """How fast two bodies close in on each other at a contact: what hits report and bounces are made of."""
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import length_of
 
 
@@ -31,6 +31,14 @@ def nearing(a, b):
 
 
 @subkernel
+def most_nearing(a, b):
+    """What neither of two bodies, BODY rows, nor one as `nearing` sees it from the other, is faster than [px/s]."""
+    way = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
+    turning = abs(a.angular_velocity) + abs(b.angular_velocity)
+    return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * way
+
+
+@inlined
 def closing_speed(a, b, x, y, nx, ny, lead):
     """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows;
     lead [px]: see MANIFOLD."""
@@ -43,7 +51,7 @@ def closing_speed(a, b, x, y, nx, ny, lead):
     return -(nx * vx + ny * vy)
 
 
-@subkernel
+@inlined
 def approach(bodies, manifold_inout):
     """Write the closing speed of both points of a MANIFOLD row before any response."""
     m = manifold_inout

@@ -8,7 +8,7 @@ from physics.collision.anchors import anchor_manifold, copy_anchor, rest_anchor
 from physics.collision.approach import approach
 from physics.collision.manifold import copy_manifold
 from physics.collision.materials import mixed
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 
 LARGEST_FORCE = 1e100  # beyond, and what is no number, is not what a contact bore: it begins at rest
 
@@ -55,7 +55,7 @@ def take_over(previous, anchors, first, manifold_inout, anchor_inout):
             k += 1
 
 
-@subkernel
+@inlined
 def renew(geometry, bodies, shapes, manifold_inout, anchor_inout):
     """Write what is new in every step: what the materials are now, and how fast both sides approach."""
     m = manifold_inout
@@ -68,7 +68,11 @@ def renew(geometry, bodies, shapes, manifold_inout, anchor_inout):
     forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
     if not forces + abs(c.rolling_force) < LARGEST_FORCE:
         rest_anchor(c)
-    c.friction, c.restitution, c.rolling_resistance, c.surface_speed = mixed(geometry, shapes, m)
+    c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, shapes, m)
+    # These stand in a line that nobody else writes: what stays as it is need not go back to memory.
+    if c.rolling_resistance != rolling_resistance or c.surface_speed != surface_speed:
+        c.rolling_resistance = rolling_resistance
+        c.surface_speed = surface_speed
     approach(bodies, m)
 
 

@@ -1,7 +1,7 @@
 """Which kind of pair each candidate is, and which of them a pass looks at."""
 
 from physics.collision.ahead import reach_of
-from physics.collision.approach import nearing
+from physics.collision.approach import most_nearing, nearing
 from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, may_change
 from physics.collision.manifold import (
     CHAIN_ANY,
@@ -103,8 +103,9 @@ def classify(
             if apart and ahead > 0.0 and kind <= POLYGONS:
                 p = bodies[a.body_row]
                 q = bodies[b.body_row]
-                _, _, speed = nearing(p, q)
-                apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
+                if ahead * most_nearing(p, q) > margin:
+                    _, _, speed = nearing(p, q)
+                    apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
             if apart:
                 kind = NOTHING
             elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):

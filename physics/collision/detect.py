@@ -94,11 +94,11 @@ def detect_piles(state: StepState) -> None:
     if not (len(found) or len(stale)):
         return  # all are used again, where they stand
     kept = len(previous) - len(stale)
-    others = state.workspace.contacts_beside(previous, kept + len(found))
-    if kept and take_places(*places, stale, found, others.anchors, previous, anchors):
+    other_manifolds, other_anchors = state.workspace.contacts_beside(previous, kept + len(found))
+    if kept and take_places(*places, stale, found, other_anchors, previous, anchors):
         return
-    count = carry_over(*places, previous, anchors, stale, found, *others)
-    state.manifolds, state.anchors = others.manifolds[:count], others.anchors[:count]
+    count = carry_over(*places, previous, anchors, stale, found, other_manifolds, other_anchors)
+    state.manifolds, state.anchors = other_manifolds[:count], other_anchors[:count]
 
 
 @kernel

@@ -5,18 +5,15 @@ An anchor keeps the surface points and the normal in the body spaces of its side
 
 import math
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel
 from physics.math2d import length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
 
 
-@subkernel
-def follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k):
-    """The cores of point k at the present poses: A's [px], and B's seen from it. a, b: BODY rows, with their turns."""
-    local_ax = anchor.local_ax_1 if k == 0 else anchor.local_ax_2
-    local_ay = anchor.local_ay_1 if k == 0 else anchor.local_ay_2
-    local_bx = anchor.local_bx_1 if k == 0 else anchor.local_bx_2
-    local_by = anchor.local_by_1 if k == 0 else anchor.local_by_2
+@inlined
+def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local_bx, local_by):
+    """The cores of a point at the present poses: A's [px], and B's seen from it. a, b: BODY rows, with their turns;
+    local [px]: the cores in the body spaces."""
     ax, ay = turned(local_ax, local_ay, a_cosine, a_sine)
     bx, by = turned(local_bx, local_by, b_cosine, b_sine)
     ax += a.x
@@ -24,7 +21,7 @@ def follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, k):
     return ax, ay, (b.x + bx) - ax, (b.y + by) - ay
 
 
-@subkernel
+@inlined
 def cut_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny):
     """The gap [px] of cores at a point that the end of a face cuts from the edge over it.
 
@@ -41,79 +38,77 @@ def cut_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny):
     return gap - (dy * nx - dx * ny) * across / along
 
 
-@subkernel
+@inlined
+def is_cut(anchor, share):
+    """Whether a point of an anchor, with its share, is where a face's end cuts the edge over it."""
+    return (anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0)
+
+
+@inlined
+def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
+    """A point of a manifold [px], x and y, and its separation. ax … dy: see cores_at; gap: from core to core along the
+    normal, as the point is told."""
+    apart = dx * nx + dy * ny
+    middle = 0.5 * (radius_a + (gap - radius_b)) + share * (apart - gap)
+    x = ax + share * (dx - apart * nx) + middle * nx
+    y = ay + share * (dy - apart * ny) + middle * ny
+    return x, y, gap - radius_a - radius_b
+
+
+@inlined
 def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
-    """Write points, normal and separations [px] at the present poses. Returns (how far the points slid on each other
-    [px], by how much a separation differs from that at its detection [px]).
+    """Write points, normal and separations [px] at the present poses. Returns (how far the points have moved on each
+    other since they were detected, along a face or across it [px], how far a core rolled round a corner [px]).
 
     a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; cut: whether what a
     face's end cuts off wanders along the edge, which counts only where much has moved.
     """
     m = manifold_inout
+    c = anchor
+    two = m.count == 2
     m.lead = 0.0
-    slid = 0.0
-    changed = 0.0
-    old_x = m.normal_x
-    old_y = m.normal_y
-    ax_1, ay_1, dx_1, dy_1 = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, 0)
-    ax_2 = ax_1
-    ay_2 = ay_1
-    dx_2 = dx_1
-    dy_2 = dy_1
-    if m.count == 2:
-        ax_2, ay_2, dx_2, dy_2 = follow_point(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, 1)
-    for k in range(m.count):
-        ax = ax_1 if k == 0 else ax_2
-        ay = ay_1 if k == 0 else ay_2
-        dx = dx_1 if k == 0 else dx_2
-        dy = dy_1 if k == 0 else dy_2
-        share = anchor.share_1 if k == 0 else anchor.share_2
-        if anchor.frame == CORES:
-            nx, ny = unit(dx, dy, old_x, old_y)
-            # Against where it was detected: what rolls round a corner leaves it.
-            turn = length_of(nx - anchor.local_nx, ny - anchor.local_ny)
-            slid = max(slid, turn * max(anchor.radius_a, anchor.radius_b))
-        else:
-            nx = anchor.local_nx
-            ny = anchor.local_ny
-            if anchor.frame == WITH_A:
-                nx, ny = turned(nx, ny, a_cosine, a_sine)
-            elif anchor.frame == WITH_B:
-                nx, ny = turned(nx, ny, b_cosine, b_sine)
-            slid = max(slid, abs(dy * nx - dx * ny))
-        m.normal_x = nx + 0.0
-        m.normal_y = ny + 0.0
-        apart = dx * nx + dy * ny
-        gap = apart
-        if (
-            cut
-            and m.count == 2
-            and ((anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0))
-        ):
-            sign = 1.0 if k == 0 else -1.0
-            gap = cut_gap(
-                apart,
-                dx,
-                dy,
-                dx_2 if k == 0 else dx_1,
-                dy_2 if k == 0 else dy_1,
-                sign * (ax_2 - ax_1),
-                sign * (ay_2 - ay_1),
-                anchor.frame == WITH_A,
-                nx,
-                ny,
-            )
-        separation = gap - anchor.radius_a - anchor.radius_b
-        middle = 0.5 * (anchor.radius_a + (gap - anchor.radius_b)) + share * (apart - gap)
-        x = ax + share * (dx - apart * nx) + middle * nx
-        y = ay + share * (dy - apart * ny) + middle * ny
-        if k == 0:
-            m.x_1, m.y_1, m.separation_1 = x, y, separation
-            changed = max(changed, abs(separation - anchor.base_1))
-        else:
-            m.x_2, m.y_2, m.separation_2 = x, y, separation
-            changed = max(changed, abs(separation - anchor.base_2))
-    return slid, changed
+    ax_1, ay_1, dx_1, dy_1 = cores_at(
+        a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_1, c.local_ay_1, c.local_bx_1, c.local_by_1
+    )
+    ax_2, ay_2, dx_2, dy_2 = ax_1, ay_1, dx_1, dy_1
+    if two:
+        ax_2, ay_2, dx_2, dy_2 = cores_at(
+            a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_2, c.local_ay_2, c.local_bx_2, c.local_by_2
+        )
+    nx = c.local_nx
+    ny = c.local_ny
+    moved = 0.0
+    rolled = 0.0
+    if c.frame == CORES:
+        nx, ny = unit(dx_1, dy_1, m.normal_x, m.normal_y)
+        # Against where it was detected: what rolls round a corner leaves it.
+        rolled = length_of(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
+    else:
+        if c.frame == WITH_A:
+            nx, ny = turned(nx, ny, a_cosine, a_sine)
+        elif c.frame == WITH_B:
+            nx, ny = turned(nx, ny, b_cosine, b_sine)
+        moved = max(abs(dy_1 * nx - dx_1 * ny), abs(dy_2 * nx - dx_2 * ny))
+    m.normal_x = nx + 0.0
+    m.normal_y = ny + 0.0
+    gap_1 = dx_1 * nx + dy_1 * ny
+    gap_2 = dx_2 * nx + dy_2 * ny
+    if cut and two:
+        x = ax_2 - ax_1
+        y = ay_2 - ay_1
+        with_a = c.frame == WITH_A
+        if is_cut(c, c.share_1):
+            gap_1 = cut_gap(gap_1, dx_1, dy_1, dx_2, dy_2, x, y, with_a, nx, ny)
+        if is_cut(c, c.share_2):
+            gap_2 = cut_gap(gap_2, dx_2, dy_2, dx_1, dy_1, -x, -y, with_a, nx, ny)
+    m.x_1, m.y_1, m.separation_1 = point_of(ax_1, ay_1, dx_1, dy_1, nx, ny, gap_1, c.share_1, c.radius_a, c.radius_b)
+    moved = max(moved, abs(m.separation_1 - c.base_1))
+    if two:
+        m.x_2, m.y_2, m.separation_2 = point_of(
+            ax_2, ay_2, dx_2, dy_2, nx, ny, gap_2, c.share_2, c.radius_a, c.radius_b
+        )
+        moved = max(moved, abs(m.separation_2 - c.base_2))
+    return moved, rolled
 
 
 @kernel

@@ -3,11 +3,11 @@
 import math
 
 from physics.collision.features import part_of
-from physics.jit import subkernel
+from physics.jit import inlined
 from physics.tables.shape import CHAIN, MASK, TILES
 
 
-@subkernel
+@inlined
 def mixed(geometry, shapes, manifold):
     """(friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold; a chain's link has its own.
 

@@ -8,18 +8,29 @@ import math
 from physics.collision.carry_over import is_before, is_of, renew
 from physics.collision.follow import follow
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel
+from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE
 from physics.tables.shape import CIRCLE, MASK
 
 
-@subkernel
-def is_finite(manifold):
-    """Whether a manifold has numbers that are: what is finite is 0 less than itself."""
+@inlined
+def is_sound(manifold, anchor):
+    """Whether a manifold that followed its anchor has numbers that are: what is finite is 0 less than itself."""
     m = manifold
+    c = anchor
     total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
     if m.count == 2:
         total += m.x_2 + m.y_2 + m.separation_2
-    return total - total == 0.0
+    return total - total == 0.0 and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
+
+
+@inlined
+def lies(manifold, anchor):
+    """Whether a face bears another: its points follow them exactly. What bears nothing has to find its own way out of
+    an overlap."""
+    c = anchor
+    loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
+    return manifold.count == 2 and loaded and c.radius_a == 0.0 and c.radius_b == 0.0
 
 
 @kernel
@@ -34,7 +45,8 @@ def recycle_manifolds(
     counts_inout,
     stale_out,
 ):
-    """Use the manifolds of the last step again where no point moved by more than `distance` [px] against its partner.
+    """Use the manifolds of the last step again where no side turned on the other, or moved, by more than `distance`
+    [px]; of faces that lie on each other by more than RECYCLE_MOVE times that, or RECYCLE_SHARE of them.
 
     previous_inout MANIFOLD rows and their ANCHOR rows, in the order of shape ids as the candidates, follow their bodies
     where they stand; a pair that is served is marked NOTHING in kinds_inout. stale_out (previous) int32: the rows of
@@ -79,12 +91,18 @@ def recycle_manifolds(
             m = previous_inout[last]
             c = anchors_inout[last]
             if fits and not m.swept:
-                slid, changed = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, c, False, m)
+                moved, rolled = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, c, False, m)
                 # What is round on both sides, or on one against a face, may turn as it likes.
                 turn = 0.0
                 if a.kind != CIRCLE and b.kind != CIRCLE:
                     turn = abs((q.angle - c.angle_b) - (p.angle - c.angle_a)) * reach
-                fits = slid <= distance and turn <= distance and changed <= distance and is_finite(m)
+                if moved > distance and lies(m, c):
+                    # Of a face that is short itself, each hair counts.
+                    x = m.x_2 - m.x_1
+                    y = m.y_2 - m.y_1
+                    far = moved * moved <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y)
+                    moved = moved / RECYCLE_MOVE if far else moved
+                fits = moved <= distance and rolled <= distance and turn <= distance and is_sound(m, c)
             else:
                 fits = False
             last += 1

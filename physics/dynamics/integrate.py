@@ -105,6 +105,18 @@ def make_position_pass(rotation: bool) -> Callable:
 
 
 @subkernel
+def settle(body_inout, u, v):
+    """Write the world centre of mass [px] of a BODY row that is u, v from its origin, and that its pose is finite."""
+    b = body_inout
+    b.center_x = b.x + u
+    b.center_y = b.y + v
+    if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
+        b.settled_x = b.x
+        b.settled_y = b.y
+        b.settled_angle = b.angle
+
+
+@subkernel
 def refresh_center(body_inout):
     """Write the world centre of mass [px] of a BODY row at its present pose."""
     b = body_inout
@@ -112,12 +124,7 @@ def refresh_center(body_inout):
     v = b.local_center_y
     if b.angle != 0.0:
         u, v = turned(u, v, math.cos(b.angle), math.sin(b.angle))
-    b.center_x = b.x + u
-    b.center_y = b.y + v
-    if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
-        b.settled_x = b.x
-        b.settled_y = b.y
-        b.settled_angle = b.angle
+    settle(b, u, v)
 
 
 @kernel

@@ -231,6 +231,7 @@ def take_broken(
     # read
     rows,
     shape_rows,
+    grid_rows,
     shapes,
     characters,
     course,
@@ -240,10 +241,11 @@ def take_broken(
     ends_out,
 ):
     """List the rows of bodies that no step can use, at rest and quarantined, and where in the list each of REASONS
-    ends: ends_out. Returns their number. broken_out (bodies): each is listed once. O(rows + shape_rows)."""
+    ends: ends_out. Returns their number. grid_rows: shape rows that may be grids; broken_out (bodies): each is listed
+    once. O(rows + shape_rows)."""
     ends_out[0] = take_broken_bodies(rows, course, bodies_inout, broken_out)
     ends_out[1] = take_broken_shapes(shape_rows, shapes, ends_out[0], bodies_inout, broken_out)
-    ends_out[2] = take_turned_grids(shape_rows, shapes, ends_out[1], bodies_inout, broken_out)
+    ends_out[2] = take_turned_grids(grid_rows, shapes, ends_out[1], bodies_inout, broken_out)
     ends_out[3] = take_broken_characters(characters, ends_out[2], bodies_inout, broken_out)
     return ends_out[3]
 
@@ -268,7 +270,8 @@ def quarantine(state: StepState) -> None:
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
     broken, ends = workspace.rows_for(len(bodies)), workspace.ends
-    if take_broken(awake.bodies, awake.shapes, state.shapes, state.characters, course, bodies, broken, ends):
+    grids = awake.shapes if state.library.grids.count else awake.shapes[:0]
+    if take_broken(awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, broken, ends):
         reasons = np.repeat(np.array(REASONS), np.diff(ends, prepend=0))
         _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
 

@@ -81,6 +81,7 @@ def restore_bounces(
     manifolds,
     anchors,
     threshold,
+    count,
     # write
     motions_inout,
     constraints_inout,
@@ -88,9 +89,9 @@ def restore_bounces(
 ):
     """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
 
-    MANIFOLD, ANCHOR, MOTION and CONSTRAINT rows. O(constraints).
+    MANIFOLD, ANCHOR, MOTION rows, and so many of CONSTRAINT. O(count).
     """
-    for i in range(len(constraints_inout)):
+    for i in range(count):
         r = constraints_inout[i]
         m = manifolds[r.manifold]
         restitution = anchors[r.manifold].restitution

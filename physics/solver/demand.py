@@ -13,8 +13,9 @@ import numpy as np
 
 from physics.jit import kernel
 from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, STILL_STIFFNESS
+from physics.solver import lanes as at
+from physics.solver.lanes import Blocks
 from physics.solver.motions import Motions
-from physics.solver.pace import Pace, firmness_of
 from physics.solver.selection import Group, demand_rate
 from physics.tables.counters import CAP_HITS
 from physics.tables.step_state import StepState
@@ -23,35 +24,39 @@ from physics.tables.step_state import StepState
 @kernel
 def add_demands(
     # read
-    constraints,
+    blocks,
+    count,
     rate,
     rate_still,
     most,
-    pace,
     # write
     motions_inout,
 ):
     """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
 
-    rate, rate_still: that square per speed that the impulses of the step give [s/px], between bodies and with what
-    cannot be pushed, where nothing grips firmer (see Pace); most: the square of the most substeps, than which nobody
-    asks for more because it leans. O(constraints).
+    blocks: so many blocks of lanes, see lanes.py; rate, rate_still: that square per speed that the impulses of the step
+    give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most: the square
+    of the most substeps, than which nobody asks for more because it leans. O(constraints).
     """
-    for i in range(len(constraints)):
-        r = constraints[i]
-        per_speed = (rate_still if r.still else rate) / firmness_of(r, pace)
-        demand = per_speed * r.normal_total_1 / r.normal_mass_1
-        if r.count == 2:
-            other = per_speed * r.normal_total_2 / r.normal_mass_2
-            least = min(demand, other)
-            demand = max(demand, other)
-            if r.alone and least > 0.0:
-                # What stands on an edge leans by the difference, and has but the rest of the face to lean.
-                demand = max(demand, min(demand * min(demand / least, LEAN), most))
-        a = motions_inout[r.motion_a]
-        b = motions_inout[r.motion_b]
-        a.demand = max(a.demand, demand)
-        b.demand = max(b.demand, demand)
+    for block in range(count):
+        c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
+        for lane in range(at.LANES):
+            if blocks.manifold[block, lane] < 0:
+                continue
+            still = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+            per_speed = (rate_still if still else rate) / abs(c[at.FIRMNESS + lane])
+            demand = per_speed * c[at.TOTAL_1 + lane] / c[at.MASS_1 + lane]
+            if c[at.MASS_2 + lane] > 0.0:
+                other = per_speed * c[at.TOTAL_2 + lane] / c[at.MASS_2 + lane]
+                least = min(demand, other)
+                demand = max(demand, other)
+                if c[at.FIRMNESS + lane] < 0.0 and least > 0.0:
+                    # What stands alone on an edge leans by the difference, and has but the rest of the face to lean.
+                    demand = max(demand, min(demand * min(demand / least, LEAN), most))
+            a = motions_inout[blocks.motion_a[block, lane]]
+            b = motions_inout[blocks.motion_b[block, lane]]
+            a.demand = max(a.demand, demand)
+            b.demand = max(b.demand, demand)
 
 
 @kernel
@@ -105,12 +110,12 @@ def choose_substeps(
 
 
 def ask_for_substeps(
-    state: StepState, motions: Motions, parents: np.ndarray, group: Group, pace: Pace, rows: np.ndarray
+    state: StepState, motions: Motions, parents: np.ndarray, group: Group, blocks: Blocks, count: int
 ) -> None:
-    """Have the bodies of a group ask for what their contacts, CONSTRAINT rows, need in the next step."""
+    """Have the bodies of a group ask for what their contacts, so many blocks of them, need in the next step."""
     rate = demand_rate(state)
     least, most = AUTO_SUBSTEPS[0], AUTO_SUBSTEPS[-1]
-    add_demands(rows, rate, rate / STILL_STIFFNESS**2, float(most * most), pace, motions.used)
+    add_demands(blocks, count, rate, rate / STILL_STIFFNESS**2, float(most * most), motions.used)
     state.work[CAP_HITS] += choose_substeps(
         group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used
     )

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.dynamics.integrate import refresh_center
+from physics.dynamics.integrate import refresh_center, settle
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.shapes.rasters import add_missing_rasters
@@ -289,12 +289,13 @@ def scatter_motions(
         if m.turn == 0.0:
             b.x += m.dx
             b.y += m.dy
+            refresh_center(b)
         else:
             b.angle += m.turn
             u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
-        refresh_center(b)
+            settle(b, u, v)
 
 
 GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}

@@ -78,7 +78,7 @@ def springing(speed, gap, mass, old, bias_rate, give, most):
 def most_of(c, lane, gap_1, gap_2, pace):
     """The speed [px/s] that a lane may be pushed out with: where substeps are many, deep overlaps come out as slowly as
     with the fewest of them; shallow ones may be what bears a load."""
-    most = pace.push_speed * c[at.SHARE + lane]
+    most = pace.push_speed * abs(c[at.SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
     slow = pace.deep_rate * deep
     slow = slow if slow > pace.shallow_speed else pace.shallow_speed
@@ -266,7 +266,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                     change_1 = soft_1 if (calm | bears) & (gap_1 <= 0.0) else change_1
                     change_2 = soft_2 if (calm | bears) & (gap_2 <= 0.0) else change_2
                     # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
-                    free = calm & (not bears) & (c[at.CALM + lane] > 0.0)
+                    free = calm & (not bears) & (c[at.SHARE + lane] < 0.0)
                 else:
                     # What has not touched is for the next substep to brake, if it arrives in it.
                     borne = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from physics.jit import kernel
 from physics.solver.contacts import ContactSet
 from physics.solver.demand import ask_for_substeps
-from physics.solver.lanes import pack_rows, unpack_rows
+from physics.solver.lane_contacts import prepare, store
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.pace import pace_of
 from physics.solver.soft_pass import PUSH_OUT, RELAX, WARM_LANES, forget_impulses, make_soft_pass
@@ -39,34 +39,31 @@ def make_substeps(
         # read
         members,
         driven,
-        starts,
+        count,
         pace,
         # write
         motions_inout,
-        constraints_inout,
-        blocks_out,
+        blocks_inout,
     ):
-        """Advance the members by substeps under the constraints, and what moves by hand beside them: rows of MOTION.
-        O(substeps · (members + constraints)).
+        """Advance the members by substeps under so many blocks of constraints, and what moves by hand beside them: rows
+        of MOTION. O(substeps · (members + constraints)).
 
         pace: see Pace. One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
         """
         h = pace.h
-        count = pack_rows(constraints_inout, starts, motions_inout, pace, blocks_out)
         move_driven(driven, 0.0, motions_inout)
         for n in range(pace.substeps):
             if not warm:
-                forget_impulses(members, count, motions_inout, blocks_out)
+                forget_impulses(members, count, motions_inout, blocks_inout)
             velocities(members, h, pace.drag, motions_inout)
             if warm and n == 0:
-                warm_start(count, motions_inout, blocks_out)
+                warm_start(count, motions_inout, blocks_inout)
             for _ in range(iterations):
-                push_out(count, pace, motions_inout, blocks_out)
+                push_out(count, pace, motions_inout, blocks_inout)
             positions(members, h, pace.push_speed, motions_inout)
             move_driven(driven, (n + 1) * h, motions_inout)
             if relaxed:
-                relax(count, pace, motions_inout, blocks_out)
-        unpack_rows(blocks_out, count, constraints_inout)
+                relax(count, pace, motions_inout, blocks_inout)
 
     return run_substeps
 
@@ -91,11 +88,11 @@ def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -
             tolerances.speculative,
         )
         h = pace.h
-        rows = contacts.prepare(state, motions, group, h)
-        run(group.members, motions.driven, group.starts, pace, motions.used, rows, contacts.blocks(group))
+        blocks, count = prepare(state, contacts, motions, group, pace)
+        run(group.members, motions.driven, count, pace, motions.used, blocks)
         if asked:
-            ask_for_substeps(state, motions, contacts.selection.parents, group, pace, rows)
-        contacts.store(state, motions, rows, h)
+            ask_for_substeps(state, motions, contacts.selection.parents, group, blocks, count)
+        store(state, contacts, motions, blocks, count, h)
     return h
 
 

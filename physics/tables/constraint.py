@@ -43,6 +43,8 @@ CONSTRAINT = np.dtype(
         ("motion_b", np.int32),
         ("manifold", np.int32),  # its row, and the number of its points
         ("count", np.int32),
+        ("block", np.int32),  # and lane that it stood in, see solver/lane_contacts
+        ("lane", np.int32),
         ("normal_x", np.float64),
         ("normal_y", np.float64),
         ("friction", np.float64),

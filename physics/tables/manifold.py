@@ -63,8 +63,9 @@ ANCHOR = in_lines(
         ("normal_force_2", np.float64),
         ("tangent_force_2", np.float64),
         ("rolling_force", np.float64),
-        ("restitution", np.float64),  # mixed, as the next two
+        ("restitution", np.float64),  # mixed, as friction, surface speed and rolling resistance
         ("friction", np.float64),
+        ("color", np.int64),  # of its constraint in the last solve, -1: none
         ("surface_speed", np.float64),  # [px/s] summed
         ("rolling_resistance", np.float64),  # [px] mixed coefficient times the greater radius
         # What both sides are, and were when it was detected.
@@ -88,7 +89,6 @@ ANCHOR = in_lines(
         ("local_ay_2", np.float64),
         ("local_bx_2", np.float64),
         ("local_by_2", np.float64),
-        ("color", np.int64),  # of its constraint in the last solve, -1: none
         # Where it was in the world then, while it sticks.
         ("apart_x", np.float64),  # [px] B's centre of mass seen from A's
         ("apart_y", np.float64),
