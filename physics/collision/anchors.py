@@ -5,13 +5,11 @@ right to second order in the motion: a normal turns with the side whose face it 
 that it was, on whichever side that is.
 """
 
-import math
-
 import numpy as np
 
 from physics.collision.features import CIRCLE_CORNER, CORNERS, PART
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import heading, length_of, turned
 from physics.shapes.placement import is_hull
 from physics.tables.manifold import ANCHOR, CORES, UPRIGHT, WITH_A, WITH_B
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
@@ -132,10 +130,8 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
     c.radius_a = core_radius(s)
     c.radius_b = core_radius(o)
     c.frame = frame_of(s, o, m.feature_1, c.radius_a + c.radius_b)
-    a_cosine = math.cos(a.angle)
-    a_sine = math.sin(a.angle)
-    b_cosine = math.cos(b.angle)
-    b_sine = math.sin(b.angle)
+    a_cosine, a_sine = heading(a.angle)
+    b_cosine, b_sine = heading(b.angle)
     nx = m.normal_x
     ny = m.normal_y
     c.local_nx = nx

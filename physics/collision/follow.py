@@ -3,10 +3,8 @@
 An anchor keeps the surface points and the normal in the body spaces of its sides; nothing is detected again.
 """
 
-import math
-
 from physics.jit import inlined, kernel
-from physics.math2d import length_of, turned, unit
+from physics.math2d import heading, length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
 
 
@@ -133,10 +131,8 @@ def follow_bodies(
         # The manifolds of a pair, and often those of a body, stand together.
         if m.body_row_a != row_a:
             row_a = m.body_row_a
-            a_cosine = math.cos(a.angle)
-            a_sine = math.sin(a.angle)
+            a_cosine, a_sine = heading(a.angle)
         if m.body_row_b != row_b:
             row_b = m.body_row_b
-            b_cosine = math.cos(b.angle)
-            b_sine = math.sin(b.angle)
+            b_cosine, b_sine = heading(b.angle)
         follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)

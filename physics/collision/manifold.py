@@ -1,6 +1,5 @@
 """Rows of the manifold table: written by the passes over pairs, then put in the order of the candidates."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +7,7 @@ import numpy as np
 from physics.collision.owners import by_owner
 from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import heading, turned
 from physics.shapes.placement import corners_at
 from physics.tables.contact import CONTACT
 from physics.tables.geometry import Geometry
@@ -172,7 +171,7 @@ def circle_at(bodies, shapes, row):
     """Centre of a CIRCLE in the world [px], and its radius."""
     s = shapes[row]
     b = bodies[s.body_row]
-    u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+    u, v = turned(s.local_x, s.local_y, *heading(b.angle))
     return b.x + u, b.y + v, s.radius
 
 

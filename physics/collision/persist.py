@@ -3,12 +3,11 @@
 Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 """
 
-import math
-
 from physics.collision.carry_over import is_before, is_of, renew
 from physics.collision.follow import follow
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY
 from physics.jit import inlined, kernel
+from physics.math2d import heading
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE
 from physics.tables.shape import CIRCLE, MASK
 
@@ -79,12 +78,10 @@ def recycle_manifolds(
         # The pairs of a body stand together.
         if a.body_row != row_a:
             row_a = a.body_row
-            p_cosine = math.cos(p.angle)
-            p_sine = math.sin(p.angle)
+            p_cosine, p_sine = heading(p.angle)
         if b.body_row != row_b:
             row_b = b.body_row
-            q_cosine = math.cos(q.angle)
-            q_sine = math.sin(q.angle)
+            q_cosine, q_sine = heading(q.angle)
         fits = True
         last = j
         while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):

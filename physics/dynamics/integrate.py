@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import heading, turned
 from physics.shapes.placement import refresh_aabbs
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
@@ -90,11 +90,11 @@ def make_position_pass(rotation: bool) -> Callable:
             work_inout[BODIES_INTEGRATED] += 1
             h = dt * b.fraction
             if rotation and b.angular_velocity != 0.0:
-                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
                 center_x = b.x + u + h * b.vx
                 center_y = b.y + v + h * b.vy
                 b.angle += h * b.angular_velocity
-                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
                 b.x = center_x - u
                 b.y = center_y - v
             else:
@@ -123,7 +123,7 @@ def refresh_center(body_inout):
     u = b.local_center_x
     v = b.local_center_y
     if b.angle != 0.0:
-        u, v = turned(u, v, math.cos(b.angle), math.sin(b.angle))
+        u, v = turned(u, v, *heading(b.angle))
     settle(b, u, v)
 
 

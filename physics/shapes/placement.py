@@ -3,7 +3,7 @@
 import math
 
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import heading, turned
 from physics.shapes.mask_pose import exact_aabb
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
@@ -136,14 +136,12 @@ def aabb_at(geometry, shapes, row, x, y, angle):
     if kind == BOUNDS:
         kind = s.wrapped
     if kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        u, v = turned(s.local_x, s.local_y, *heading(angle))
         return x + u - s.radius, y + v - s.radius, x + u + s.radius, y + v + s.radius
     if kind == POLYGON or kind == CAPSULE or kind == SEGMENT:
-        return polygon_aabb(
-            geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, math.cos(angle), math.sin(angle)
-        )
+        return polygon_aabb(geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, *heading(angle))
     if kind == CHAIN:
-        min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, math.cos(angle), math.sin(angle))
+        min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, *heading(angle))
         return x + min_x, y + min_y, x + max_x, y + max_y
     if kind == TILES:
         g = geometry.grids[s.geometry]
@@ -164,7 +162,7 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
     """
     s = shapes[row]
     if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        u, v = turned(s.local_x, s.local_y, *heading(angle))
         corners_out[0, 0] = x + u
         corners_out[0, 1] = y + v
         return 1
@@ -178,16 +176,8 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
     Returns their number.
     """
     if shapes[row].kind != BOUNDS:
-        return polygon_at(
-            geometry.polygons,
-            geometry.corners,
-            shapes[row].geometry,
-            x,
-            y,
-            math.cos(angle),
-            math.sin(angle),
-            corners_out,
-        )
+        cosine, sine = heading(angle)
+        return polygon_at(geometry.polygons, geometry.corners, shapes[row].geometry, x, y, cosine, sine, corners_out)
     min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
@@ -318,14 +308,14 @@ def refresh_aabbs(
                     rasters, table, raster_of[s.geometry, 0], b.x, b.y, b.angle
                 )
         elif s.kind == CIRCLE:
-            x, y = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+            x, y = turned(s.local_x, s.local_y, *heading(b.angle))
             s.min_x = b.x + x - s.radius
             s.min_y = b.y + y - s.radius
             s.max_x = b.x + x + s.radius
             s.max_y = b.y + y + s.radius
         elif s.kind == POLYGON:
             s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
-                polygons, table, s.geometry, s.radius, b.x, b.y, math.cos(b.angle), math.sin(b.angle)
+                polygons, table, s.geometry, s.radius, b.x, b.y, *heading(b.angle)
             )
         else:
             s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -3,7 +3,6 @@
 Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from physics.dynamics.integrate import refresh_center, settle
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import heading, length_of, turned
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.constraint import MOTION
@@ -233,8 +232,7 @@ def make_substep_positions(rotation: bool) -> Callable:
                 m.push_w = 0.0
             if rotation and turn != 0.0:
                 m.turn += h * turn
-                m.cosine = math.cos(m.turn)
-                m.sine = math.sin(m.turn)
+                m.cosine, m.sine = heading(m.turn)
 
     return integrate_substep_positions
 
@@ -247,12 +245,7 @@ def move_driven(driven, time, motions_inout):
         m.dx = time * m.vx
         m.dy = time * m.vy
         m.turn = time * m.angular_velocity
-        if m.turn != 0.0:
-            m.cosine = math.cos(m.turn)
-            m.sine = math.sin(m.turn)
-        else:
-            m.cosine = 1.0
-            m.sine = 0.0
+        m.cosine, m.sine = heading(m.turn)
 
 
 @kernel
@@ -292,7 +285,7 @@ def scatter_motions(
             refresh_center(b)
         else:
             b.angle += m.turn
-            u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+            u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
             settle(b, u, v)
