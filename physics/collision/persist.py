@@ -24,12 +24,21 @@ def is_sound(manifold, anchor):
 
 
 @inlined
-def lies(manifold, anchor):
-    """Whether a face bears another: its points follow them exactly. What bears nothing has to find its own way out of
-    an overlap."""
+def may_move(manifold, anchor, distance):
+    """How far [px] points may move on each other: the distance, or RECYCLE_MOVE times that on a face that bears another
+    and is not short itself: they follow it exactly.
+
+    What bears nothing has to find its own way out of an overlap.
+    """
+    m = manifold
     c = anchor
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
-    return manifold.count == 2 and loaded and c.radius_a == 0.0 and c.radius_b == 0.0
+    if m.count == 1 or not loaded or c.radius_a > 0.0 or c.radius_b > 0.0:
+        return distance
+    x = m.x_2 - m.x_1
+    y = m.y_2 - m.y_1
+    far = RECYCLE_MOVE * distance
+    return far if far * far <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y) else distance
 
 
 @kernel
@@ -44,18 +53,17 @@ def recycle_manifolds(
     counts_inout,
     stale_out,
 ):
-    """Use the manifolds of the last step again where no side turned on the other, or moved, by more than `distance`
-    [px]; of faces that lie on each other by more than RECYCLE_MOVE times that, or RECYCLE_SHARE of them.
+    """Use the manifolds of the last step again where no point moved on its partner by more than may_move of `distance`
+    [px], and neither side turned on the other by more than that.
 
-    previous_inout MANIFOLD rows and their ANCHOR rows, in the order of shape ids as the candidates, follow their bodies
-    where they stand; a pair that is served is marked NOTHING in kinds_inout. stale_out (previous) int32: the rows of
-    the others. Masks are always detected again. Returns how many are stale. O(both).
+    previous_inout MANIFOLD and ANCHOR rows, in the order of shape ids as the candidates, follow their bodies; a pair
+    that is served is NOTHING in kinds_inout; stale_out (previous) int32: the other rows, masks' always. Returns how
+    many these are. O(both).
     """
     bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
-    stale = 0
-    j = 0
+    stale, j = 0, 0
     row_a, row_b = -1, -1
     p_cosine, p_sine, q_cosine, q_sine = 1.0, 0.0, 1.0, 0.0
     for i in range(batch.count):
@@ -82,24 +90,15 @@ def recycle_manifolds(
         if b.body_row != row_b:
             row_b = b.body_row
             q_cosine, q_sine = heading(q.angle)
-        fits = True
-        last = j
+        turns = a.kind == CIRCLE or b.kind == CIRCLE  # as it likes
+        fits, last = True, j
         while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
             m = previous_inout[last]
             c = anchors_inout[last]
             if fits and not m.swept:
                 moved, rolled = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, c, False, m)
-                # What is round on both sides, or on one against a face, may turn as it likes.
-                turn = 0.0
-                if a.kind != CIRCLE and b.kind != CIRCLE:
-                    turn = abs((q.angle - c.angle_b) - (p.angle - c.angle_a)) * reach
-                if moved > distance and lies(m, c):
-                    # Of a face that is short itself, each hair counts.
-                    x = m.x_2 - m.x_1
-                    y = m.y_2 - m.y_1
-                    far = moved * moved <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y)
-                    moved = moved / RECYCLE_MOVE if far else moved
-                fits = moved <= distance and rolled <= distance and turn <= distance and is_sound(m, c)
+                turn = 0.0 if turns else abs((q.angle - c.angle_b) - (p.angle - c.angle_a)) * reach
+                fits = max(rolled, turn) <= distance and moved <= may_move(m, c, distance) and is_sound(m, c)
             else:
                 fits = False
             last += 1

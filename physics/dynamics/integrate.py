@@ -105,7 +105,7 @@ def make_position_pass(rotation: bool) -> Callable:
 
 
 @subkernel
-def settle(body_inout, u, v):
+def put_center(u, v, body_inout):
     """Write the world centre of mass [px] of a BODY row that is u, v from its origin, and that its pose is finite."""
     b = body_inout
     b.center_x = b.x + u
@@ -124,7 +124,7 @@ def refresh_center(body_inout):
     v = b.local_center_y
     if b.angle != 0.0:
         u, v = turned(u, v, *heading(b.angle))
-    settle(b, u, v)
+    put_center(u, v, b)
 
 
 @kernel

@@ -2,44 +2,15 @@
 
 Seeded with the speed with which two sides meet, by the parabola from before the step: so a speculative row that has
 already braked the body does not eat the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
-points of one manifold are solved together, or a box that lands flat would spin.
+points of one manifold are solved together, or a box that lands flat would spin. Who hits several things in one step:
+see hits.py.
 """
 
-import math
-
 from physics.jit import subkernel
+from physics.solver.hits import play_all_hits
+from physics.solver.impulses import push_pair, relative_speed, speed_of_impact
 from physics.solver.two_points import solve_two
 from physics.tables.counters import RESTITUTION_ROWS
-
-
-@subkernel
-def relative_speed(a, b, nx, ny, ax, ay, bx, by):
-    """Speed [px/s] of B against A along a normal at these arms; negative when they near each other."""
-    vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
-    vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
-    return vx * nx + vy * ny
-
-
-@subkernel
-def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal: to B forwards, to A backwards."""
-    x = impulse * nx
-    y = impulse * ny
-    a_inout.vx -= a_inout.inverse_mass * x
-    a_inout.vy -= a_inout.inverse_mass * y
-    a_inout.angular_velocity -= a_inout.inverse_inertia * (ax * y - ay * x)
-    b_inout.vx += b_inout.inverse_mass * x
-    b_inout.vy += b_inout.inverse_mass * y
-    b_inout.angular_velocity += b_inout.inverse_inertia * (bx * y - by * x)
-
-
-@subkernel
-def speed_of_impact(speed, separation, acceleration):
-    """Speed [px/s] with which two sides meet that were apart by a separation [px] before the step and neared each other
-    at a speed and an acceleration [px/s2]; of those that overlapped, the speed itself."""
-    if speed <= 0.0 or separation <= 0.0:
-        return speed
-    return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
 
 
 @subkernel
@@ -65,8 +36,8 @@ def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
     ny = r.normal_y
     missing_1 = wanted_1 - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
     missing_2 = wanted_2 - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
-    old_1 = r.normal_impulse_1
-    old_2 = r.normal_impulse_2
+    old_1 = r.normal_total_1
+    old_2 = r.normal_total_2
     x_1, x_2 = solve_two(
         r.normal_mass_1 * missing_1, r.normal_mass_2 * missing_2, r.couple_1, r.couple_2, r.split, old_1, old_2
     )
@@ -81,18 +52,24 @@ def restore_bounces(
     manifolds,
     anchors,
     threshold,
+    dt,
     count,
     # write
     motions_inout,
     constraints_inout,
     work_inout,
 ):
-    """Give back restitution times the approach speed where an impulse acted; threshold [px/s]: slower ones stay dead.
+    """Give back restitution times the approach speed where an impulse acted in a step of dt [s]; threshold [px/s]:
+    slower ones stay dead.
 
     MANIFOLD, ANCHOR, MOTION rows, and so many of CONSTRAINT. O(count).
     """
+    play_all_hits(manifolds, anchors, threshold, dt, count, motions_inout, constraints_inout, work_inout)
     for i in range(count):
         r = constraints_inout[i]
+        if r.played:
+            work_inout[RESTITUTION_ROWS] += int(r.normal_total_1 > 0.0) + int(r.normal_total_2 > 0.0)
+            continue
         m = manifolds[r.manifold]
         restitution = anchors[r.manifold].restitution
         if restitution <= 0.0:
@@ -118,13 +95,12 @@ def restore_bounces(
             change_1, change_2 = bounce_together(wanted_1, wanted_2, r, a, b)
         elif first:
             change_1 = bounce_once(
-                wanted_1, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
+                wanted_1, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_total_1, a, b
             )
         else:
             change_2 = bounce_once(
-                wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
+                wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_total_2, a, b
             )
-        r.normal_impulse_1 += change_1
+        # No force that the next step could start from.
         r.normal_total_1 += change_1
-        r.normal_impulse_2 += change_2
         r.normal_total_2 += change_2

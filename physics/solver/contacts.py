@@ -175,6 +175,7 @@ def make_finish(restitution: bool, friction: bool, rotation: bool) -> Callable:
     def finish_constraints(
         # read
         threshold,
+        dt,
         inverse_h,
         share,
         # write
@@ -186,12 +187,12 @@ def make_finish(restitution: bool, friction: bool, rotation: bool) -> Callable:
     ):
         """Bounce what has met, end friction where less presses, and write the impulses back. O(constraints).
 
-        threshold [px/s]: see restore_bounces; inverse_h [1/s], share: see store_impulses.
+        threshold [px/s], dt [s]: see restore_bounces; inverse_h [1/s], share: see store_impulses.
         """
         count = len(constraints_inout)
         if restitution:
             restore_bounces(
-                manifolds_inout, anchors_inout, threshold, count, motions_inout, constraints_inout, work_inout
+                manifolds_inout, anchors_inout, threshold, dt, count, motions_inout, constraints_inout, work_inout
             )
         if friction:
             limit_friction(count, motions_inout, constraints_inout)
@@ -248,5 +249,13 @@ class ContactSet:
         """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""
         effects, threshold = state.effects, state.tolerances.restitution_speed
         FINISH[effects.restitution, effects.friction, effects.rotation](
-            threshold, 1.0 / h, state.dt / state.span, motions.used, rows, state.manifolds, state.anchors, state.work
+            threshold,
+            state.dt,
+            1.0 / h,
+            state.dt / state.span,
+            motions.used,
+            rows,
+            state.manifolds,
+            state.anchors,
+            state.work,
         )

@@ -51,9 +51,11 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             if place < starts[0] or place >= starts[len(starts) - 1]:
                 continue  # of another group
             slot = plan.colors[edge] + 1
-            nth = place - starts[slot]
-            block = blocks_out.firsts[slot] + (nth if slot == 0 else nth // LANES)
-            lane = 0 if slot == 0 else nth % LANES
+            block = blocks_out.block_of[slot]
+            lane = blocks_out.lane_of[slot]
+            last = slot == 0 or lane == LANES - 1
+            blocks_out.block_of[slot] = block + 1 if last else block
+            blocks_out.lane_of[slot] = 0 if last else lane + 1
             prepare_row(bodies, motions, manifolds, plan, edge, pace.h, limits, anchors_inout, r, work_inout)
             blocks_out.manifold[block, lane] = r.manifold
             blocks_out.motion_a[block, lane] = r.motion_a
@@ -157,6 +159,7 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
         # read
         count,
         threshold,
+        dt,
         inverse_h,
         share,
         # write
@@ -171,7 +174,7 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
         if restitution:
             found = take_elastic(blocks_inout, count, constraints_inout)
             restore_bounces(
-                manifolds_inout, anchors_inout, threshold, found, motions_inout, constraints_inout, work_inout
+                manifolds_inout, anchors_inout, threshold, dt, found, motions_inout, constraints_inout, work_inout
             )
             put_back(constraints_inout, found, blocks_inout)
         if friction:
@@ -212,6 +215,7 @@ def store(state: StepState, contacts: ContactSet, motions: Motions, blocks: Bloc
     FINISH[effects.restitution, effects.friction, effects.rotation](
         count,
         threshold,
+        state.dt,
         1.0 / h,
         state.dt / state.span,
         motions.used,

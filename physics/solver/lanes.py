@@ -111,7 +111,7 @@ def pack_row(r, a, b, restitution, pace, lane, c_out):
     c_out[BIAS_RATE + lane] = spring.bias_rate
     firmness = firmness_of(r, pace)
     c_out[FIRMNESS + lane] = -firmness if r.alone else firmness  # its sign: see CONSTRAINT.alone
-    c_out[GIVE + lane] = 1.0 / (1.0 + firmness * spring.grip)
+    c_out[GIVE + lane] = 1.0 / (1.0 + firmness_of(r, pace) * spring.grip)
     c_out[BLOW + lane] = pace.blow * (r.normal_impulse_1 + r.normal_impulse_2) if r.loaded and not r.still else math.inf
     c_out[COUPLE_1 + lane] = r.couple_1
     c_out[COUPLE_2 + lane] = r.couple_2
@@ -155,6 +155,8 @@ def unpack_row(c, lane, row_out):
     """Write into a CONSTRAINT row what a lane knows of its arms and masses, and its impulses."""
     r = row_out
     r.count = 2 if c[MASS_2 + lane] > 0.0 else 1
+    r.still = c[IM_A + lane] == 0.0 or c[IM_B + lane] == 0.0
+    r.rests = c[RESTS + lane] > 0.0
     r.normal_x = c[NX + lane]
     r.normal_y = c[NY + lane]
     r.friction = c[FRICTION + lane]
@@ -202,7 +204,8 @@ class Blocks(NamedTuple):
     motion_b: np.ndarray
     lines: np.ndarray  # SIZE numbers for each block
     gathered: np.ndarray  # GATHERED numbers: of the block that a pass is at
-    firsts: np.ndarray  # (colours + 1) where the blocks of each colour begin, the colourless first
+    block_of: np.ndarray  # (colours + 1) where the next row of each colour is to stand, the colourless first
+    lane_of: np.ndarray
 
 
 def make_blocks(count: int) -> Blocks:
@@ -214,7 +217,8 @@ def make_blocks(count: int) -> Blocks:
         motion_b=np.zeros(lanes, np.uint32),
         lines=zeros_in_lines(count * SIZE, np.float64),
         gathered=zeros_in_lines(GATHERED, np.float64),
-        firsts=np.zeros(COLORS + 1, np.int64),
+        block_of=np.zeros(COLORS + 1, np.int64),
+        lane_of=np.zeros(COLORS + 1, np.int64),
     )
 
 
@@ -226,21 +230,23 @@ def blocks_needed(rows: int, starts: np.ndarray) -> int:
 @subkernel
 def lay_out(starts, blocks_out):
     """Decide which blocks the rows of each colour stand in, and empty the lanes that are left over. Returns the number
-    of blocks. O(colours).
+    of blocks. O(blocks).
 
     starts (colours + 2) int64: where the rows of each colour begin, the colourless first, which stand in a block each,
     and where the last end.
     """
     found = 0
     for slot in range(len(starts) - 1):
-        blocks_out.firsts[slot] = found
-        rows = starts[slot + 1] - starts[slot]
-        needed = rows if slot == 0 else (rows + LANES - 1) // LANES
-        for block in range(found if slot == 0 else found + rows // LANES, found + needed):
-            for lane in range(1 if slot == 0 else rows % LANES, LANES):
-                blocks_out.manifold[block, lane] = -1
-                blocks_out.motion_a[block, lane] = 0
-                blocks_out.motion_b[block, lane] = 0
-                pack_nothing(lane, blocks_out.lines[block * SIZE : (block + 1) * SIZE])
-        found += needed
+        blocks_out.block_of[slot] = found
+        blocks_out.lane_of[slot] = 0
+        wide = 1 if slot == 0 else LANES
+        left = starts[slot + 1] - starts[slot]
+        while left > 0:
+            for lane in range(min(left, wide), LANES):
+                blocks_out.manifold[found, lane] = -1
+                blocks_out.motion_a[found, lane] = 0
+                blocks_out.motion_b[found, lane] = 0
+                pack_nothing(lane, blocks_out.lines[found * SIZE : (found + 1) * SIZE])
+            left -= wide
+            found += 1
     return found

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.dynamics.integrate import refresh_center, settle
+from physics.dynamics.integrate import put_center, refresh_center
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, length_of, turned
 from physics.shapes.rasters import add_missing_rasters
@@ -47,6 +47,7 @@ def stand_still(motions_out, pushable_out, joins_out):
     m.demand = 0.0
     m.eased = 0.0
     m.substeps = 0
+    m.hits = 0
     m.moves = False
     m.pushed = False
     m.pressed = False
@@ -116,6 +117,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.pressed = False
             m.walks = False
             m.demand = 0.0
+            m.hits = 0
             m.substeps = b.substeps
             m.eased = b.eased
             joins_out[k + 1] = m.pushed
@@ -288,7 +290,7 @@ def scatter_motions(
             u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
-            settle(b, u, v)
+            put_center(u, v, b)
 
 
 GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}

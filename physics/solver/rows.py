@@ -88,6 +88,24 @@ def limits_of(tolerances: Tolerances) -> Limits:
     )
 
 
+@inlined
+def judge_row(m, c, held, a, b, degree_a, degree_b, limits, row_out):
+    """Write what a CONSTRAINT row is told by: of a manifold, its anchor, whether its faces are held, the MOTION rows of
+    its sides and how many contacts each of them has."""
+    r = row_out
+    # One contact below, and one above.
+    r.alone = held and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
+    crowd = max(degree_a if a.inverse_mass > 0.0 else 0, degree_b if b.inverse_mass > 0.0 else 0)
+    r.push_share = CROWD / crowd if crowd > CROWD else 1.0
+    r.calm = m.speed_1 <= limits.calm_speed and (m.count == 1 or m.speed_2 <= limits.calm_speed)
+    r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
+    r.meets = m.speed_1 > limits.bounce_speed or (m.count == 2 and m.speed_2 > limits.bounce_speed)
+    r.rests = touches_slowly(m.separation_1, m.speed_1, limits) or (
+        m.count == 2 and touches_slowly(m.separation_2, m.speed_2, limits)
+    )
+    r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
+
+
 def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
     """What makes a constraint of a contact in a world with these effects."""
 
@@ -122,44 +140,24 @@ def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
         q = bodies[m.body_row_b]
         r.manifold = first
         r.count = m.count
-        held = m.count == 2 and sticks(p, q, c, limits.sticking)
+        held = m.count == 2 and m.lead == 0.0 and sticks(p, q, c, limits.sticking)
         nx = c.held_nx if held else m.normal_x
         ny = c.held_ny if held else m.normal_y
         r.normal_x = nx
         r.normal_y = ny
         r.friction = c.friction if friction else 0.0
         r.surface_speed = c.surface_speed if conveyor else 0.0
-        # One contact below, and one above.
-        r.alone = (
-            held
-            and (a.inverse_mass == 0.0 or plan.degrees[r.motion_a] <= 2)
-            and (b.inverse_mass == 0.0 or plan.degrees[r.motion_b] <= 2)
-        )
-        crowd = max(
-            plan.degrees[r.motion_a] if a.inverse_mass > 0.0 else 0,
-            plan.degrees[r.motion_b] if b.inverse_mass > 0.0 else 0,
-        )
-        r.push_share = CROWD / crowd if crowd > CROWD else 1.0
-        r.calm = m.speed_1 <= limits.calm_speed and (m.count == 1 or m.speed_2 <= limits.calm_speed)
-        r.loaded = c.normal_force_1 > 0.0 or (m.count == 2 and c.normal_force_2 > 0.0)
-        r.meets = m.speed_1 > limits.bounce_speed or (m.count == 2 and m.speed_2 > limits.bounce_speed)
-        r.rests = touches_slowly(m.separation_1, m.speed_1, limits) or (
-            m.count == 2 and touches_slowly(m.separation_2, m.speed_2, limits)
-        )
-        r.still = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
+        judge_row(m, c, held, a, b, plan.degrees[r.motion_a], plan.degrees[r.motion_b], limits, r)
         r.rolling_limit = c.rolling_resistance if friction else 0.0
         turning = a.inverse_inertia + b.inverse_inertia
         r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
         r.rolling_impulse = h * c.rolling_force
-        r.push_impulse_1 = 0.0
-        r.push_impulse_2 = 0.0
-        r.normal_impulse_2 = 0.0  # the rows are used again: a manifold of one point has no second
+        r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
+        # The rows are used again: a manifold of one point has no second.
         r.ax_2, r.ay_2, r.bx_2, r.by_2 = 0.0, 0.0, 0.0, 0.0
-        r.tangent_impulse_2 = 0.0
-        r.normal_total_2 = 0.0
-        r.tangent_total_2 = 0.0
-        r.radius_a = c.radius_a
-        r.radius_b = c.radius_b
+        r.normal_impulse_2, r.tangent_impulse_2 = 0.0, 0.0
+        r.normal_total_2, r.tangent_total_2 = 0.0, 0.0
+        r.radius_a, r.radius_b = c.radius_a, c.radius_b
         core = c.radius_a + c.radius_b
         for k in range(m.count):
             work_inout[SOLVER_ROWS] += 1

@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
-from physics.solver.bounce import bounce_once, relative_speed
+from physics.solver.bounce import bounce_once
 from physics.solver.contacts import WARM_START, ContactSet
+from physics.solver.impulses import relative_speed
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
 from physics.solver.overlaps import wanted_apart
 from physics.solver.two_points import solve_two

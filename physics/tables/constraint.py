@@ -34,6 +34,7 @@ MOTION = in_lines(
         ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
         ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
         ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
+        ("hits", np.int64),  # see solver/hits
     ]
 )
 
@@ -45,6 +46,12 @@ CONSTRAINT = np.dtype(
         ("count", np.int32),
         ("block", np.int32),  # and lane that it stood in, see solver/lane_contacts
         ("lane", np.int32),
+        ("before", np.int32),  # another of the same body, see solver/hits …
+        ("played", np.bool_),  # … and whether its hits were told there, …
+        ("met_1", np.float64),  # [px/s] the speed that each point would meet with
+        ("met_2", np.float64),
+        ("gap_1", np.float64),  # [px] until then
+        ("gap_2", np.float64),
         ("normal_x", np.float64),
         ("normal_y", np.float64),
         ("friction", np.float64),

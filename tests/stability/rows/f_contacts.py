@@ -179,8 +179,6 @@ CONTACTS = Section(
                 at_most("relative error of the energy of what turns", 0.01),
             ),
             "Box2D BounceHouse",
-            fault="what turns so that both its ends hit a wall within one step bounces twice by the speeds of before: "
-            "of forty capsules eleven lose or win more than 1 % in 1,000 steps, one 41 %",
         ),
         Row(
             "F24",

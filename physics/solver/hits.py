@@ -1,0 +1,213 @@
+"""Several hits of one body within a step: one after the other, each as hard as those before have left it.
+
+What flies may meet a wall with one end, be turned by it, and meet it with the other before the step is over; or the
+wall and the floor of a corner. The speeds from before the step say nothing of the second hit, and what the substeps
+have stopped is not what bounces. So the hits of such a body on what cannot be pushed are played once more, from one to
+the next, along straight lines: energy is kept in each (Newton's law of restitution, at the time of each hit).
+"""
+
+import math
+
+from physics.jit import subkernel
+from physics.solver.impulses import push_pair, speed_of_impact
+from physics.tables.counters import CAP_HITS
+
+MOST_HITS = 16  # of one body within a step: who rattles in a gap goes on in the next, and is counted in cap_hits
+NOBODY, CROWDED = 0, -1  # of MOTION.hits: no row yet; not to be played
+
+
+@subkernel
+def mover_of(r, motions):
+    """The row of MOTION that a CONSTRAINT row against what stands can push, and 1.0 where that is B, else -1.0."""
+    if motions[r.motion_b].inverse_mass > 0.0:
+        return r.motion_b, 1.0
+    return r.motion_a, -1.0
+
+
+@subkernel
+def link_hits(count, constraints_inout, motions_inout):
+    """Link the rows of each body: MOTION.hits is the last of them and one, CONSTRAINT.before the one before that.
+
+    Bodies that something holds already, or that hit what can be pushed, are left out: CROWDED. O(count).
+    """
+    for i in range(count):
+        r = constraints_inout[i]
+        r.played = False
+        if r.still and not r.rests:
+            mover, _ = mover_of(r, motions_inout)
+            m = motions_inout[mover]
+            r.before = m.hits
+            if m.hits != CROWDED:
+                m.hits = i + 1
+        else:
+            for side in range(2):
+                m = motions_inout[r.motion_a if side == 0 else r.motion_b]
+                if m.inverse_mass > 0.0:
+                    m.hits = CROWDED
+
+
+@subkernel
+def unlink_hits(constraints, count, motions_inout):
+    """Leave no trace in the motions."""
+    for i in range(count):
+        motions_inout[constraints[i].motion_a].hits = NOBODY
+        motions_inout[constraints[i].motion_b].hits = NOBODY
+
+
+@subkernel
+def lever_of(r, second, sign):
+    """How an impulse along the normal at a point turns the mover [px]."""
+    if sign > 0.0:
+        return (r.bx_2 * r.normal_y - r.by_2 * r.normal_x) if second else (r.bx_1 * r.normal_y - r.by_1 * r.normal_x)
+    return (r.ax_2 * r.normal_y - r.ay_2 * r.normal_x) if second else (r.ax_1 * r.normal_y - r.ay_1 * r.normal_x)
+
+
+@subkernel
+def is_played(constraints, last, manifolds, threshold):
+    """Whether a body's hits, linked from row `last`, are to be played: it meets something at two points, and not only
+    the two of one manifold, both of which neared it before."""
+    points = 0
+    rows = 0
+    fast = 0
+    at = last
+    while at != NOBODY:
+        r = constraints[at - 1]
+        m = manifolds[r.manifold]
+        rows += 1
+        for k in range(r.count):
+            total = r.normal_total_1 if k == 0 else r.normal_total_2
+            speed = m.speed_1 if k == 0 else m.speed_2
+            points += int(total > 0.0)
+            fast += int(total > 0.0 and speed > threshold)
+        at = r.before
+    return fast > 0 and points > 1 and (rows > 1 or fast < points)
+
+
+@subkernel
+def speed_now(constraints, last, row, second, mover, motions):
+    """How fast [px/s] a point of a row nears what it will hit, after the impulses that its body got until now."""
+    r = constraints[row]
+    _, sign = mover_of(r, motions)
+    lever = lever_of(r, second, sign)
+    speed = r.met_2 if second else r.met_1
+    at = last
+    while at != NOBODY:
+        o = constraints[at - 1]
+        _, other = mover_of(o, motions)
+        along = r.normal_x * o.normal_x + r.normal_y * o.normal_y
+        for k in range(o.count):
+            impulse = o.push_impulse_1 if k == 0 else o.push_impulse_2
+            if impulse > 0.0:
+                turn = mover.inverse_inertia * lever * lever_of(o, k == 1, other)
+                speed -= sign * other * (mover.inverse_mass * along + turn) * impulse
+        at = o.before
+    return speed
+
+
+@subkernel
+def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constraints_inout):
+    """Play the hits of a body, whose rows are linked from `last`, over dt [s]: the impulse of each point to
+    push_impulse. mover: its MOTION row. Returns whether MOST_HITS was enough."""
+    at = last
+    while at != NOBODY:
+        r = constraints_inout[at - 1]
+        m = manifolds[r.manifold]
+        a = motions[r.motion_a]
+        b = motions[r.motion_b]
+        nearing = (a.acceleration_x - b.acceleration_x) * r.normal_x
+        nearing += (a.acceleration_y - b.acceleration_y) * r.normal_y
+        r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
+        r.met_1 = speed_of_impact(m.speed_1, m.separation_1, nearing)
+        r.met_2 = speed_of_impact(m.speed_2, m.separation_2, nearing) if r.count == 2 else 0.0
+        r.gap_1 = max(m.separation_1, 0.0)
+        r.gap_2 = max(m.separation_2, 0.0) if r.count == 2 else 0.0
+        at = r.before
+    left = dt
+    for _ in range(MOST_HITS):
+        soonest = math.inf
+        hit = NOBODY
+        second = False
+        hit_speed = 0.0
+        at = last
+        while at != NOBODY:
+            r = constraints_inout[at - 1]
+            for k in range(r.count):
+                speed = speed_now(constraints_inout, last, at - 1, k == 1, mover, motions)
+                gap = r.gap_1 if k == 0 else r.gap_2
+                if speed > threshold and gap < soonest * speed:
+                    soonest = gap / speed
+                    hit = at
+                    second = k == 1
+                    hit_speed = speed
+            at = r.before
+        if hit == NOBODY or soonest > left:
+            return True
+        left -= soonest
+        at = last
+        while at != NOBODY:
+            r = constraints_inout[at - 1]
+            r.gap_1 = max(r.gap_1 - soonest * speed_now(constraints_inout, last, at - 1, False, mover, motions), 0.0)
+            if r.count == 2:
+                r.gap_2 = max(r.gap_2 - soonest * speed_now(constraints_inout, last, at - 1, True, mover, motions), 0.0)
+            at = r.before
+        r = constraints_inout[hit - 1]
+        impulse = (1.0 + anchors[r.manifold].restitution) * hit_speed
+        if second:
+            r.push_impulse_2 += r.normal_mass_2 * impulse
+        else:
+            r.push_impulse_1 += r.normal_mass_1 * impulse
+    return False
+
+
+@subkernel
+def take_hits(last, constraints_inout, motions_inout):
+    """Give a body the impulses of the hits that were played in place of those that the substeps found: no forces that
+    the next step could start from."""
+    at = last
+    while at != NOBODY:
+        r = constraints_inout[at - 1]
+        a = motions_inout[r.motion_a]
+        b = motions_inout[r.motion_b]
+        change = r.push_impulse_1 - r.normal_total_1
+        push_pair(r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, change, a, b)
+        r.normal_impulse_1 = 0.0
+        r.normal_total_1 = r.push_impulse_1
+        if r.count == 2:
+            change = r.push_impulse_2 - r.normal_total_2
+            push_pair(r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, change, a, b)
+            r.normal_impulse_2 = 0.0
+            r.normal_total_2 = r.push_impulse_2
+        r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
+        r.played = True
+        at = r.before
+
+
+@subkernel
+def play_all_hits(
+    # read
+    manifolds,
+    anchors,
+    threshold,
+    dt,
+    count,
+    # write
+    motions_inout,
+    constraints_inout,
+    work_inout,
+):
+    """Bounce the bodies that fly and hit what stands several times within a step of dt [s]: so many CONSTRAINT rows of
+    contacts with restitution that pressed. Their rows are `played` then. threshold [px/s]: slower hits do not bounce.
+    O(count + hits · points² of such a body)."""
+    link_hits(count, constraints_inout, motions_inout)
+    for i in range(count):
+        r = constraints_inout[i]
+        if not r.still or r.rests:
+            continue
+        row, _ = mover_of(r, motions_inout)
+        mover = motions_inout[row]
+        # The last of its rows stands for the body.
+        if mover.hits == i + 1 and is_played(constraints_inout, i + 1, manifolds, threshold):
+            if not play_hits(i + 1, manifolds, anchors, threshold, dt, mover, motions_inout, constraints_inout):
+                work_inout[CAP_HITS] += 1
+            take_hits(i + 1, constraints_inout, motions_inout)
+    unlink_hits(constraints_inout, count, motions_inout)
