@@ -128,12 +128,13 @@ class Workspace:
         self._anchors = [zeros_in_lines(16, ANCHOR) for _ in range(2 if stacks else 0)]
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
 
-    def contacts_beside(self, manifolds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Room for so many MANIFOLD and ANCHOR rows in the tables that do not hold these manifolds."""
-        if manifolds.base is self._manifolds[0].base:
-            self._manifolds.reverse()
-            self._anchors.reverse()
-        if len(self._anchors[0]) < count:
+    def contacts_beside(self, manifolds: np.ndarray, anchors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Room for so many MANIFOLD and ANCHOR rows in tables that do not hold these: between steps either may have
+        been replaced."""
+        for rows, tables in ((manifolds, self._manifolds), (anchors, self._anchors)):
+            if rows.base is tables[0].base:
+                tables.reverse()
+        if min(len(self._manifolds[0]), len(self._anchors[0])) < count:
             self._manifolds[0], self._anchors[0] = (
                 zeros_in_lines(2 * count, MANIFOLD),
                 zeros_in_lines(2 * count, ANCHOR),

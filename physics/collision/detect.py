@@ -94,7 +94,7 @@ def detect_piles(state: StepState) -> None:
     if not (len(found) or len(stale)):
         return  # all are used again, where they stand
     kept = len(previous) - len(stale)
-    other_manifolds, other_anchors = state.workspace.contacts_beside(previous, kept + len(found))
+    other_manifolds, other_anchors = state.workspace.contacts_beside(previous, anchors, kept + len(found))
     if kept and take_places(*places, stale, found, other_anchors, previous, anchors):
         return
     count = carry_over(*places, previous, anchors, stale, found, other_manifolds, other_anchors)

@@ -53,6 +53,23 @@ def test_a_pile_does_the_same_whether_contacts_elsewhere_come_and_go(solver, sha
 
 
 @pytest.mark.parametrize("shapes", SHAPES)
+def test_a_pile_does_the_same_whether_bodies_elsewhere_are_removed(shapes):
+    ran = []
+    for removes in (False, True):
+        world, heap, guest = pile("soft_step", SHAPES[shapes])
+        for step in range(STEPS):
+            if removes and step % 7 == 3:
+                guest.remove()
+                # On the floor of the heap: its contact stands in the middle of the table.
+                guest = world.add_body(Polygon.box(20, 20), position=(380, -10.0))
+            world.step()
+            assert (world.manifolds["separation_1"] > -8.0).all(), f"step {step}"
+        ran.append([world.bodies[name][heap].copy() for name in STATE])
+    for name, still, busy in zip(STATE, *ran, strict=True):
+        assert np.array_equal(still, busy), name
+
+
+@pytest.mark.parametrize("shapes", SHAPES)
 def test_a_pile_goes_on_alike_from_a_snapshot_when_its_contacts_have_stood_for_long(shapes):
     world, heap, _ = pile("soft_step", SHAPES[shapes])
     for _ in range(STEPS):
