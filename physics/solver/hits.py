@@ -10,9 +10,11 @@ import math
 
 from physics.jit import subkernel
 from physics.solver.impulses import push_pair, speed_of_impact
+from physics.solver.two_points import solve_two
 from physics.tables.counters import CAP_HITS
 
 MOST_HITS = 16  # of one body within a step: who rattles in a gap goes on in the next, and is counted in cap_hits
+TOGETHER = 1.0 / 64.0  # of a step within which two points of a manifold hit at once
 NOBODY, CROWDED = 0, -1  # of MOTION.hits: no row yet; not to be played
 
 
@@ -25,14 +27,18 @@ def mover_of(r, motions):
 
 
 @subkernel
-def link_hits(count, constraints_inout, motions_inout):
-    """Link the rows of each body: MOTION.hits is the last of them and one, CONSTRAINT.before the one before that.
+def link_hits(anchors, count, constraints_inout, motions_inout):
+    """Link the rows of each body that may bounce: MOTION.hits is the last of them and one, CONSTRAINT.before the one
+    before that.
 
     Bodies that something holds already, or that hit what can be pushed, are left out: CROWDED. O(count).
     """
     for i in range(count):
         r = constraints_inout[i]
         r.played = False
+        r.linked = anchors[r.manifold].restitution > 0.0 and r.normal_total_1 + r.normal_total_2 > 0.0
+        if not r.linked:
+            continue
         if r.still and not r.rests:
             mover, _ = mover_of(r, motions_inout)
             m = motions_inout[mover]
@@ -151,11 +157,20 @@ def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constrain
                 r.gap_2 = max(r.gap_2 - soonest * speed_now(constraints_inout, last, at - 1, True, mover, motions), 0.0)
             at = r.before
         r = constraints_inout[hit - 1]
-        impulse = (1.0 + anchors[r.manifold].restitution) * hit_speed
-        if second:
-            r.push_impulse_2 += r.normal_mass_2 * impulse
-        else:
-            r.push_impulse_1 += r.normal_mass_1 * impulse
+        back = 1.0 + anchors[r.manifold].restitution
+        other_speed = 0.0
+        if r.count == 2:
+            other_speed = speed_now(constraints_inout, last, hit - 1, not second, mover, motions)
+        # Two points that hit as good as together do so, or what lands flat would spin.
+        together = other_speed > threshold and (r.gap_1 if second else r.gap_2) <= TOGETHER * dt * other_speed
+        speed_1 = hit_speed if not second else (other_speed if together else 0.0)
+        speed_2 = hit_speed if second else (other_speed if together else 0.0)
+        change_1 = r.normal_mass_1 * back * speed_1
+        change_2 = r.normal_mass_2 * back * speed_2
+        if together:
+            change_1, change_2 = solve_two(change_1, change_2, r.couple_1, r.couple_2, r.split, 0.0, 0.0)
+        r.push_impulse_1 += change_1
+        r.push_impulse_2 += change_2
     return False
 
 
@@ -198,10 +213,10 @@ def play_all_hits(
     """Bounce the bodies that fly and hit what stands several times within a step of dt [s]: so many CONSTRAINT rows of
     contacts with restitution that pressed. Their rows are `played` then. threshold [px/s]: slower hits do not bounce.
     O(count + hits · points² of such a body)."""
-    link_hits(count, constraints_inout, motions_inout)
+    link_hits(anchors, count, constraints_inout, motions_inout)
     for i in range(count):
         r = constraints_inout[i]
-        if not r.still or r.rests:
+        if not r.linked or not r.still or r.rests:
             continue
         row, _ = mover_of(r, motions_inout)
         mover = motions_inout[row]

@@ -47,6 +47,7 @@ CONSTRAINT = np.dtype(
         ("block", np.int32),  # and lane that it stood in, see solver/lane_contacts
         ("lane", np.int32),
         ("before", np.int32),  # another of the same body, see solver/hits …
+        ("linked", np.bool_),
         ("played", np.bool_),  # … and whether its hits were told there, …
         ("met_1", np.float64),  # [px/s] the speed that each point would meet with
         ("met_2", np.float64),

@@ -73,7 +73,7 @@ def build_leaning(side):
 
 
 def build_struck(side):
-    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls on it from two metres."""
+    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls on it from three metres."""
     floor(side.world)
     places = [
         ((column - (9 - row) / 2) * 1.01 * METER, -(row + 0.5) * METER)
@@ -81,7 +81,7 @@ def build_struck(side):
         for column in range(10 - row)
     ]
     side.world.add_bodies(CRATE, places)
-    side.world.add_body(CRATE, position=(0.0, -11.5 * METER), material=Material(density=300.0))
+    side.world.add_body(CRATE, position=(0.0, -12.5 * METER), material=Material(density=300.0))
 
 
 def build_load(side):
@@ -227,7 +227,7 @@ PAGES = (
     Page(
         "struck",
         "300 : 1 falls on a pyramid",
-        "A crate of 300 times the mass falls two metres: left it ploughs the pyramid.",
+        "A crate of 300 times the mass falls three metres: left it ploughs the pyramid.",
         "The blow passes through nine rows within a step or two; the island takes 32 substeps until it is quiet.",
         KEPT,
         auto(5),
