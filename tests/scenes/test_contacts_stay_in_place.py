@@ -4,6 +4,7 @@ import pytest
 
 from game.run.session import Session
 from game.run.sources import BotSource
+from physics import JIT
 from physics.collision import detect
 from tests.lockstep import make_scene
 
@@ -18,6 +19,7 @@ def played(name):
     return session.scene.world.digest()
 
 
+@pytest.mark.skipif(not JIT, reason="thousands of steps of whole scenes")
 @pytest.mark.parametrize("name", SCENES)
 def test_a_scene_does_the_same_where_all_contacts_are_copied(monkeypatch, name):
     took = []
