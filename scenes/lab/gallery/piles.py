@@ -73,7 +73,7 @@ def build_leaning(side):
 
 
 def build_struck(side):
-    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls on it from three metres."""
+    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls three metres on it."""
     floor(side.world)
     places = [
         ((column - (9 - row) / 2) * 1.01 * METER, -(row + 0.5) * METER)
