@@ -195,12 +195,15 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """What stands in the middle of a mask, where each part of its outline leaves it to the others."""
+    """What stands in the middle of a mask, where each part of its outline leaves it to the others, and beside it, where
+    these are known again."""
     arm = abs(np.arange(12) - 5.5) < 2.0
-    world = World(effects, solver=solver)
+    world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     world.add_body(PixelMask(arm[:, None] | arm), kind="static")
     world.add_body(Polygon.box(2, 2), position=(0.5, 0.3))
-    world.step()
+    world.add_body(Polygon.box(2, 2), position=(0.0, -7.3))  # as near as contacts are found
+    for _ in range(3):
+        world.step()
 
 
 def _zone(effects, solver):
