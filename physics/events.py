@@ -207,53 +207,68 @@ def compare_pairs(
     return True
 
 
+class Changes:
+    """What a comparison has found: each array as long as it is, until the next comparison."""
+
+    __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
+
+    begin: np.ndarray  # EVENT
+    persist: np.ndarray
+    end: np.ndarray
+    aside: np.ndarray  # EVENT: pairs that touched and have fallen asleep
+    hits: np.ndarray  # HIT
+    keep: np.ndarray  # bool: manifolds of pairs that touch
+    points: int  # of pairs that touch
+
+
 class Pairs:
     """The pairs that touch, and what changed among them in the last step."""
 
     def __init__(self) -> None:
+        self._make_room(16)
         self.count = 0
-        self.told = new_told(16)
-        self.before = np.zeros(16, EVENT)
+
+    def _make_room(self, room):
+        """What the next comparison writes; and the pairs of the one before, which change places with what is now."""
+        told = new_told(room)
+        self.told, self.last, self.changes = told, told._replace(now=np.zeros(room, EVENT)), Changes()
 
     def __getstate__(self):
         return self.rows.copy()  # the rest is room for the next comparison
 
     def __setstate__(self, touching):
-        self.told = new_told(16)
+        self._make_room(16)
         self.restore(touching)
 
     @property
     def rows(self) -> np.ndarray:
         """EVENT rows of the pairs that touch, in the order of shape ids."""
-        return self.before[: self.count]
+        return self.last.now[: self.count]
 
     def compare(
         self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
-    ) -> Told | None:
-        """Take in the manifolds of a step. Returns what is told of them, each array as long as it is; None where a part
-        of a shape touches, and nothing is taken in."""
-        room = self.count + len(manifolds)
-        if room > len(self.told.keep):
-            self.told = new_told(2 * room)
-            before = np.zeros(2 * room, EVENT)
-            before[: self.count] = self.rows
-            self.before = before
-        whole = self.told
-        if not compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, whole):
+    ) -> Changes | None:
+        """Take in the manifolds of a step. None where a part of a shape touches, and nothing is taken in."""
+        if self.count + len(manifolds) > len(self.told.keep):
+            self._grow(2 * (self.count + len(manifolds)))
+        told, changes = self.told, self.changes
+        if not compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, told):
             return None
-        now, begin, persist, end, aside, hits, _ = whole.counts.tolist()
-        # What touches now is what touched before, next time: the two tables change places.
-        self.told, self.count, self.before = Told(self.before, *whole[1:]), now, whole.now
-        return Told(
-            self.rows,
-            whole.begin[:begin] if begin else NO_EVENTS,
-            whole.persist[:persist] if persist else NO_EVENTS,
-            whole.end[:end] if end else NO_EVENTS,
-            whole.aside[:aside] if aside else NO_EVENTS,
-            whole.hits[:hits] if hits else NO_HITS,
-            whole.keep[: len(manifolds)],
-            whole.counts,
-        )
+        # What touches now is what touched before, next time.
+        self.told, self.last = self.last, told
+        self.count, begin, persist, end, aside, hits, changes.points = told.counts.tolist()
+        changes.begin = told.begin[:begin] if begin else NO_EVENTS
+        changes.persist = told.persist[:persist] if persist else NO_EVENTS
+        changes.end = told.end[:end] if end else NO_EVENTS
+        changes.aside = told.aside[:aside] if aside else NO_EVENTS
+        changes.hits = told.hits[:hits] if hits else NO_HITS
+        changes.keep = told.keep[: len(manifolds)]
+        return changes
+
+    def _grow(self, room):
+        before = self.rows
+        self._make_room(room)
+        self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
         """Take in pairs that were kept aside."""
@@ -277,11 +292,10 @@ class Pairs:
 
     def restore(self, touching: np.ndarray) -> None:
         """Set the pairs that touch."""
+        if len(touching) > len(self.told.keep):
+            self._make_room(2 * len(touching))
         self.count = len(touching)
-        self.before = np.zeros(max(len(self.told.keep), 2 * self.count), EVENT)
-        self.before[: self.count] = touching
-        if len(self.told.keep) < len(self.before):
-            self.told = new_told(len(self.before))
+        self.last.now[: self.count] = touching
 
 
 class Events:
@@ -315,7 +329,7 @@ def tell(state: StepState) -> None:
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
     parked, keys = state.parked or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed
-    told, order = None, None
+    told = order = None
     if keys is None:
         told = state.touching.compare(manifolds, parked, *usual)
     if told is None:
@@ -324,8 +338,7 @@ def tell(state: StepState) -> None:
         if keys is not None and parked_order is not None:
             keys = keys[parked_order]
         told = state.touching.compare(whole, parked, *usual)
-    events.begin, events.end, events.hits = told.begin, told.end, told.hits
-    events.persist = told.persist
+    events.begin, events.persist, events.end, events.hits = told.begin, told.persist, told.end, told.hits
     keep = told.keep
     if order is not None:
         keep = np.empty_like(keep)
@@ -342,4 +355,4 @@ def tell(state: StepState) -> None:
             state.sleepers.keep_touching(told.aside, parked, keys)
         state.sleepers.keep_told(state)
     state.told = (manifolds, keep)
-    state.work[CONTACTS] = told.counts[6]
+    state.work[CONTACTS] = told.points

@@ -5,6 +5,7 @@ in metres (`pixels_per_meter=1`) behaves as its copy in pixels.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 PIXELS_PER_METER = 32.0  # a hero of 1.5 m is 48 px: the scale of most pixel art
 STANDARD_GRAVITY = 9.8  # [m/s2]
@@ -74,6 +75,15 @@ SHORTEST_STEP = 1e-30  # [s] shorter ones are none: no double of a clock tells t
 POSITION_LIMIT = 2.0**52  # [px], [rad] beyond, a double no longer resolves one: bodies there are quarantined
 
 
+class Limits(NamedTuple):
+    """By what a contact is told to be still, to stick or to rest."""
+
+    calm_speed: float  # [px/s] what approaches no faster is still
+    sticking: float  # [px] see rows.sticks
+    slop: float  # [px] see rows.touches_slowly
+    bounce_speed: float  # [px/s] slower impacts do not bounce
+
+
 @dataclass(frozen=True)
 class Tolerances:
     """The tolerances of one world in its own pixels."""
@@ -87,6 +97,7 @@ class Tolerances:
     restitution_speed: float
     hit_speed: float
     speed_limit: float
+    limits: Limits  # in one tuple, as kernels are given them
 
 
 def tolerances(pixels_per_meter: float) -> Tolerances:
@@ -102,4 +113,10 @@ def tolerances(pixels_per_meter: float) -> Tolerances:
         RESTITUTION_SPEED * scale,
         HIT_SPEED * scale,
         SPEED_LIMIT * scale,
+        Limits(
+            CALM_SHARE * (PUSH_SPEED * scale),
+            STICKING_SHARE * (SPECULATIVE_DISTANCE * scale),
+            LINEAR_SLOP * scale,
+            RESTITUTION_SPEED * scale,
+        ),
     )

@@ -178,7 +178,7 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.manifolds, state.anchors = world.manifolds, world.anchors
     state.touching, state.sensing = world.touching, world.sensing
     state.sensed, state.swept_sensors = world.sensed, NO_MANIFOLDS
-    state.impacts, state.changed_count = NO_IMPACTS, 0
+    state.impacts, state.changed_count, state.unsound = NO_IMPACTS, 0, 0
     state.ghosts = state.parked = state.kept_forces = None
     if dt == 0.0:
         state.kept_forces = world.bodies[[*FORCES]].copy()

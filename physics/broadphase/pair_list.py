@@ -182,6 +182,12 @@ class PairList:
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
         """Bring the candidates up to date with `changed_count` slots in `self.changed`, and those freed."""
+        news = changed_count or self.freed or self.again or self.everything or self.moved or self.resting
+        if news or not strategy.incremental:
+            self._take_in(strategy, shapes, changed_count, work)
+        work[CANDIDATES] = self.count
+
+    def _take_in(self, strategy, shapes, changed_count, work):
         arena = self.arena
         arena.work = work
         freed = np.array(self.freed, np.int64)
@@ -209,7 +215,6 @@ class PairList:
         self.free += self.freed
         self.freed = []
         arena.work = NOBODY_COUNTS  # the counters are the step's
-        work[CANDIDATES] = self.count
 
     def _collect(self, strategy, shapes):
         arena, proxies = self.arena, self.proxies

@@ -14,7 +14,7 @@ import numpy as np
 from physics.jit import kernel
 from physics.math2d import length_of
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, DRAWN, MASK_ANGLE_BUCKETS, STEPS_AHEAD
-from physics.shapes.placement import refresh_aabbs, snapped
+from physics.shapes.placement import refresh_boxes, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PIXELS
@@ -40,25 +40,26 @@ class Reach(NamedTuple):
 def update_rectangles(
     # read
     rows,
+    geometry,
     bodies,
-    shapes,
-    rasters,
     reach,
     # write
+    shapes_inout,
     proxies_inout,
     changed_out,
 ):
-    """Write the motion rectangles of these shape rows that no longer fit, and list the slots that changed.
-
-    rasters: those of the geometry; reach: see Reach. Returns the number of slots. O(rows).
+    """Write the boxes of these shape rows, and the motion rectangles that no longer fit, and list the slots that
+    changed. Returns the number of slots. reach: see Reach. O(rows).
     """
+    refresh_boxes(rows, geometry, bodies, shapes_inout)
+    rasters = geometry.rasters
     dt = reach.dt
     margin = reach.margin
     ahead = reach.ahead
     found = 0
     for k in range(len(rows)):
         row = rows[k]
-        s = shapes[row]
+        s = shapes_inout[row]
         if s.proxy < 0:
             continue
         b = bodies[s.body_row]
@@ -155,8 +156,10 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     piles = tables.effects.stacking
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
     # Where velocities were integrated before, gravity and forces are in them.
+    gravity_x, gravity_y = tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)
     reach = Reach(
-        *(tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)),
+        gravity_x,
+        gravity_y,
         dt,
         tolerances.speculative if piles else tolerances.slop,
         AABB_MARGIN * tolerances.pixels_per_meter if piles else 0.0,
@@ -166,6 +169,4 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
         0.0 if piles else STEPS_AHEAD,
     )
     changed = pairs.room_for(len(rows))
-    refresh_aabbs(rows, tables.library.tables, bodies, shapes)
-    rasters = tables.library.tables.rasters
-    return update_rectangles(rows, bodies, shapes, rasters, reach, pairs.proxies, changed)
+    return update_rectangles(rows, tables.library.tables, bodies, reach, shapes, pairs.proxies, changed)

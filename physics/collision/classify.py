@@ -67,8 +67,8 @@ def boxes_apart(a, b, margin):
     )
 
 
-@kernel
-def classify(
+@subkernel
+def classify_pairs(
     # read
     bodies,
     shapes,
@@ -117,3 +117,22 @@ def classify(
         sensors += int(sensor and kind != NOTHING)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
     work_inout[SENSOR_TESTS] += sensors
+
+
+@kernel
+def classify(
+    # read
+    bodies,
+    shapes,
+    candidates,
+    count,
+    margin,
+    ahead,
+    which,
+    # write
+    kind_out,
+    counts_out,
+    work_inout,
+):
+    """See classify_pairs."""
+    classify_pairs(bodies, shapes, candidates, count, margin, ahead, which, kind_out, counts_out, work_inout)

@@ -79,20 +79,23 @@ def detect_piles(state: StepState) -> None:
         state.manifolds, state.anchors = NOTHING, UNANCHORED
         return
     places = state.library.tables, state.bodies, state.shapes
-    found, stale = state.workspace.narrow.update(
+    news = state.workspace.narrow.update(
         *places,
         state.pairs.rows,
         tolerances.speculative,
         state.work,
-        bias=BIAS * tolerances.slop,
-        graze=GRAZE * tolerances.slop,
-        ahead=state.dt,
-        previous=previous,
-        anchors=anchors,
-        recycle=tolerances.recycle,
+        BIAS * tolerances.slop,
+        GRAZE * tolerances.slop,
+        state.dt,
+        previous,
+        anchors,
+        tolerances.recycle,
     )
+    if news is None:
+        return
+    found, stale = news
     if not (len(found) or len(stale)):
-        return  # all are used again, where they stand
+        return
     kept = len(previous) - len(stale)
     other_manifolds, other_anchors = state.workspace.contacts_beside(previous, anchors, kept + len(found))
     if kept and take_places(*places, stale, found, other_anchors, previous, anchors):

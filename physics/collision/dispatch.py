@@ -123,9 +123,10 @@ class NarrowPhase:
         previous: np.ndarray,
         anchors: np.ndarray,
         recycle: float,
-    ) -> Found:
+    ) -> Found | None:
         """As `collide` of what is solid, but manifolds of the step before whose points moved by no more than `recycle`
-        [px] follow their bodies where they stand: previous, with their anchors. What else is found stands beside them.
+        [px] follow their bodies where they stand: previous, with their anchors. What else is found stands beside them;
+        None: nothing else, and all of them follow.
         """
         count = len(candidates)
         self._make_room_for_pairs(count)
@@ -134,8 +135,9 @@ class NarrowPhase:
             self.stale = np.zeros(2 * len(previous), np.int32)
         if self.boxes_only:
             return Found(self._boxes(batch, SOLIDS, work), self._all_stale(previous))
-        classify(bodies, shapes, candidates, count, margin, ahead, SOLIDS, self.kinds, self.counts, work)
-        left = recycle_manifolds(batch, recycle, previous, anchors, self.kinds, self.counts, self.stale)
+        left, asking = recycle_manifolds(batch, recycle, previous, anchors, self.kinds, self.counts, self.stale, work)
+        if not (left or asking):
+            return None
         stale = self.stale[:left]
         again = 0
         if left < len(previous) and self.counts[PARTED]:

@@ -3,7 +3,7 @@
 An anchor keeps the surface points and the normal in the body spaces of its sides; nothing is detected again.
 """
 
-from physics.jit import inlined, kernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import heading, length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
 
@@ -109,8 +109,8 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout
     return moved, rolled
 
 
-@kernel
-def follow_bodies(
+@subkernel
+def follow_all(
     # read
     bodies,
     anchors,
@@ -136,3 +136,15 @@ def follow_bodies(
             row_b = m.body_row_b
             b_cosine, b_sine = heading(b.angle)
         follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)
+
+
+@kernel
+def follow_bodies(
+    # read
+    bodies,
+    anchors,
+    # write
+    manifolds_inout,
+):
+    """See follow_all."""
+    follow_all(bodies, anchors, manifolds_inout)

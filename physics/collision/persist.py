@@ -3,10 +3,12 @@
 Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 """
 
+from physics.collision.box_pairs import SOLIDS
 from physics.collision.carry_over import is_before, is_of, renew
+from physics.collision.classify import PARTED, classify_pairs
 from physics.collision.follow import follow
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY
-from physics.jit import inlined, kernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import heading
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE
 from physics.tables.shape import CIRCLE, MASK
@@ -41,8 +43,8 @@ def may_move(manifold, anchor, distance):
     return far if far * far <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y) else distance
 
 
-@kernel
-def recycle_manifolds(
+@subkernel
+def use_again(
     # read
     batch,
     distance,
@@ -122,6 +124,43 @@ def recycle_manifolds(
         stale_out[stale] = k
         stale += 1
     return stale
+
+
+@kernel
+def recycle_manifolds(
+    # read
+    batch,
+    distance,
+    # write
+    previous_inout,
+    anchors_inout,
+    kinds_out,
+    counts_out,
+    stale_out,
+    work_inout,
+):
+    """Classify the pairs of what is solid, and use the manifolds of the last step again where that will do: see
+    classify_pairs, use_again. O(candidates + manifolds).
+
+    Returns how many manifolds are stale, and how many pairs ask for more: those to be detected, those of parts.
+    """
+    classify_pairs(
+        batch.bodies,
+        batch.shapes,
+        batch.candidates,
+        batch.count,
+        batch.margin,
+        batch.ahead,
+        SOLIDS,
+        kinds_out,
+        counts_out,
+        work_inout,
+    )
+    stale = use_again(batch, distance, previous_inout, anchors_inout, kinds_out, counts_out, stale_out)
+    asking = counts_out[PARTED]
+    for kind in range(NOTHING):
+        asking += counts_out[kind]
+    return stale, asking
 
 
 @kernel

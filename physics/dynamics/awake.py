@@ -89,10 +89,10 @@ class Awake:
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
         """Every row: for worlds without sleeping."""
-        most = max(len(bodies), len(shapes))
-        if len(self.numbers) < most:
-            self.numbers = np.arange(2 * most)
-        if (len(self.bodies), len(self.shapes)) != (len(bodies), len(shapes)):
+        if len(self.bodies) != len(bodies) or len(self.shapes) != len(shapes):
+            most = max(len(bodies), len(shapes))
+            if len(self.numbers) < most:
+                self.numbers = np.arange(2 * most)
             self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
     def keep_rows(self, kept_bodies: np.ndarray) -> None:

@@ -7,12 +7,8 @@ pushed, so their order, and any number of lanes or threads that take them at onc
 Matters, 2024). Edges with what cannot be pushed get the last colours: they are solved last and win.
 """
 
-import numpy as np
-
 from physics.jit import kernel, subkernel
 from physics.settings import COLORS
-
-NO_CLASSES = np.zeros(0, np.int32)  # all nodes are of one class
 
 
 @subkernel
@@ -48,7 +44,7 @@ def join(
         join_nodes(edges[i, 0], edges[i, 1], parents_inout)
 
 
-@kernel
+@subkernel
 def join_classes(
     # read
     edges,
@@ -147,7 +143,7 @@ def add_up(starts_inout, cursors_out):
         cursors_out[i] = starts_inout[i]
 
 
-@kernel
+@subkernel
 def order_edges(
     # read
     edges,
@@ -161,8 +157,8 @@ def order_edges(
 ):
     """Sort the edges by class and colour, keeping their order within one: places_out (count) int32 where each comes.
 
-    classes (nodes) int32, 0 for what joins no island; or NO_CLASSES. starts_out: where each slot starts, and where the
-    last ends; cursors_out: scratch as long. O(count).
+    classes (nodes) int32, 0 for what joins no island; none where all are of one class. starts_out: where each slot
+    starts, and where the last ends; cursors_out: scratch as long. O(count).
     """
     for i in range(len(starts_out)):
         starts_out[i] = 0
@@ -175,7 +171,7 @@ def order_edges(
         cursors_out[slot] += 1
 
 
-@kernel
+@subkernel
 def order_nodes(
     # read
     nodes,

@@ -21,6 +21,7 @@ BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 
 BAD_WALK = "a number of its character is not finite"
 TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
 REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order in which they are looked for
+NO_ROWS = np.zeros(0, np.int64)
 LARGEST = 1e100  # of inverse masses and of a surface: beyond, products of two are no doubles
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
@@ -76,6 +77,12 @@ def put_aside(body_inout):
 
 
 @subkernel
+def is_somewhere(body):
+    """Whether the pose of a body is one that a double resolves."""
+    return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
+
+
+@subkernel
 def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
     """Whether a step of dt [s] can use a body: a number that it reads and that is not finite, or an end of its motion
     that a double does not resolve, would be its neighbours' too. gravity [px/s2], speed_limit [px/s]."""
@@ -121,7 +128,7 @@ def take_broken_bodies(
         b = bodies_inout[rows[k]]
         if b.quarantined:
             continue
-        there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
+        there = is_somewhere(b)
         if not there or not is_sound(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
             broken_out[found] = rows[k]
             found += 1
@@ -270,15 +277,17 @@ def quarantine(state: StepState) -> None:
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
     broken, ends = workspace.rows_for(len(bodies)), workspace.ends
-    grids = awake.shapes if state.library.grids.count else awake.shapes[:0]
+    grids = awake.shapes if state.library.grids.count else NO_ROWS
     if take_broken(awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, broken, ends):
         reasons = np.repeat(np.array(REASONS), np.diff(ends, prepend=0))
         _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
 
 
-@stage("quarantine_solved", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
+@stage("quarantine_solved", reads=(*READS, "unsound", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
     """Take out what a solver could not keep finite, and what that touched, before it is swept and told of."""
+    if not state.unsound:
+        return
     broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
     found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
     if found:

@@ -276,8 +276,8 @@ def place_masks(
         s.top = snapped(b.y, r.origin_y)
 
 
-@kernel
-def refresh_aabbs(
+@subkernel
+def refresh_boxes(
     # read
     rows,
     geometry,
@@ -319,3 +319,16 @@ def refresh_aabbs(
             )
         else:
             s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)
+
+
+@kernel
+def refresh_aabbs(
+    # read
+    rows,
+    geometry,
+    bodies,
+    # write
+    shapes_inout,
+):
+    """See refresh_boxes."""
+    refresh_boxes(rows, geometry, bodies, shapes_inout)

@@ -11,7 +11,7 @@ from physics.jit import kernel, subkernel
 from physics.solver.bounce import restore_bounces
 from physics.solver.lanes import Blocks, blocks_needed, make_blocks
 from physics.solver.motions import Motions
-from physics.solver.rows import BOTH, PREPARE_ROW, limits_of
+from physics.solver.rows import BOTH, PREPARE_ROW
 from physics.solver.selection import Group, Selection
 from physics.tables.constraint import CONSTRAINT
 from physics.tables.step_state import StepState
@@ -28,6 +28,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         motions,
         manifolds,
         plan,
+        count,
         start,
         h,
         limits,
@@ -36,13 +37,13 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         constraints_out,
         work_inout,
     ):
-        """Fill the constraint rows, from row `start` of the plan on, with the impulses that the last step found for a
-        substep of h [s]; see prepare_row. O(edges).
+        """Fill the constraint rows, from row `start` of a plan of so many edges on, with the impulses that the last
+        step found for a substep of h [s]; see prepare_row. O(edges).
 
         Contacts are read in the order in which they stand, for a processor that reads ahead: what is far apart is
         written.
         """
-        for edge in range(plan.count):
+        for edge in range(count):
             place = plan.places[edge] - start
             if 0 <= place < len(constraints_out):  # else it is of another group
                 row = constraints_out[place]
@@ -229,9 +230,10 @@ class ContactSet:
             motions.used,
             state.manifolds,
             self.selection.plan,
+            self.selection.count,
             group.start,
             h,
-            limits_of(state.tolerances),
+            state.tolerances.limits,
             state.anchors,
             rows,
             state.work,
@@ -240,7 +242,7 @@ class ContactSet:
 
     def blocks(self, group: Group) -> Blocks:
         """Arrays for the rows of a group in lanes."""
-        needed = blocks_needed(group.stop - group.start, group.starts)
+        needed = blocks_needed(group.stop - group.start, group.loose)
         if len(self.lanes.manifold) < needed:
             self.lanes = make_blocks(2 * needed)
         return self.lanes

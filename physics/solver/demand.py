@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.lanes import Blocks
@@ -21,7 +21,7 @@ from physics.tables.counters import CAP_HITS
 from physics.tables.step_state import StepState
 
 
-@kernel
+@subkernel
 def add_demands(
     # read
     blocks,
@@ -59,7 +59,7 @@ def add_demands(
             b.demand = max(b.demand, demand)
 
 
-@kernel
+@subkernel
 def choose_substeps(
     # read
     members,
@@ -109,13 +109,44 @@ def choose_substeps(
     return capped
 
 
+@kernel
+def ask_by_load(
+    # read
+    blocks,
+    count,
+    rate,
+    rate_still,
+    members,
+    parents,
+    substeps,
+    least,
+    most,
+    dt,
+    patience,
+    # write
+    motions_inout,
+):
+    """See add_demands, choose_substeps. O(members + constraints)."""
+    add_demands(blocks, count, rate, rate_still, float(most * most), motions_inout)
+    return choose_substeps(members, parents, substeps, least, most, dt, patience, motions_inout)
+
+
 def ask_for_substeps(
     state: StepState, motions: Motions, parents: np.ndarray, group: Group, blocks: Blocks, count: int
 ) -> None:
     """Have the bodies of a group ask for what their contacts, so many blocks of them, need in the next step."""
     rate = demand_rate(state)
-    least, most = AUTO_SUBSTEPS[0], AUTO_SUBSTEPS[-1]
-    add_demands(blocks, count, rate, rate / STILL_STIFFNESS**2, float(most * most), motions.used)
-    state.work[CAP_HITS] += choose_substeps(
-        group.members, parents, group.substeps, least, most, state.dt, EASE_TIME, motions.used
+    state.work[CAP_HITS] += ask_by_load(
+        blocks,
+        count,
+        rate,
+        rate / STILL_STIFFNESS**2,
+        group.members,
+        parents,
+        group.substeps,
+        AUTO_SUBSTEPS[0],
+        AUTO_SUBSTEPS[-1],
+        state.dt,
+        EASE_TIME,
+        motions.used,
     )

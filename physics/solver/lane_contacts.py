@@ -13,7 +13,7 @@ from physics.solver.contacts import ContactSet, make_friction_limit
 from physics.solver.lanes import LANES, SIZE, Blocks, lay_out, pack_row, repack_impulses, unpack_row
 from physics.solver.motions import Motions
 from physics.solver.pace import Pace
-from physics.solver.rows import BOTH, PREPARE_ROW, limits_of
+from physics.solver.rows import BOTH, PREPARE_ROW
 from physics.solver.selection import Group
 from physics.tables.step_state import StepState
 
@@ -29,6 +29,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
         motions,
         manifolds,
         plan,
+        edges,
         starts,
         pace,
         limits,
@@ -38,15 +39,15 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
         blocks_out,
         work_inout,
     ):
-        """Write the contacts of a group into blocks, each of one colour; see prepare_row. Returns the number of blocks.
-        O(edges).
+        """Write the contacts of a group, among so many edges, into blocks, each of one colour; see prepare_row. Returns
+        the number of blocks. O(edges).
 
         starts: see lay_out; constraints_inout: the first is scratch. Contacts are read in the order in which they
         stand, for a processor that reads ahead; the blocks of all colours that are being filled fit into its cache.
         """
         count = lay_out(starts, blocks_out)
         r = constraints_inout[0]
-        for edge in range(plan.count):
+        for edge in range(edges):
             place = plan.places[edge]
             if place < starts[0] or place >= starts[len(starts) - 1]:
                 continue  # of another group
@@ -198,9 +199,10 @@ def prepare(state: StepState, contacts: ContactSet, motions: Motions, group: Gro
         motions.used,
         state.manifolds,
         contacts.selection.plan,
+        contacts.selection.count,
         group.starts,
         pace,
-        limits_of(state.tolerances),
+        state.tolerances.limits,
         state.anchors,
         contacts.constraints,
         blocks,

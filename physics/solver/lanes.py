@@ -222,9 +222,9 @@ def make_blocks(count: int) -> Blocks:
     )
 
 
-def blocks_needed(rows: int, starts: np.ndarray) -> int:
-    """How many blocks so many rows take at most; starts: see lay_out."""
-    return rows // LANES + len(starts) + int(starts[1] - starts[0])  # a colour's last block need not be full
+def blocks_needed(rows: int, loose: int) -> int:
+    """How many blocks so many rows take at most, of which so many have no colour."""
+    return rows // LANES + COLORS + 1 + loose  # a colour's last block need not be full
 
 
 @subkernel

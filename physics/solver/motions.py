@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.dynamics.integrate import put_center, refresh_center
+from physics.dynamics.quarantine import is_somewhere, is_sound
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, length_of, turned
 from physics.shapes.rasters import add_missing_rasters
@@ -250,16 +251,25 @@ def move_driven(driven, time, motions_inout):
         m.cosine, m.sine = heading(m.turn)
 
 
+@subkernel
+def is_usable(body, speed_limit):
+    """Whether a body is where the next step can begin with it: what is quarantined already is asked no more."""
+    return body.quarantined or (is_somewhere(body) and is_sound(body, 0.0, 0.0, speed_limit, 0.0))
+
+
 @kernel
 def scatter_motions(
     # read
     rows,
     motions,
+    speed_limit,
     # write
     motion_of_inout,
     bodies_inout,
 ):
-    """Write velocities, poses and centres of mass back to the bodies, keeping the pose of before the step. O(rows)."""
+    """Write velocities, poses and centres of mass back to the bodies, keeping the pose of before the step. Returns how
+    many of them no step can use. speed_limit [px/s]. O(rows)."""
+    unsound = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         m = motions[k + 1]
@@ -273,6 +283,7 @@ def scatter_motions(
         b.fraction = 1.0
         if not m.moves:
             refresh_center(b)
+            unsound += int(not is_usable(b, speed_limit))
             continue
         b.vx = m.vx
         b.vy = m.vy
@@ -291,6 +302,8 @@ def scatter_motions(
             b.x = b.center_x - u
             b.y = b.center_y - v
             put_center(u, v, b)
+        unsound += int(not is_usable(b, speed_limit))
+    return unsound
 
 
 GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}
@@ -304,11 +317,11 @@ class Motions:
     def __init__(self) -> None:
         self.motion_of = np.zeros(16, np.int32)
         self._grow(16)
-        self.used, self.movers, self.driven = self.rows[:1], self.lists[0, :0], self.lists[1, :0]
 
     def _grow(self, count):
         self.rows, self.lists = zeros_in_lines(count, MOTION), np.zeros((2, count), np.int32)
         self.pushable, self.joins = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self.used, self.movers, self.driven = self.rows[:0], self.lists[0, :0], self.lists[1, :0]
 
     def gather(self, state: StepState) -> None:
         """Take the awake bodies in."""
@@ -317,20 +330,22 @@ class Motions:
             self._grow(2 * len(rows) + 1)
         if len(self.motion_of) < len(bodies):
             self.motion_of = np.zeros(2 * len(bodies), np.int32)
-        self.used = self.rows[: len(rows) + 1]
+        if len(self.used) != len(rows) + 1:
+            self.used = self.rows[: len(rows) + 1]
         air = Air(*state.gravity, state.drag, *state.wind)
         gather = GATHER[effects.gravity, effects.wind, effects.rotation]
         pushed, driven = gather(
             rows, bodies, air, self.motion_of, self.used, self.pushable, self.joins, self.lists, state.work
         )
-        self.movers, self.driven = self.lists[0, :pushed], self.lists[1, :driven]
+        if (len(self.movers), len(self.driven)) != (pushed, driven):
+            self.movers, self.driven = self.lists[0, :pushed], self.lists[1, :driven]
         if len(state.characters):
             self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
 
     def scatter(self, state: StepState) -> None:
         """Write the bodies back."""
-        rows, bodies = state.awake.bodies, state.bodies
-        scatter_motions(rows, self.used, self.motion_of, bodies)
+        rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
+        state.unsound = scatter_motions(rows, self.used, limit, self.motion_of, bodies)
         # Who was pushed round stands at an angle that was not foreseen.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 
@@ -358,6 +373,7 @@ WRITES = (
     "manifolds",
     "anchors",
     "library",
+    "unsound",
     "work",
     "workspace",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),

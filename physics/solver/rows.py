@@ -7,10 +7,9 @@ and it buckles (Catto, Box2D v3: contact recycling).
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from physics.jit import inlined, subkernel
-from physics.settings import CALM_SHARE, CROWD, STICKING_SHARE, STICKING_TURN, Tolerances
+from physics.settings import CROWD, STICKING_TURN
 from physics.solver.two_points import split_of
 from physics.tables.counters import SOLVER_ROWS, TANGENT_ROWS
 
@@ -63,29 +62,10 @@ def sticks(a, b, anchor, distance):
     )
 
 
-class Limits(NamedTuple):
-    """By what a row is told to be still, to stick or to rest."""
-
-    calm_speed: float  # [px/s] what approaches no faster is still
-    sticking: float  # [px] see sticks
-    slop: float  # [px] see touches_slowly
-    bounce_speed: float  # [px/s] slower impacts do not bounce
-
-
 @subkernel
 def touches_slowly(separation, speed, limits):
     """Whether a point lies on the other side, or as good as that, too slow to bounce."""
     return separation <= limits.slop and abs(speed) <= limits.bounce_speed
-
-
-def limits_of(tolerances: Tolerances) -> Limits:
-    """The limits of a world."""
-    return Limits(
-        CALM_SHARE * tolerances.push_speed,
-        STICKING_SHARE * tolerances.speculative,
-        tolerances.slop,
-        tolerances.restitution_speed,
-    )
 
 
 @inlined
@@ -125,7 +105,7 @@ def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
         work_inout,
     ):
         """Fill a CONSTRAINT row for an edge of the plan, with the impulses that the last step found for a substep of
-        h [s]. plan: see Plan, limits: see Limits. Arms go from the centres of mass to the contact point.
+        h [s]. plan: see Plan, limits: see settings.Limits. Arms go from the centres of mass to the contact point.
         """
         first = plan.selected[edge]
         m = manifolds[first]

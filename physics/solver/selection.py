@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.dynamics.graph import NO_CLASSES, color_edges, join_classes, order_edges, order_nodes
+from physics.dynamics.graph import color_edges, join_classes, order_edges, order_nodes
 from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE
 from physics.solver.motions import Motions
@@ -17,14 +17,42 @@ from physics.tables.step_state import StepState
 
 
 class Plan(NamedTuple):
-    """Which manifolds are solved, and in which order."""
+    """Which manifolds are solved, and in which order: room for at least as many as there are."""
 
-    count: int  # edges in use
-    selected: np.ndarray  # (edges) manifold of each edge
+    selected: np.ndarray  # (edges) int32 manifold of each edge
     edges: np.ndarray  # (edges, 2) int32 rows of MOTION
     colors: np.ndarray  # (edges) int32 of each edge
-    degrees: np.ndarray  # (motions) edges of each
     places: np.ndarray  # (edges) int32 row of each among the constraints, by group and colour
+    taken: np.ndarray  # (motions) int64 bits of the colours that each has
+    degrees: np.ndarray  # (motions) int64 edges of each
+    classes: np.ndarray  # (motions) int32 where the substeps of each stand among the choices
+    parents: np.ndarray  # (motions) int32 root of the island of each
+    members: np.ndarray  # (motions) int32 what moves, by group
+    starts: np.ndarray  # int64 where the rows of each colour of each group begin, the colourless first
+    firsts: np.ndarray  # int64 where the members of each group begin
+    cursors: np.ndarray  # as long as starts: scratch
+
+
+CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
+
+
+def new_plan(edges: int, motions: int) -> Plan:
+    """Room for so many edges between so many motions."""
+    slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
+    return Plan(
+        selected=np.zeros(edges, np.int32),
+        edges=np.zeros((edges, 2), np.int32),
+        colors=np.zeros(edges, np.int32),
+        places=np.zeros(edges, np.int32),
+        taken=np.zeros(motions, np.int64),
+        degrees=np.zeros(motions, np.int64),
+        classes=np.zeros(motions, np.int32),
+        parents=np.zeros(motions, np.int32),
+        members=np.zeros(motions, np.int32),
+        starts=np.zeros(slots, np.int64),
+        firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
+        cursors=np.zeros(slots, np.int64),
+    )
 
 
 class Group(NamedTuple):
@@ -33,6 +61,7 @@ class Group(NamedTuple):
     substeps: int
     start: int  # rows of the constraints, from …
     stop: int  # … to
+    loose: int  # how many of them have no colour
     members: np.ndarray  # int32 rows of MOTION
     starts: np.ndarray  # int64 where the rows of each colour begin, the colourless first, and where the last end
 
@@ -79,7 +108,7 @@ def select_manifolds(
     return found
 
 
-@kernel
+@subkernel
 def color_manifolds(
     # read
     manifolds,
@@ -87,16 +116,15 @@ def color_manifolds(
     motions,
     pushable,
     # write
-    selected_out,
-    edges_out,
-    taken_out,
-    degrees_out,
-    colors_out,
+    plan_out,
 ):
     """List the manifolds that are solved, as edges, and colour these. Returns their number. See select_manifolds,
     color_edges. O(manifolds + motions)."""
-    count = select_manifolds(manifolds, motion_of, motions, selected_out, edges_out)
-    color_edges(edges_out, count, pushable, taken_out, degrees_out, colors_out)
+    nodes = len(motions)
+    count = select_manifolds(manifolds, motion_of, motions, plan_out.selected, plan_out.edges)
+    taken = plan_out.taken[:nodes]
+    degrees = plan_out.degrees[:nodes]
+    color_edges(plan_out.edges, count, pushable, taken, degrees, plan_out.colors)
     return count
 
 
@@ -109,7 +137,7 @@ def class_for(choices, square, least):
     return place
 
 
-@kernel
+@subkernel
 def class_motions(motions, degrees, choices, classes_out):
     """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest. O(motions)."""
     for i in range(len(classes_out)):
@@ -119,7 +147,7 @@ def class_motions(motions, degrees, choices, classes_out):
             classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
 
 
-@kernel
+@subkernel
 def expect_impacts(
     # read
     manifolds,
@@ -153,64 +181,93 @@ def expect_impacts(
                 classes_inout[node] = class_for(choices, demand, int(classes_inout[node]))
 
 
+@kernel
+def order_contacts(
+    # read
+    manifolds,
+    motion_of,
+    motions,
+    pushable,
+    # write
+    plan_out,
+):
+    """List the manifolds that are solved, in one group, by colour. Returns their number, and how many have no colour.
+    O(manifolds + motions)."""
+    count = color_manifolds(manifolds, motion_of, motions, pushable, plan_out)
+    starts = plan_out.starts[: COLORS + 2]
+    order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
+    return count, starts[1] - starts[0]
+
+
+@kernel
+def order_by_load(
+    # read
+    manifolds,
+    motion_of,
+    motions,
+    pushable,
+    joins,
+    movers,
+    dt,
+    rate,
+    choices,
+    # write
+    plan_out,
+):
+    """List the manifolds that are solved by how many of the choices of substeps their islands ask for, and by colour.
+    Returns their number. dt [s], rate: see expect_impacts. O(manifolds + motions)."""
+    plan = plan_out
+    nodes = len(motions)
+    classes = plan.classes[:nodes]
+    count = color_manifolds(manifolds, motion_of, motions, pushable, plan)
+    class_motions(motions, plan.degrees, choices, classes)
+    expect_impacts(manifolds, plan.selected, plan.edges, count, motions, dt, rate, choices, classes)
+    join_classes(plan.edges, count, joins, classes, plan.parents[:nodes])
+    order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
+    order_nodes(movers, classes, plan.firsts, plan.cursors, plan.members)
+    return count
+
+
 class Selection:
     """The order of one world's contacts; arrays are grown and used again."""
 
     def __init__(self) -> None:
         self.count = 0
-        self.selected, self.places, self.colors = (np.zeros(16, np.int32) for _ in range(3))
-        self.edges = np.zeros((16, 2), np.int32)
-        self.taken, self.degrees = np.zeros(16, np.int64), np.zeros(16, np.int64)
-        self.parents, self.classes, self.members = (np.zeros(16, np.int32) for _ in range(3))
-        slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
-        self.starts, self.cursors = np.zeros(slots, np.int64), np.zeros(slots, np.int64)
-        self.firsts, self.next = np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64), np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64)
-        self.choices = np.array(AUTO_SUBSTEPS, np.int64)
-
-    def _grow(self, motions: int, manifolds: int):
-        if len(self.taken) < motions:
-            self.taken, self.degrees = np.zeros(2 * motions, np.int64), np.zeros(2 * motions, np.int64)
-            self.parents, self.classes, self.members = (np.zeros(2 * motions, np.int32) for _ in range(3))
-        if len(self.selected) < manifolds:
-            self.edges = np.zeros((2 * manifolds, 2), np.int32)
-            self.selected, self.places, self.colors = (np.zeros(2 * manifolds, np.int32) for _ in range(3))
+        self.plan = new_plan(16, 16)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Select, colour and order the contacts; substeps 0: as many as each island asks for."""
         rows, manifolds = motions.used, state.manifolds
-        self._grow(len(rows), len(manifolds))
-        taken, degrees = self.taken[: len(rows)], self.degrees[: len(rows)]
-        self.count = color_manifolds(
-            manifolds, motions.motion_of, rows, motions.pushable, self.selected, self.edges, taken, degrees, self.colors
-        )
+        if len(self.plan.selected) < len(manifolds) or len(self.plan.taken) < len(rows):
+            self.plan = new_plan(2 * len(manifolds), 2 * len(rows))
+        plan = self.plan
         if substeps:
-            starts = self.starts[: COLORS + 2]
-            order_edges(self.edges, self.count, self.colors, NO_CLASSES, starts, self.cursors, self.places)
-            return [Group(substeps, 0, self.count, motions.movers, starts)]
-        classes, parents = self.classes[: len(rows)], self.parents[: len(rows)]
-        class_motions(rows, degrees, self.choices, classes)
-        rate = demand_rate(state)
-        expect_impacts(manifolds, self.selected, self.edges, self.count, rows, state.dt, rate, self.choices, classes)
-        join_classes(self.edges, self.count, motions.joins, classes, parents)
-        order_edges(self.edges, self.count, self.colors, classes, self.starts, self.cursors, self.places)
-        order_nodes(motions.movers, classes, self.firsts, self.next, self.members)
-        colors, firsts = COLORS + 1, self.firsts.tolist()
-        ends = self.starts[::colors].tolist()
+            self.count, loose = order_contacts(manifolds, motions.motion_of, rows, motions.pushable, plan)
+            return [Group(substeps, 0, self.count, loose, motions.movers, plan.starts[: COLORS + 2])]
+        self.count = order_by_load(
+            manifolds,
+            motions.motion_of,
+            rows,
+            motions.pushable,
+            motions.joins,
+            motions.movers,
+            state.dt,
+            demand_rate(state),
+            CHOICES,
+            plan,
+        )
+        colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts.tolist()
         groups = [
             Group(
                 substeps=number,
-                start=ends[k],
-                stop=ends[k + 1],
-                members=self.members[firsts[k] : firsts[k + 1]],
-                starts=self.starts[k * colors : (k + 1) * colors + 1],
+                start=starts[k * colors],
+                stop=starts[(k + 1) * colors],
+                loose=starts[k * colors + 1] - starts[k * colors],
+                members=plan.members[firsts[k] : firsts[k + 1]],
+                starts=plan.starts[k * colors : (k + 1) * colors + 1],
             )
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]
         ]
         # What moves by hand is moved though nobody is pushed.
-        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, motions.movers, self.starts[: colors + 1])]
-
-    @property
-    def plan(self) -> Plan:
-        """What was chosen, for the kernels."""
-        return Plan(self.count, self.selected, self.edges, self.colors, self.degrees, self.places)
+        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.movers, plan.starts[: colors + 1])]

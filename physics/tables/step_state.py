@@ -42,6 +42,7 @@ STAGE_FIELDS = (
     "manifolds",  # MANIFOLD rows in the order of shape ids: of the step before, until the narrow phase
     "anchors",  # ANCHOR rows beside them, in worlds that stack
     "sensed",  # MANIFOLD rows with sensors; None where they stand among the others
+    "unsound",  # bodies that a solver has put nowhere, or made faster than any can be
     "swept_sensors",  # MANIFOLD rows of sensors that were met on the way
     "ghosts",  # (n, 8) bodies that a sweep stopped: id, path, fraction; None without any
     "parked",  # MANIFOLD rows of what fell asleep in this step
@@ -85,6 +86,7 @@ class StepState:
     manifolds: np.ndarray
     anchors: np.ndarray
     sensed: np.ndarray | None
+    unsound: int
     swept_sensors: np.ndarray
     ghosts: np.ndarray | None
     parked: tuple[np.ndarray, np.ndarray] | None
