@@ -7,7 +7,7 @@ from collections.abc import Callable, Hashable, Sequence
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from physics import PixelMask, Snapshot
+from physics import PixelMask, Snapshot, World
 
 STEPS = 60  # of a run, at least: a second of play, five times 60 make the 300 that a cost is measured on
 
@@ -31,6 +31,18 @@ class Recipe(NamedTuple):
         return getattr(import_module(module), function)(*self.arguments)
 
 
+class Act(NamedTuple):
+    """What is done to a world in place of its steps."""
+
+    maker: str  # "module:function": function(world, *arguments) returns what is called once for each step
+    arguments: tuple[Any, ...]  # of it: what JSON can hold
+
+    def made_for(self, world: World) -> Callable[[], object]:
+        """What is to be called, and timed."""
+        module, function = self.maker.split(":")
+        return getattr(import_module(module), function)(world, *self.arguments)
+
+
 class Lane(NamedTuple):
     """Worlds, as they are at one moment, to be stepped on: what costs `name`. Figures: {name: LaneFigures}."""
 
@@ -38,6 +50,7 @@ class Lane(NamedTuple):
     broadphase: str  # the strategy of all of them
     steps: int = STEPS  # that each is stepped in a run
     stage: str | None = None  # only this stage of a step is counted; None: the whole step
+    act: Act | None = None  # in place of steps; one of each comes first in a run and is not counted
     judged: tuple[int, int] | None = None  # first and last step whose deepest overlap and farthest way are wanted
 
 

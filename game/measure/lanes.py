@@ -45,9 +45,9 @@ def measure_lanes(
                 return
             lane, own = lanes[number], moments[number]
             if run == 0:
-                own[0].time_run(own[0].here, WARM_STEPS)
+                own[0].time_run(own[0].here, WARM_STEPS, act=lane.act)
                 seen[number] = _judge(own[0], lane.judged)
-            spent = sum(moment.time_run(moment.here, lane.steps, lane.stage) for moment in own) / len(own)
+            spent = sum(moment.time_run(moment.here, lane.steps, lane.stage, lane.act) for moment in own) / len(own)
             tell(number, spent, *seen[number])
         chance.shuffle(order)
 

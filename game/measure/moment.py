@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from game.measure.setting import SUBSTEPPED, Setting
-from game.measure.timing import seconds_a_step, undisturbed
-from game.wishes import STEPS
+from game.measure.staged import seconds_of_stage
+from game.measure.timing import seconds_a_step
+from game.wishes import STEPS, Act
 from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 
@@ -44,20 +45,21 @@ class Moment:
             world.set_narrowphase(setting.narrowphase)
         return world
 
-    def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None) -> float:
+    def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None, act: Act | None = None) -> float:
         """Seconds a step of one run from this moment on. The first run of a setting also compiles: leave it out.
 
-        stage: only what this stage took, 0 where the step has none of that name; None: the whole step.
+        stage: only what this stage took, 0 where the step has none of that name; None: the whole step. act: what is
+        done in place of steps, after one step, from which the broad phase knows what there is, and one untimed call.
         """
         world = self.world(setting)
-        if stage is None:
+        if stage is not None:
+            return seconds_of_stage(world, stage, steps) if stage in world.stages else 0.0
+        if act is None:
             return seconds_a_step(world.step, steps)
-        spent = 0.0
-        with undisturbed():
-            for _ in range(steps):
-                world.step()
-                spent += world.profile.stages.get(stage, 0.0)
-        return spent / steps
+        world.step()
+        do = act.made_for(world)
+        do()
+        return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
         """Where the bodies go from this moment on; divided: each step is made in so many."""

@@ -25,7 +25,7 @@ from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
 from game.processes import end_all, start_module
-from game.wishes import STEPS, Lane, Recipe
+from game.wishes import STEPS, Act, Lane, Recipe
 from physics import PixelMask, Snapshot
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
@@ -94,13 +94,17 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
 
 
 def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure lanes, each a Lane as a dict with the files of its snapshots in their place; a recipe is a list."""
+    """Measure lanes, each a dict with the files of its snapshots in their place; recipes and acts are lists."""
     loaded = cache(Snapshot.load)  # what several lanes begin with is read once
 
     def begun(given):
         return loaded(given) if isinstance(given, str) else Recipe(*given)
 
-    lanes = [Lane(**{**lane, "snapshots": [begun(each) for each in lane["snapshots"]]}) for lane in order["lanes"]]
+    def lane_of(stored):
+        act = stored["act"] and Act(*stored["act"])
+        return Lane(**{**stored, "act": act, "snapshots": [begun(each) for each in stored["snapshots"]]})
+
+    lanes = [lane_of(each) for each in order["lanes"]]
 
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))

@@ -13,7 +13,6 @@ Source: Rosenfeld and Pfaltz, Sequential operations in digital picture processin
 """
 
 from math import hypot
-from time import perf_counter
 
 import numpy as np
 import pygame
@@ -22,10 +21,11 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
-from game.drawing.typical import Typical
 from game.scene import Goal, Scene, Slider
+from game.wishes import STEPS, Act, Lane, Lanes
 from physics import Circle, Effects, Material, PixelMask, Polygon
 from physics.tables.shape import PART
+from scenes.lab.costs import cost_text
 from scenes.lab.digging_plan import plan
 from scenes.lab.prints import Prints
 from scenes.lab.tools import TOOLS, Tool
@@ -50,7 +50,8 @@ MASKS = (
 )
 BALLS = (("ball_2", 5.0, 56, 148), ("ball_5", 5.0, 188, 152), ("ball_1", 5.0, 364, 124), ("steel_ball", 14.0, 390, 112))
 KNOCK = 70.0  # [px/s] a softer one is not heard
-PLATE = (4, 19, 122, 93)
+PLATE = (4, 19, 122, 85)
+FEWEST = 6  # places of the ground where a carve is timed
 
 
 class Carving(Scene):
@@ -73,7 +74,7 @@ class Carving(Scene):
     features = (
         "ground, crates and sprites carved by discs, boxes and sprites",
         "what comes loose is a body of its own pixels",
-        "pixels, pieces, tiles and the cost of the last carve",
+        "pixels, pieces, tiles, and the cost of a carve, measured beside the game",
     )
     sliders = (Slider("tool", 0, len(TOOLS) - 1, 0, choices=TOOLS), Slider("radius", 3, 40, 14, "px"))
     actions = (("mouse", "blast, dig"), ("wheel", "radius"), ("left right", "tool"))
@@ -108,7 +109,7 @@ class Carving(Scene):
         self.fell = 0.0  # [px] that a piece has fallen since it came loose, the most of all
         self.loose_at = {}  # body id -> height of its centre when it came loose [px]
         self.pointed = (240, 100)
-        self.spent, self.usual, self.anew = 0.0, Typical(), 0  # [us] of the last carve; tiles of the ground made anew
+        self.anew = 0  # tiles of the ground that the last carve has made anew
         self._take_tool()
 
     def _take_tool(self):
@@ -122,7 +123,10 @@ class Carving(Scene):
 
     def solid(self):
         """Pixels of all masks, counted one by one."""
-        masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
+        return sum(map(self._pixels_of, self.prints.of))
+
+    def _pixels_of(self, identity):
+        masks = self.world.body(identity).shapes
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
     def update(self, inputs):
@@ -143,17 +147,12 @@ class Carving(Scene):
         self._follow()
 
     def _carve(self, shape, pose):
-        """All masks in reach lose what the tool covers; what that cost is only shown, and no part of the state."""
+        """All masks in reach lose what the tool covers."""
         x, y = self.pointed
         tiles = self._tiles()
-        taken, spent = 0, 0.0
-        for body in sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id):
-            if body.id in self.prints.of:
-                removed, seconds = self._carve_one(body, shape, pose)
-                taken, spent = taken + removed, spent + seconds
+        reached = sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id)
+        taken = sum(self._carve_one(body, shape, pose) for body in reached if body.id in self.prints.of)
         if taken:
-            self.spent = spent * 1e6
-            self.usual.note(self.spent)
             self.carves += 1
             self.left = self.solid()
             self.unequal += self.left + self.removed + self.crumbs != self.whole
@@ -162,12 +161,10 @@ class Carving(Scene):
             self.particles.burst(x, y, min(10 + taken // 12, 90), DUST, (10, 110), (0.3, 0.9), gravity=200.0)
 
     def _carve_one(self, body, shape, pose):
-        """(pixels taken, seconds) of one body."""
+        """Pixels taken from one body."""
         identity, place, (before,) = body.id, (*body.position, body.angle), body.shapes
         parent = (self.prints.of[identity], before, place)
-        began = perf_counter()
         carved = body.carve(shape, pose, crumb=CRUMB)
-        spent = perf_counter() - began
         for piece in carved.fragments:
             self.prints.add_piece(piece, parent)
             self.loose_at[piece.id] = piece.center[1]
@@ -177,7 +174,21 @@ class Carving(Scene):
         self.removed += carved.removed
         self.crumbs += carved.crumbs
         self.made += len(carved.fragments)
-        return carved.removed, spent if carved.removed else 0.0
+        return carved.removed
+
+    def measured(self):
+        """This tool in this size, at places all over the ground as it is now: sixty, or as many as have room."""
+        if self.tool.name == "hand" or self.ground not in self.world:
+            return None
+        room = self._pixels_of(self.ground) // (8 * self.tool.radius**2)
+        if room < FEWEST:
+            return None
+        act = Act("scenes.lab.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))
+        steps = min(STEPS, room)
+        return Lanes([self._lane()], lambda name: Lane([self.world.snapshot()], self.broadphase, steps, act=act))
+
+    def _lane(self):
+        return self.tool.name, self.tool.radius
 
     def _tiles(self):
         """{tile of the ground: ids of its parts}; those of a tile made anew are others."""
@@ -239,8 +250,7 @@ class Carving(Scene):
             ("pixels carved", f"{self.removed:,}"),
             ("in crumbs", f"{self.crumbs:,}"),
             ("pieces", f"{self.made}"),
-            ("last carve", f"{self.spent:,.0f} us" if self.carves else "none yet"),
-            ("typical", f"{self.usual.value:,.0f} us" if self.carves else ""),
+            ("a carve", cost_text(self, self._lane())),
             ("tiles made anew", f"{self.anew} of {len(self._tiles())}"),
             ("parts", f"{int(np.count_nonzero(shapes['role'] == PART)):,}"),
             ("awake", f"{self.awake} of {int(np.count_nonzero(self.world.bodies['inverse_mass'] > 0.0))}"),

@@ -19,15 +19,15 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, YELLOW, faded
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
 from game.scene import Goal, Scene, Slider
-from physics import Effects, PixelMask, Polygon, debug, fit, measure
+from game.wishes import Lane, Lanes
+from physics import BROADPHASES, Effects, PixelMask, Polygon, World, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
-from scenes.lab.piles import step_seconds
+from scenes.lab.costs import cost_text
 from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
@@ -46,7 +46,7 @@ WIDTH, VIEW_TOP, FLOOR = 96, 16, 190  # [px] of a column; [canvas px] the top of
 TOWER, BESIDE, NOTCH = 28.0, 70.0, 33.0  # [px] middles of piles in a column, and of the bracket's notch
 HIGH = 6.0  # [px] above a tower from where somebody drops into the notch
 NUDGE = 30.0  # [px/s]
-WARM = 30  # steps after which times are noted, and sinking and swaying count
+WARM = 30  # steps after which sinking and swaying count
 WINDOW = 60  # steps over which the sway is measured
 SLEPT_BY = 480
 FALLEN = 8.0  # [px] that a pile's top has sunk when it has fallen
@@ -65,7 +65,7 @@ class MaskStack(Scene):
     features = (
         "sprites pushed by their outlines, beside four other ways",
         "corners, pixels too many and too few",
-        "sinking, swaying, sleep and the cost of a step, measured live",
+        "sinking, swaying and sleep, live, and the cost of a step, measured beside the game",
     )
     sliders = (Slider("sprites", 0, len(CHOICES) - 1, 0, choices=CHOICES), Slider("high", 2, 5, 3))
     actions = (("Space", "nudge"), ("left right", "sprites"), ("up down", "high"))
@@ -91,7 +91,6 @@ class MaskStack(Scene):
         self.track = {way: [] for way in WAYS}
         self.asleep = dict.fromkeys(WAYS, False)
         self.changed = dict.fromkeys(WAYS, 0)  # the step since which it is so
-        self.cost = {way: Typical() for way in WAYS}  # [us] of a step
         for way in WAYS:
             self._lay(way)
 
@@ -144,7 +143,7 @@ class MaskStack(Scene):
         self.fill()
 
     def update(self, inputs):
-        """Keys, five steps, five measurements."""
+        """Keys, five steps, and what they did."""
         for name, forth, back in (("sprites", "right", "left"), ("high", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -170,11 +169,24 @@ class MaskStack(Scene):
         if asleep != self.asleep[way]:
             self.asleep[way], self.changed[way] = asleep, self.since
 
-    def observe(self):
-        """What each world's step took, once it is warm."""
-        if self.since > WARM:
-            for way, world in zip(WAYS, self.worlds, strict=True):
-                self.cost[way].note(step_seconds(world) * 1e6)
+    def measured(self):
+        """A step of each pile, kept awake, from when it has been laid."""
+        if self.since < WARM:
+            return None
+        worlds = dict(zip(WAYS, self.worlds, strict=True))
+        return Lanes(
+            [self._lane(way) for way in WAYS], lambda name: Lane([self._awake(worlds[name[-1]])], self.broadphase)
+        )
+
+    def _lane(self, way):
+        return *self.chosen, way
+
+    def _awake(self, world):
+        """The snapshot of a world as this one, where nobody falls asleep."""
+        other = World(self.effects, BROADPHASES[self.broadphase](), self.solver or "soft_step")
+        other.restore(world.snapshot())
+        other.set_effects(self.effects.without("sleeping"))
+        return other.snapshot()
 
     def stands_now(self, way):
         """True while the top of the pile is about where it was laid."""
@@ -211,14 +223,13 @@ class MaskStack(Scene):
             align="right",
         )
         corners, over, missed = self.shares[number]
-        cost = self.cost[way]
         rows = (
             ("corners", f"{corners:.0f}"),
             ("air held", f"{over:,.0f} px"),
             ("missed", f"{missed:,.0f} px"),
             ("sinks", f"{self.sinks[way]:.2f} px"),
             ("sways", f"{self.sways[way]:.2f} px"),
-            ("a step", f"{cost.value:,.0f} us" if cost.last else "warming up"),
+            ("step, awake", cost_text(self, self._lane(way))),
         )
         for row, (word, value) in enumerate(rows):
             canvas.text(word, box.x + 3, box.y + 16 + row * 8, FOG, SMALL)

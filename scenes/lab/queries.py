@@ -15,7 +15,6 @@ Source: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987; Ericson, Rea
 
 from math import cos, hypot, pi, sin
 from random import Random
-from time import perf_counter
 
 import numpy as np
 import pygame
@@ -29,7 +28,9 @@ from game.input.inputs import InputFrame
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene, Slider
+from game.wishes import Act, Lane, Lanes
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
+from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
 from scenes.lab.questions import angle_of, ask, told
@@ -63,6 +64,7 @@ RING_EVERY = 13  # shapes, of which one is a ring of pixels
 ORIGIN, CLEAR = (0.06 * WIDTH, 0.3 * HEIGHT), 60.0  # [px] where rays begin, and around it nobody at first
 SHOWN = 24  # hits that are drawn with normal and fraction
 EACH = 84  # steps that the bot asks one question
+PLACES = 200  # that a question is asked about in a run that is timed: five runs make a thousand
 
 
 class Queries(Scene):
@@ -99,7 +101,7 @@ class Queries(Scene):
         """The sky, the curves, the tallies; fill() makes the four worlds."""
         self.sky = load_backdrop("sky_dusk")
         self.camera = Camera(VIEW, ZOOM)
-        self.curves = Curves("microseconds [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
+        self.curves = Curves("boxes and nodes [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
         self.shown = 0  # of STRATEGIES
         self.origin, self.target = ORIGIN, (0.7 * WIDTH, 0.6 * HEIGHT)
         self.asked = self.disagreements = self.found = 0
@@ -132,7 +134,6 @@ class Queries(Scene):
                     world.add_body(shape, position=place, angle=angle, velocity=velocity)
         self.looks = [Looks(world, self.camera) for world in self.worlds]
         self.answer = []  # (body id, x, y, normal x, normal y, fraction): see ask()
-        self.spent = dict.fromkeys(STRATEGIES, 0.0)  # [s] of the last step's query
         self.work = {name: (0, 0) for name in STRATEGIES}  # nodes or cells, boxes compared
         self._forget()
 
@@ -174,11 +175,7 @@ class Queries(Scene):
         for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
             bounce(world)
             world.step()
-            world.queries.refresh(world)  # what any first question after a step does, whoever asks
-            started = perf_counter()
-            found = ask(world, self.query, self.origin, self.target, float(self.values["size"]))
-            self.spent[strategy] = perf_counter() - started
-            answers.append(told(found))
+            answers.append(told(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
             counters = world.queries.counters
             self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
             self.looked[strategy] += sum(self.work[strategy])
@@ -192,7 +189,23 @@ class Queries(Scene):
 
     def observe(self):
         """Feed the curves."""
-        self.curves.note({name: spent * 1e6 for name, spent in self.spent.items()})
+        self.curves.note({name: sum(looked) for name, looked in self.work.items()})
+
+    def measured(self):
+        """This kind of question, asked about two hundred places of the picture, by each strategy."""
+        made = []  # one snapshot for those that are not known
+
+        def make(name):
+            if not made:
+                made.append(self.worlds[0].snapshot())
+            query, size, _, strategy = name
+            act = Act("scenes.lab.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
+            return Lane(made, strategy, PLACES, act=act)
+
+        return Lanes([self._lane(strategy) for strategy in STRATEGIES], make)
+
+    def _lane(self, strategy):
+        return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
         """The picture of the world whose structure is looked at."""
@@ -215,7 +228,7 @@ class Queries(Scene):
                 pygame.draw.rect(canvas.surface, faded(color, 0.3), (SIDE_X - 2, y - 2, 122, 36), 1)
                 canvas.surface.fill(color, (SIDE_X - 2, y - 2, 2, 36))
             canvas.text(name, SIDE_X + 3, y, color)
-            canvas.text(f"{self.curves.typical(name):,.0f} us", 473, y + 1, color, SMALL, align="right")
+            canvas.text(cost_text(self, self._lane(name)), 473, y + 1, color, SMALL, align="right")
             nodes, boxes = self.work[name]
             for row, (word, value) in enumerate(((PARTS[name], nodes), ("boxes compared", boxes))):
                 canvas.text(word, SIDE_X + 3, y + 12 + 10 * row, FOG, SMALL)

@@ -1,8 +1,13 @@
 """The questions of lab/queries, asked of a world, and its answers as rows that can be compared."""
 
+from itertools import count
 from math import atan2, hypot
 
 from physics import Circle, Polygon
+
+# Multiples of both, whole parts left out, fill a square evenly (Roberts, The Unreasonable Effectiveness of Quasirandom
+# Sequences, 2018): powers of 1/1.3247, the root of x^3 = x + 1.
+ALONG, ACROSS = 0.7548776662466927, 0.5698402909980532
 
 
 def ask(world, query, origin, target, size):
@@ -21,6 +26,17 @@ def ask(world, query, origin, target, size):
     if query == "area":
         return world.query_aabb((target[0] - size, target[1] - size), (target[0] + size, target[1] + size))
     return world.query_point(target)
+
+
+def asking(world, query, origin, area, size):
+    """What asks a world such a question at each call, about places all over an area (width, height) [px]."""
+    numbers = count()
+
+    def ask_the_next():
+        k = next(numbers)
+        return ask(world, query, origin, (k * ALONG % 1.0 * area[0], k * ACROSS % 1.0 * area[1]), size)
+
+    return ask_the_next
 
 
 def told(found):

@@ -1,6 +1,9 @@
 """What lab/carving digs with: round, square or star-shaped, as large as the player wants."""
 
+from itertools import count
 from math import cos, hypot, pi, sin
+
+import numpy as np
 
 from game.drawing.sprites import load_atlas
 from physics import Capsule, Circle, PixelMask, Polygon
@@ -8,6 +11,7 @@ from physics import Capsule, Circle, PixelMask, Polygon
 TOOLS = ("blast", "dig", "box", "sprite", "hand")
 STAMP_EVERY = 0.5  # radii that the pointer moves between two stamps of a box or sprite
 STAR = 12.0  # [px] from the middle of the sprite to its points
+GOLDEN = 0.6180339887498949  # multiples of it, whole parts left out, are never near one another
 
 
 class Tool:
@@ -64,3 +68,19 @@ class Tool:
             return [(self.radius * cos(a), self.radius * sin(a)) for a in angles]
         points = [(pi / 5 * k - pi / 2, self.radius * (0.52 if k % 2 else 1.0)) for k in range(10)]
         return [(far * cos(a), far * sin(a)) for a, far in points]
+
+
+def carving(world, name, radius, ground, crumb):
+    """What carves a body of pixels with such a tool at each call, at solid places far from one another."""
+    tool = Tool()
+    tool.choose(name, radius)
+    body = world.body(ground)
+    rows, columns = np.nonzero(body.shapes[0].solid)
+    left, top = body.position - body.shapes[0].origin
+    numbers = count(1)
+
+    def carve_the_next():
+        at = int(next(numbers) * GOLDEN % 1.0 * len(rows))
+        body.carve(tool.stamp, (left + columns[at] + 0.5, top + rows[at] + 0.5), crumb=crumb)
+
+    return carve_the_next

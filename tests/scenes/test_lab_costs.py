@@ -2,11 +2,13 @@
 
 import re
 
+import numpy as np
 import pygame
 import pytest
 
 from game.measure.knowing import know
 from game.measure.lanes import LaneFigures
+from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
 from game.overlays.stack import Overlays
 from game.registry import Registry
@@ -16,10 +18,20 @@ from game.run.sources import BotSource
 from scenes import SCENES
 from scenes.lab.costs import cost_text, microseconds
 from scenes.lab.shots import END_X, GUN_X, SHOTS, steps_of_flight
+from scenes.lab.tools import TOOLS
 from scenes.lab.tunnelling import LANES
 
 TIMED = re.compile(r"[\d,.]+ us$")
-LABS = {"lab/tunnelling": 4, "lab/stacks": 3, "lab/cradle": 3, "lab/ghost_bumps": 3}  # and how many lanes they have
+# And how many lanes they have.
+LABS = {
+    "lab/tunnelling": 4,
+    "lab/stacks": 3,
+    "lab/cradle": 3,
+    "lab/ghost_bumps": 3,
+    "lab/queries": 4,
+    "lab/mask_stack": 5,
+    "lab/carving": 1,
+}
 FRAMES = 125  # stacks have settled
 
 
@@ -87,11 +99,48 @@ def test_a_shot_is_measured_from_the_gun_to_the_end(kind):
             assert len(shots) == (2 if SHOTS[kind] == "bullets" else 1) == len(rows) - (SHOTS[kind] != "bullets")
 
 
-def test_known_costs_come_with_the_picture():
-    scene = played("lab/cradle")
+@pytest.mark.parametrize("name", ["lab/cradle", "lab/queries", "lab/mask_stack", "lab/carving"])
+def test_known_costs_come_with_the_picture(name):
+    scene = played(name)
+    before = scene.state()
     know(scene)
-    assert all(figures.cost.least > 0.0 for figures in scene.figures.values())
-    assert sum(bool(TIMED.search(text)) for text in words(scene)) == LABS["lab/cradle"]
+    assert all(figures.cost.least > 0.0 for figures in scene.figures.values()) and scene.state() == before
+    assert sum(bool(TIMED.search(text)) for text in words(scene)) == LABS[name]
+
+
+def test_piles_are_measured_awake_and_questions_where_the_broad_phase_knows_all():
+    piles, questions = played("lab/mask_stack", 600), played("lab/queries", 1)
+    assert all(piles.asleep.values()), "they cost nothing by now"
+    wish = piles.measured()
+    for name in wish.names:
+        (snapshot,) = wish.make(name).snapshots
+        assert "sleeping" not in snapshot.facts["effects"]
+        assert snapshot.arrays["bodies"]["awake"][snapshot.arrays["bodies"]["inverse_mass"] > 0.0].all()
+    wish = questions.measured()
+    lane = wish.make(next(name for name in wish.names if name[-1] == "tree"))
+    world = Moment(lane.snapshots[0], lane.broadphase).world(Moment(lane.snapshots[0], lane.broadphase).here)
+    world.step()
+    ask = lane.act.made_for(world)
+    looked = []
+    for _ in range(lane.steps):
+        ask()
+        looked.append(world.queries.counters["narrow_tests"])
+    assert len(set(looked)) > 20, "another place each time"
+    assert max(looked) < len(world.shapes), "the tree is asked, not each shape"
+
+
+def test_a_carve_is_timed_on_solid_ground():
+    scene = played("lab/carving", 1)
+    (name,) = scene.measured().names
+    lane = scene.measured().make(name)
+    world = Moment(lane.snapshots[0], lane.broadphase).world(Moment(lane.snapshots[0], lane.broadphase).here)
+    carve, left = lane.act.made_for(world), []
+    for _ in range(lane.steps + 1):
+        carve()
+        left.append(int(np.count_nonzero(world.body(scene.ground).shapes[0].solid)))
+    assert sum(b < a for a, b in zip(left, left[1:], strict=False)) > 0.9 * lane.steps
+    scene.change("slider:tool", TOOLS.index("hand"))
+    assert scene.measured() is None and "-" in words(scene)
 
 
 def test_microseconds_as_text():

@@ -40,7 +40,7 @@ def test_all_four_answer_alike_and_visit_what_they_count(query):
     assert scene.asked == 14 and scene.disagreements == 0
     for name, world in zip(STRATEGIES, scene.worlds, strict=True):
         nodes, boxes = scene.work[name]
-        assert nodes + boxes > 0 and scene.spent[name] > 0.0
+        assert nodes + boxes > 0
         if name == "tree":
             assert len(debug.visited(world).rects) == nodes
     assert scene.work["brute"] == (0, 100 * len(scene.worlds[-1].queries.asked))

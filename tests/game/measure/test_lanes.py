@@ -7,12 +7,12 @@ import pytest
 
 from game.input.devices import DeviceSource
 from game.measure.knowing import know
-from game.measure.lanes import LaneFigures, measure_lanes
+from game.measure.lanes import WARM_STEPS, LaneFigures, measure_lanes
 from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
 from game.measure.worker import measure_stored_lanes
 from game.screens.parts.measuring import Measuring
-from game.wishes import STEPS, Lane, Lanes
+from game.wishes import STEPS, Act, Lane, Lanes
 from physics import Effects, Polygon, World
 from tests.game.arena import Arena
 
@@ -60,6 +60,22 @@ def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
     assert min(told[0]) > min(told[1]) > 0.0 and max(told[2]) == 0.0
 
 
+def counting(world, record):
+    """Appends the steps of the world at each call: an act for the test."""
+    return lambda: ACTS.append((record, world.steps))
+
+
+ACTS = []
+
+
+def test_an_act_is_done_in_place_of_steps_in_a_world_that_was_stepped_once():
+    ACTS.clear()
+    told, act = [], Act("tests.game.measure.test_lanes:counting", ("kept",))
+    measure_lanes([lane_of(2, steps=7, act=act)], lambda *found: told.append(found), lambda: True)
+    assert len(told) == RUNS and all(spent > 0.0 for _, spent, *_ in told)
+    assert ACTS == [("kept", 1)] * (WARM_STEPS + 1 + RUNS * 8), "one call of each run comes first"
+
+
 def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
     told, snapshot = [], pile(5)
     measure_lanes([Lane([snapshot], "hash", judged=(3, 7))], lambda *found: told.append(found), lambda: True)
@@ -100,12 +116,15 @@ def test_a_process_measures_lanes_and_remembers_them_by_name():
 
 def test_what_a_worker_tells_is_what_the_lanes_are_made_of(tmp_path):
     pile(2).save(tmp_path / "pile.npz")
-    stored = lane_of(2, steps=4)._replace(snapshots=[str(tmp_path / "pile.npz")] * 3)._asdict()
+    act = Act("tests.game.measure.test_lanes:counting", ("far",))
+    stored = lane_of(2, steps=4, act=act)._replace(snapshots=[str(tmp_path / "pile.npz")] * 3)._asdict()
+    stored = json.loads(json.dumps(stored))
+    ACTS.clear()
     lines = []
     measure_stored_lanes({"moment": "lanes 0", "lanes": [stored]}, lines.append, lambda: True)
     told = [json.loads(line) for line in lines]
     assert [each.get("lane") for each in told] == [0] * RUNS + [None]
-    assert told[-1] == {"moment": "lanes 0", "done": True}
+    assert told[-1] == {"moment": "lanes 0", "done": True} and ("far", 1) in ACTS
     (tmp_path / "pile.npz").write_bytes(b"nothing")
     with pytest.raises(ValueError, match="no snapshot of this program"):
         measure_stored_lanes({"moment": "lanes 1", "lanes": [stored]}, print, lambda: True)
