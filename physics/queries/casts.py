@@ -73,8 +73,8 @@ def ray_cast_all(
         rows = _allowed(world, index.rows_in(world, *_box_around(start, end, beyond)), filter, sensors, leave)
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
-        by_parts = rows[(world.shapes["kind"][rows] == MASK) & (leave == PIXELS)]
-        others = np.setdiff1d(rows, by_parts, assume_unique=True)
+        by_parts = _beside(world, rows[(world.shapes["kind"][rows] == MASK) & (leave == PIXELS)], x, y, dx, dy, beyond)
+        others = rows[(world.shapes["kind"][rows] != MASK) | (leave != PIXELS)]
         workspace = np.zeros((len(others), 4))
         found = cast_ray_at_rows(
             world.library.tables, world.bodies, world.shapes, others, x, y, dx, dy, corners, workspace, index.work
@@ -90,6 +90,16 @@ def ray_cast_all(
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
         for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
     ]
+
+
+def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
+    """Those of the SHAPE rows whose boxes, wider by `beyond` [px] all round, the line of a ray passes through."""
+    if not len(rows):
+        return rows
+    left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
+    off = dx * (0.5 * (top + bottom) - y) - dy * (0.5 * (left + right) - x)
+    reach = abs(dx) * (0.5 * (bottom - top) + beyond) + abs(dy) * (0.5 * (right - left) + beyond)
+    return rows[np.abs(off) <= reach]
 
 
 def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
