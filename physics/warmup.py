@@ -147,7 +147,8 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep."""
+    """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep; substeps by
+    load and a number of them."""
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3)):  # as near as contacts are found
         world.add_body(Circle(4), position=place)
@@ -158,6 +159,8 @@ def _rest(effects, solver):
     world.remove_body(world.add_body(Circle(4), position=(8.3, 8.3)))
     world.add_body(Circle(4), position=(40.0, 0.0), kind="kinematic", velocity=(9.0, 0.0))
     world.add_body(Circle(4), position=(7.0, 7.0), velocity=(-99.0, -99.0))
+    world.step()
+    world.substeps = 4
     world.step()
 
 
