@@ -6,6 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
+import physics
 from game.measure.knowing import know
 from game.measure.lanes import LaneFigures
 from game.measure.moment import Moment
@@ -33,6 +34,7 @@ LABS = {
     "lab/carving": 1,
 }
 FRAMES = 125  # stacks have settled
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps, questions and carves")
 
 
 def played(name, frames=FRAMES):
@@ -99,6 +101,7 @@ def test_a_shot_is_measured_from_the_gun_to_the_end(kind):
             assert len(shots) == (2 if SHOTS[kind] == "bullets" else 1) == len(rows) - (SHOTS[kind] != "bullets")
 
 
+@needs_speed
 @pytest.mark.parametrize("name", ["lab/cradle", "lab/queries", "lab/mask_stack", "lab/carving"])
 def test_known_costs_come_with_the_picture(name):
     scene = played(name)
@@ -108,6 +111,7 @@ def test_known_costs_come_with_the_picture(name):
     assert sum(bool(TIMED.search(text)) for text in words(scene)) == LABS[name]
 
 
+@needs_speed
 def test_piles_are_measured_awake_and_questions_where_the_broad_phase_knows_all():
     piles, questions = played("lab/mask_stack", 600), played("lab/queries", 1)
     assert all(piles.asleep.values()), "they cost nothing by now"
