@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from physics import JIT, World
-from tests.fuzz.running import failure_of, run_lines, script_of, write_program
+from tests.fuzz.running import LINES, failure_of, run_lines, script_of, write_program
 from tests.fuzz.shrinking import shrink
 
 PROGRAMS = 132 if JIT else 12  # a minute of steps; kernels of five sets of effects are compiled before
+LONG = LINES if JIT else 12  # lines of each
 PARTS = 12  # so that several processes share them
 
 
@@ -15,7 +16,7 @@ PARTS = 12  # so that several processes share them
 def test_random_programs_keep_the_invariants(part):
     """A failure shows the shortest program found: paste it into tests/regress, and mend what it shows."""
     for seed in range(part, PROGRAMS, PARTS):
-        lines, failure, strategy = write_program(seed)
+        lines, failure, strategy = write_program(seed, LONG)
         if failure is not None:
             short = shrink(lines, failure, strategy, tries=400)
             pytest.fail(f"seed {seed}: {failure.kind}\n\n{script_of(short, strategy)}\n\n{failure.story}")

@@ -6,7 +6,7 @@ import pytest
 
 from game.measure.why import cost_of, explain, nearest, still_there
 from game.screens.play import Play
-from physics import BROADPHASES, Circle, Effects, Filter, Material, PixelMask, Polygon, World
+from physics import BROADPHASES, JIT, Circle, Effects, Filter, Material, PixelMask, Polygon, World
 from scenes import SCENES
 
 
@@ -89,7 +89,7 @@ def test_the_pair_alone_is_timed_on_a_thousand_of_it():
 def frozen(drive):
     driver = drive(listing=SCENES)
     driver.app.screens.play("lab/pyramid")
-    driver.turns(60)
+    driver.turns(60 if JIT else 8)
     driver.key(pygame.K_p)
     play = driver.screen
     assert isinstance(play, Play) and play.clock.paused

@@ -36,6 +36,9 @@ LABS = {
 FRAMES = 125  # stacks have settled
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps, questions and carves")
 
+HEAVY = {"lab/queries", "lab/mask_stack", "lab/carving"}
+BY_WEIGHT = [pytest.param(name, marks=needs_speed if name in HEAVY else ()) for name in LABS]
+
 
 def played(name, frames=FRAMES):
     scene = Registry(SCENES).scene_class(name)(1)
@@ -56,7 +59,7 @@ def of_lanes(scene, runs=RUNS, seconds=1.234e-5):
     return {name: LaneFigures(Cost.of([seconds] * runs, steps)) for name in scene.measured().names}
 
 
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize("name", BY_WEIGHT)
 def test_a_lane_that_was_not_measured_shows_a_dash(name):
     scene = played(name)
     assert len(scene.measured().names) == LABS[name] and not scene.figures
@@ -71,7 +74,7 @@ def test_a_lane_that_was_not_measured_shows_a_dash(name):
     assert not any(TIMED.search(text) for text in words(scene)), "other settings cost something else"
 
 
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize("name", BY_WEIGHT)
 def test_lanes_are_worlds_of_their_own_and_run_long_enough(name):
     scene = played(name)
     before = scene.state()
