@@ -180,11 +180,11 @@ class Carving(Scene):
         """This tool in this size, at places all over the ground as it is now: sixty, or as many as have room."""
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
-        room = self._pixels_of(self.ground) // (8 * self.tool.radius**2)
-        if room < FEWEST:
+        solid, square = self._pixels_of(self.ground), (2 * self.tool.radius) ** 2
+        if solid < FEWEST * square:
             return None
         act = Act("scenes.lab.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))
-        steps = min(STEPS, room)
+        steps = max(FEWEST, min(STEPS, solid // (2 * square)))
         return Lanes([self._lane()], lambda name: Lane([self.world.snapshot()], self.broadphase, steps, act=act))
 
     def _lane(self):
