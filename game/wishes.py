@@ -4,7 +4,7 @@ What was found comes into its `figures`, by tier or by the name of the lane. It 
 """
 
 from collections.abc import Callable, Hashable, Sequence
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import Any, NamedTuple
 
 from physics import PixelMask, Snapshot, World
@@ -27,8 +27,7 @@ class Recipe(NamedTuple):
 
     def make(self) -> Snapshot:
         """The snapshot."""
-        module, function = self.maker.split(":")
-        return getattr(import_module(module), function)(*self.arguments)
+        return resolve_name(self.maker)(*self.arguments)
 
 
 class Act(NamedTuple):
@@ -39,8 +38,7 @@ class Act(NamedTuple):
 
     def made_for(self, world: World) -> Callable[[], object]:
         """What is to be called, and timed."""
-        module, function = self.maker.split(":")
-        return getattr(import_module(module), function)(world, *self.arguments)
+        return resolve_name(self.maker)(world, *self.arguments)
 
 
 class Lane(NamedTuple):

@@ -4,8 +4,8 @@ What it returns are rows: dicts of what JSON has words for. A value whose key en
 all else is a fact, which is the same wherever and how often it is found.
 """
 
-import importlib
 from collections.abc import Iterable, Mapping
+from pkgutil import resolve_name
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -40,9 +40,8 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
     started = perf_counter()
     found: Row = {"name": name}
     try:
-        module, function = work.split(":")
         with compiling() as seconds:
-            found["rows"] = getattr(importlib.import_module(module), function)(**params)
+            found["rows"] = resolve_name(work)(**params)
         found["compiled"] = seconds()
     except Exception as error:  # a job must not take the others with it; the page counts and names it
         found["failed"] = f"{type(error).__name__}: {error}"

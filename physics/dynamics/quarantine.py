@@ -290,10 +290,9 @@ def quarantine_solved(state: StepState) -> None:
         return
     broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
     found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
-    if found:
-        ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
-        kept = ~(np.isin(state.manifolds["body_a"], ids) | np.isin(state.manifolds["body_b"], ids))
-        state.manifolds, state.anchors = state.manifolds[kept], state.anchors[kept]
+    ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
+    kept = ~(np.isin(state.manifolds["body_a"], ids) | np.isin(state.manifolds["body_b"], ids))
+    state.manifolds, state.anchors = state.manifolds[kept], state.anchors[kept]
 
 
 def _take_out(state, told):

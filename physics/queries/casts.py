@@ -73,8 +73,8 @@ def ray_cast_all(
         rows = _allowed(world, index.rows_in(world, *_box_around(start, end, beyond)), filter, sensors, leave)
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
-        by_parts = _beside(world, rows[(world.shapes["kind"][rows] == MASK) & (leave == PIXELS)], x, y, dx, dy, beyond)
-        others = rows[(world.shapes["kind"][rows] != MASK) | (leave != PIXELS)]
+        masks = (world.shapes["kind"][rows] == MASK) & (leave == PIXELS)
+        by_parts, others = _beside(world, rows[masks], x, y, dx, dy, beyond), rows[~masks]
         workspace = np.zeros((len(others), 4))
         found = cast_ray_at_rows(
             world.library.tables, world.bodies, world.shapes, others, x, y, dx, dy, corners, workspace, index.work

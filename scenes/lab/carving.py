@@ -123,10 +123,7 @@ class Carving(Scene):
 
     def solid(self):
         """Pixels of all masks, counted one by one."""
-        return sum(map(self._pixels_of, self.prints.of))
-
-    def _pixels_of(self, identity):
-        masks = self.world.body(identity).shapes
+        masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
     def update(self, inputs):
@@ -180,7 +177,9 @@ class Carving(Scene):
         """This tool in this size, at places all over the ground as it is now: sixty, or as many as have room."""
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
-        solid, square = self._pixels_of(self.ground), (2 * self.tool.radius) ** 2
+        masks = self.world.body(self.ground).shapes
+        solid = sum(mask.area for mask in masks if isinstance(mask, PixelMask))
+        square = (2 * self.tool.radius) ** 2
         if solid < FEWEST * square:
             return None
         act = Act("scenes.lab.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))

@@ -24,10 +24,11 @@ from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
 from game.scene import Goal, Scene, Slider
 from game.wishes import Lane, Lanes
-from physics import BROADPHASES, Effects, PixelMask, Polygon, World, debug, fit, measure
+from physics import Effects, PixelMask, Polygon, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
 from scenes.lab.costs import cost_text
+from scenes.lab.piles import kept_awake
 from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
@@ -175,18 +176,11 @@ class MaskStack(Scene):
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
         return Lanes(
-            [self._lane(way) for way in WAYS], lambda name: Lane([self._awake(worlds[name[-1]])], self.broadphase)
+            [self._lane(way) for way in WAYS], lambda name: Lane([kept_awake(self, worlds[name[-1]])], self.broadphase)
         )
 
     def _lane(self, way):
         return *self.chosen, way
-
-    def _awake(self, world):
-        """The snapshot of a world as this one, where nobody falls asleep."""
-        other = World(self.effects, BROADPHASES[self.broadphase](), self.solver or "soft_step")
-        other.restore(world.snapshot())
-        other.set_effects(self.effects.without("sleeping"))
-        return other.snapshot()
 
     def stands_now(self, way):
         """True while the top of the pile is about where it was laid."""

@@ -2,7 +2,17 @@
 
 import numpy as np
 
+from physics import BROADPHASES, World
+
 SOLVERS = ("projection", "sequential_impulse", "soft_step")
+
+
+def kept_awake(scene, world):
+    """The snapshot of a scene's world as it is, where nobody falls asleep."""
+    other = World(scene.effects, BROADPHASES[scene.broadphase](), scene.solver or "soft_step")
+    other.restore(world.snapshot())
+    other.set_effects(scene.effects.without("sleeping"))  # all wake
+    return other.snapshot()
 
 
 def deepest(world):

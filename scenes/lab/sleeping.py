@@ -25,11 +25,11 @@ from game.drawing.rotated import RotatedPicture, poses_between
 from game.input.inputs import InputFrame
 from game.scene import Goal, Scene, Slider
 from game.wishes import Lane, Lanes
-from physics import BROADPHASES, Capsule, Circle, Effects, Material, Polygon, World, debug
+from physics import Capsule, Circle, Effects, Material, Polygon, debug
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
 from scenes.lab.pieces import hull, piece, placed, scaled, turning
-from scenes.lab.piles import step_seconds
+from scenes.lab.piles import kept_awake, step_seconds
 from scenes.lab.yard import HEAD, Yard, plate
 
 METER, ZOOM = 32.0, 0.5  # [px]; a crate of a metre is drawn 16 px large
@@ -193,13 +193,8 @@ class Sleeping(Scene):
         return *self.chosen, how
 
     def _make(self, name):
-        asleep = self.world.snapshot()
-        if name[-1] == "asleep":
-            return Lane([asleep], self.broadphase)
-        world = World(self.effects, BROADPHASES[self.broadphase](), self.solver or "soft_step")
-        world.restore(asleep)
-        world.set_effects(self.effects.without("sleeping"))  # all wake
-        return Lane([world.snapshot()], self.broadphase)
+        made = self.world.snapshot() if name[-1] == "asleep" else kept_awake(self, self.world)
+        return Lane([made], self.broadphase)
 
     def _count(self, islands):
         """Bodies awake and asleep, and islands, of which each body's is given."""

@@ -54,6 +54,11 @@ def words(scene):
     return [text for _, text in picture.presenter.frame.boxes]
 
 
+def world_of(lane):
+    moment = Moment(lane.snapshots[0], lane.broadphase)
+    return moment.world(moment.here)
+
+
 def of_lanes(scene, runs=RUNS, seconds=1.234e-5):
     steps = scene.measured().make(scene.measured().names[0]).steps
     return {name: LaneFigures(Cost.of([seconds] * runs, steps)) for name in scene.measured().names}
@@ -125,7 +130,7 @@ def test_piles_are_measured_awake_and_questions_where_the_broad_phase_knows_all(
         assert snapshot.arrays["bodies"]["awake"][snapshot.arrays["bodies"]["inverse_mass"] > 0.0].all()
     wish = questions.measured()
     lane = wish.make(next(name for name in wish.names if name[-1] == "tree"))
-    world = Moment(lane.snapshots[0], lane.broadphase).world(Moment(lane.snapshots[0], lane.broadphase).here)
+    world = world_of(lane)
     world.step()
     ask = lane.act.made_for(world)
     looked = []
@@ -140,7 +145,7 @@ def test_a_carve_is_timed_on_solid_ground():
     scene = played("lab/carving", 1)
     (name,) = scene.measured().names
     lane = scene.measured().make(name)
-    world = Moment(lane.snapshots[0], lane.broadphase).world(Moment(lane.snapshots[0], lane.broadphase).here)
+    world = world_of(lane)
     carve, left = lane.act.made_for(world), []
     for _ in range(lane.steps + 1):
         carve()

@@ -5,7 +5,7 @@ A step here is the whole scene's: bot, rules and physics, as `--headless` runs i
 
 import tracemalloc
 from collections.abc import Sequence
-from importlib import import_module
+from pkgutil import resolve_name
 
 import numpy as np
 
@@ -26,8 +26,7 @@ RUNS, TRACED = 3, 30  # runs of which each step's least time counts; steps whose
 
 def scene_class(where: str) -> type[Scene]:
     """The class that "module:Class" names."""
-    module, name = where.split(":")
-    return getattr(import_module(module), name)
+    return resolve_name(where)
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
