@@ -21,14 +21,15 @@ import pygame
 from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, SLATE
 from game.drawing.number_text import plain_name
-from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.measure.errors import VISIBLE
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
-from scenes.lab.piles import step_seconds
+from scenes.lab.costs import UNKNOWN, cost_of
+from scenes.lab.piles import with_effects
 from scenes.lab.yard import HEAD, draw_head, plate
 
 NAMES = tuple(field.name for field in fields(Effects))
@@ -86,7 +87,7 @@ class EffectsLab(Scene):
         self.real.furnish()
         self.clock = 0  # steps
         self.found = {}  # name: Outcome, of the last time it was compared
-        self.costs = {}  # name: (typical seconds of a step with it, without), as last looked at
+        self.looked = []  # names of the effects whose ghost was begun, whose costs are asked for
         self._part()
 
     def _new_world(self):
@@ -111,7 +112,8 @@ class EffectsLab(Scene):
         self.other = self.real.beside(world)
         self.began = self.real.told.copy(), self.real.worked
         self.since = 0
-        self.costs[self.marked] = Typical(WINDOW), Typical(WINDOW)
+        if self.marked not in self.looked:
+            self.looked.append(self.marked)
         self._show()
 
     def _show(self):
@@ -165,11 +167,18 @@ class EffectsLab(Scene):
             rms(gaps), int(more.sum()), int(np.count_nonzero(more)), self.real.worked - worked - self.other.worked
         )
 
-    def observe(self):
-        """What the last step took with the effect, and without, until both are compared."""
-        if self.since <= WINDOW:
-            for yard, typical in zip((self.real, self.other), self.costs[self.marked], strict=True):
-                typical.note(step_seconds(yard.world))
+    def measured(self):
+        """A step of the yard as it is when an effect is first looked at, all awake, with the effect and without it."""
+        return Lanes([self._lane(name, on) for name in self.looked for on in (True, False)], self._make)
+
+    def _lane(self, name, on):
+        return name, on, self.broadphase, self.substeps, self.narrowphase
+
+    def _make(self, lane):
+        name, on, *_ = lane
+        effects = self.real.world.effects
+        made = with_effects(self.real.world, effects if on else effects.without(name))
+        return Lane([made], self.broadphase, WINDOW)
 
     def stages(self):
         """(names of the stages that only the marked effect calls for, of those that take their place without it)."""
@@ -177,11 +186,9 @@ class EffectsLab(Scene):
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """[us] a step that an effect takes; below 0: it saves them. None before it was looked at."""
-        if name not in self.costs or not self.costs[name][0].last:
-            return None
-        real, other = self.costs[name]
-        return 1e6 * (real.value - other.value)
+        """[us] a step that an effect takes; below 0: it saves them. None before it was looked at, and measured."""
+        real, other = (cost_of(self, self._lane(name, on)) for on in (True, False))
+        return None if real is None or other is None else 1e6 * (real - other)
 
     def finding(self):
         """What the last two seconds with each effect and without it have shown, once all were looked at."""
@@ -223,8 +230,8 @@ class EffectsLab(Scene):
         outcome, price = self.found.get(name), self.price(name)
         if outcome is not None:
             canvas.text(short(outcome, name), 136, y, PAPER, SMALL, align="right")
-        if price is not None:
-            canvas.text(f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
+        if name in self.looked:
+            canvas.text(UNKNOWN if price is None else f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
         """On a plate over the sky: the stage of the marked effect, and the finding."""

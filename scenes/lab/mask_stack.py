@@ -28,7 +28,7 @@ from physics import Effects, PixelMask, Polygon, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
 from scenes.lab.costs import cost_text
-from scenes.lab.piles import kept_awake
+from scenes.lab.piles import with_effects
 from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
@@ -176,7 +176,8 @@ class MaskStack(Scene):
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
         return Lanes(
-            [self._lane(way) for way in WAYS], lambda name: Lane([kept_awake(self, worlds[name[-1]])], self.broadphase)
+            [self._lane(way) for way in WAYS],
+            lambda name: Lane([with_effects(worlds[name[-1]], self.effects.without("sleeping"))], self.broadphase),
         )
 
     def _lane(self, way):

@@ -2,17 +2,30 @@
 
 import numpy as np
 
-from physics import BROADPHASES, World
+from physics import World
 
 SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
-def kept_awake(scene, world):
-    """The snapshot of a scene's world as it is, where nobody falls asleep."""
-    other = World(scene.effects, BROADPHASES[scene.broadphase](), scene.solver or "soft_step")
-    other.restore(world.snapshot())
-    other.set_effects(scene.effects.without("sleeping"))  # all wake
+def with_effects(world, effects):
+    """The snapshot of a world as it is, to be stepped on with these effects; all are awake."""
+    other = _like(world)
+    other.set_effects(effects)
     return other.snapshot()
+
+
+def with_substeps(world, substeps):
+    """The snapshot of a world as it is, to be stepped on with another number of substeps; None: with its own."""
+    other = _like(world)
+    if substeps is not None:
+        other.substeps = substeps
+    return other.snapshot()
+
+
+def _like(world):
+    other = World(world.effects, type(world.broadphase)(), world.solver)
+    other.restore(world.snapshot())
+    return other
 
 
 def deepest(world):

@@ -29,7 +29,7 @@ from physics import Capsule, Circle, Effects, Material, Polygon, debug
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
 from scenes.lab.pieces import hull, piece, placed, scaled, turning
-from scenes.lab.piles import kept_awake, step_seconds
+from scenes.lab.piles import step_seconds, with_effects
 from scenes.lab.yard import HEAD, Yard, plate
 
 METER, ZOOM = 32.0, 0.5  # [px]; a crate of a metre is drawn 16 px large
@@ -193,7 +193,8 @@ class Sleeping(Scene):
         return *self.chosen, how
 
     def _make(self, name):
-        made = self.world.snapshot() if name[-1] == "asleep" else kept_awake(self, self.world)
+        world, awake = self.world, name[-1] != "asleep"
+        made = with_effects(world, self.effects.without("sleeping")) if awake else world.snapshot()
         return Lane([made], self.broadphase)
 
     def _count(self, islands):

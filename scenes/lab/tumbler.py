@@ -22,11 +22,13 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
-from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measure.setting import SUBSTEPPED
 from game.scene import Goal, Scene, Slider
+from game.wishes import Lane, Lanes
 from physics import Capsule, Circle, Effects, Polygon
-from scenes.lab.piles import deepest, kinetic_energy, step_seconds
+from scenes.lab.costs import cost_of, cost_text, microseconds
+from scenes.lab.piles import deepest, kinetic_energy, with_substeps
 from scenes.lab.yard import HEAD, Yard, plate
 
 ZOOM = 0.5
@@ -73,7 +75,7 @@ class Tumbler(Scene):
     actions = (("left right", "drum's speed"), ("up down", "bodies"))
     draggable = True
     head = HEAD
-    legend_at = (4, 130)
+    legend_at = (4, 138)
 
     def build(self):
         """The yard; fill() makes drum and load."""
@@ -98,7 +100,6 @@ class Tumbler(Scene):
         self.highest = MIDDLE[1] + INSIDE  # y of the highest centre since the load has settled
         self.most = self.energy = 0.0  # kinetic energy
         self.overlap = self.pressed = 0.0  # [px] deepest ever, and deepest of each step on average
-        self.spent = Typical()  # [ms]
         self.since = 0
 
     def change_slider(self, name, value):
@@ -133,9 +134,20 @@ class Tumbler(Scene):
             self.overlap = max(self.overlap, deep)
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
-    def observe(self):
-        """The clock."""
-        self.spent.note(step_seconds(self.world) * 1e3)
+    def ways(self):
+        """The present number of substeps and another, as {how it is told: lane}."""
+        now, solver = self.world.substeps, self.world.solver
+        asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
+        lane = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
+        words = {None: "a step", "auto": "by load"}
+        return {words.get(substeps, f"{substeps} substeps"): (*lane, substeps) for substeps in asked}
+
+    def measured(self):
+        """A step of this drum once the load has settled, with the present number of substeps and another."""
+        return Lanes(list(self.ways().values()), self._make) if self.since > SETTLED else None
+
+    def _make(self, name):
+        return Lane([with_substeps(self.world, name[-1])], self.broadphase)
 
     def draw(self, canvas, alpha):
         """The drum, its load, the numbers."""
@@ -143,7 +155,7 @@ class Tumbler(Scene):
         angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
         draw_drum(canvas.surface, self.camera, angle)
         self.cast.draw(canvas, self.camera, self.world, alpha)
-        plate(canvas, (4, 22, 112, 92))
+        plate(canvas, (4, 22, 112, 102))
         out = self.escaped
         canvas.text(f"{out} got out" if out else "none got out", 10, 26, RED if out else GREEN)
         rows = (
@@ -153,7 +165,7 @@ class Tumbler(Scene):
             ("overlap", f"{deepest(self.world):.2f} px"),
             ("on average", f"{self.pressed:.2f} px"),
             ("speed", f"{self._pace():.0f} px/s"),
-            ("a step", f"{self.spent.value:.2f} ms"),
+            *((word, cost_text(self, lane)) for word, lane in self.ways().items()),
         )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 40 + number * 10, FOG, SMALL)
@@ -198,7 +210,11 @@ class Tumbler(Scene):
         turns = abs(self.drum.angle) / (2 * pi)
         told = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
         deep = f"{self.pressed:.2f} px, {self.pressed / THINNEST:.0%} of the thinnest"
-        return f"{told}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
+        told = f"{told}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
+        costs = {word: cost_of(self, lane) for word, lane in self.ways().items()}
+        if None in costs.values():
+            return told
+        return f"{told}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
         """Watch."""

@@ -32,6 +32,7 @@ LABS = {
     "lab/queries": 4,
     "lab/mask_stack": 5,
     "lab/carving": 1,
+    "lab/tumbler": 2,
 }
 FRAMES = 125  # stacks have settled
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps, questions and carves")
