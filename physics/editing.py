@@ -19,7 +19,6 @@ from physics.reshaping import (
     refresh_pose,
     shapes_for_tier,
 )
-from physics.settings import AUTO_SUBSTEPS
 from physics.shape_rows import MATERIAL, add_shapes, check_ids
 from physics.shapes.filter import Filter
 from physics.shapes.kinds import Shape
@@ -96,7 +95,6 @@ def add_rows(
         rows["previous_" + name] = rows["still_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
-    rows["substeps"] = AUTO_SUBSTEPS[-1]  # until it is known what its contacts bear
     rows["active"] = not world.sleeps  # with it, the next step takes them in
     if wanted.kind != "dynamic":
         world.awake.stir(ids.tolist())

@@ -122,7 +122,8 @@ class Environment(WorldState):
     @property
     def substeps(self) -> int | str:
         """How often the stacking solvers look at the contacts in a step; "auto": as often as each island needs for its
-        contacts to sink by no more than the accuracy, 4 to 32 times. Can be set between steps."""
+        contacts to sink by no more than the accuracy, 4 to 32 times, and up to 128 where it leans. Can be set between
+        steps."""
         return self._substeps
 
     @substeps.setter

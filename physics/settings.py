@@ -31,7 +31,8 @@ STICKING_TURN = 0.01  # [rad] two faces that stick keep their arms and normal wh
 # boxes tip late (Box2D knows no bound and tips at 35 degrees instead of 27). Smaller: columns buckle as springs do
 STICKING_SHARE = 0.5  # … and while they moved against each other by less than this share of SPECULATIVE_DISTANCE
 CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact where the number of substeps is given
-AUTO_SUBSTEPS = (4, 8, 16, 32)  # that an island may take, where they follow from …
+AUTO_SUBSTEPS = (4, 8, 16, 32, 64, 128)  # that an island may take, where they follow from …
+LOAD_SUBSTEPS = 32  # no more than these for a load alone: stiffer springs ring under a blow
 ACCURACY = 0.001  # [m] … what its contacts may sink under their loads. Smaller: stiffer piles that cost more
 EASE_TIME = 0.25  # [s] for which fewer substeps would have done before an island takes fewer
 LEAN = 20.0  # times less that it may sink, at most, where one end of a face bears more than the other

@@ -45,8 +45,8 @@ class World(Environment, Questions):
     SpatialHashGrid(); solver: one of SOLVERS, None = soft_step with the effect stacking, else projection; gravity
     [px/s2], None = 9.8 m/s2 down; drag [1/s]; wind [px/s]; dt [s]; substeps: how often the stacking solvers look at the
     contacts in a step; "auto": 4 to 32 times, each island as often as keeps its contacts from sinking further than
-    accuracy [px], None = 1 mm. What needs more is counted in cap_hits. Raises TypeError or ValueError naming the
-    argument.
+    accuracy [px], None = 1 mm; what leans up to 128 times. What needs more is counted in cap_hits. Raises TypeError or
+    ValueError naming the argument.
     """
 
     def __init__(

@@ -45,32 +45,35 @@ def join(
 
 
 @subkernel
-def join_classes(
+def find_roots(
     # read
     edges,
     count,
     joins,
     # write
-    classes_inout,
     parents_out,
 ):
-    """Give every node the greatest class of its island, and its root as parent. O(nodes + count).
+    """Give every node the root of its island, its lowest node, as parent. O(nodes + count).
 
-    edges (count, 2) int32; joins (nodes) bool: what does not join belongs to no island; classes_inout, parents_out
-    (nodes) int32.
+    edges (count, 2) int32; joins (nodes) bool: what does not join belongs to no island; parents_out (nodes) int32.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
     for i in range(count):
         if joins[edges[i, 0]] and joins[edges[i, 1]]:
             join_nodes(edges[i, 0], edges[i, 1], parents_out)
-    # Roots are lower than the rest of their island.
     for i in range(len(parents_out)):
-        root = root_of(i, parents_out)
-        parents_out[i] = root
+        parents_out[i] = root_of(i, parents_out)
+
+
+@subkernel
+def share_classes(parents, classes_inout):
+    """Give every node the greatest class of its island. parents, classes_inout (nodes) int32, see find_roots."""
+    for i in range(len(parents)):
+        root = parents[i]
         classes_inout[root] = max(classes_inout[root], classes_inout[i])
-    for i in range(len(parents_out)):
-        classes_inout[i] = classes_inout[parents_out[i]]
+    for i in range(len(parents)):
+        classes_inout[i] = classes_inout[parents[i]]
 
 
 @subkernel

@@ -4,19 +4,20 @@ A contact is a spring whose frequency is a share of the substeps per second: und
 quarter of that with twice the substeps. What the last step bore tells what the next one needs. Up at once; down, by
 half, when that has been enough for all of an island for a while: its contacts would still sink by no more than half of
 the accuracy, or islands would go up and down.
+A load alone may ask for no more than LOAD_SUBSTEPS; what leans on the edge of what bears it for more: a column that
+begins to lean shifts its load further out, and has no second try.
 Source of the spring: Catto, Soft Constraints, GDC 2011.
 """
 
 import math
 
-import numpy as np
-
+from physics.dynamics.graph import find_roots
 from physics.jit import kernel, subkernel
-from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, STILL_STIFFNESS
+from physics.settings import AUTO_SUBSTEPS, EASE_TIME, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.lanes import Blocks
 from physics.solver.motions import Motions
-from physics.solver.selection import Group, demand_rate
+from physics.solver.selection import Group, Selection, demand_rate
 from physics.tables.counters import CAP_HITS
 from physics.tables.step_state import StepState
 
@@ -28,6 +29,8 @@ def add_demands(
     count,
     rate,
     rate_still,
+    substeps,
+    most_by_load,
     most,
     # write
     motions_inout,
@@ -38,6 +41,8 @@ def add_demands(
     give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most: the square
     of the most substeps, than which nobody asks for more because it leans. O(constraints).
     """
+    reach = float(max(substeps, most_by_load)) ** 2
+    by_load = 0.5 * float(most_by_load) ** 2
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
         for lane in range(at.LANES):
@@ -45,6 +50,7 @@ def add_demands(
                 continue
             still = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
             per_speed = (rate_still if still else rate) / abs(c[at.FIRMNESS + lane])
+            lean = 1.0
             demand = per_speed * c[at.TOTAL_1 + lane] / c[at.MASS_1 + lane]
             if c[at.MASS_2 + lane] > 0.0:
                 other = per_speed * c[at.TOTAL_2 + lane] / c[at.MASS_2 + lane]
@@ -52,9 +58,13 @@ def add_demands(
                 demand = max(demand, other)
                 if c[at.FIRMNESS + lane] < 0.0 and least > 0.0:
                     # What stands alone on an edge leans by the difference, and has but the rest of the face to lean.
-                    demand = max(demand, min(demand * min(demand / least, LEAN), most))
+                    lean = min(demand / least, LEAN)
+            overloaded = demand > reach
+            demand = min(lean * min(demand, by_load), float(most * most))
             a = motions_inout[blocks.motion_a[block, lane]]
             b = motions_inout[blocks.motion_b[block, lane]]
+            a.overloaded = a.overloaded or overloaded
+            b.overloaded = b.overloaded or overloaded
             a.demand = max(a.demand, demand)
             b.demand = max(b.demand, demand)
 
@@ -63,40 +73,59 @@ def add_demands(
 def choose_substeps(
     # read
     members,
-    parents,
     substeps,
     least,
+    most_by_load,
     most,
     dt,
     patience,
     # write
     motions_inout,
 ):
-    """Write the substeps that the islands of the members are to take after a step of so many. Returns how many islands
-    have asked for more than the most for as long as `patience` [s], which is none of an impact. O(members).
-
-    members: rows of MOTION, ascending; parents (motions) int32: the root of each one's island, its lowest row.
-    """
+    """Write how many substeps each of the members would take after a step of so many. Returns whether all of them are
+    content with these. See ask_by_load. O(members)."""
+    content = True
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
+        demand = m.demand
         wanted = substeps
         eased = 0.0
-        if m.demand > most * most and substeps == most:
+        if m.overloaded and substeps >= most_by_load:
             eased = min(m.eased, 0.0) - dt
             if eased <= -patience:
-                motions_inout[parents[i]].demand = math.inf
-        elif m.demand > substeps * substeps:
-            while wanted < most and wanted * wanted < m.demand:
+                m.demand = math.inf
+                content = False
+        if demand > substeps * substeps:
+            while wanted < most and wanted * wanted < demand:
                 wanted *= 2
-        elif substeps > least and 8.0 * m.demand <= substeps * substeps:
+        elif substeps > least and 8.0 * demand <= substeps * substeps:
             eased = min(m.eased + dt, patience)
             if eased >= patience:
                 wanted = substeps // 2
         m.eased = eased
         m.substeps = wanted
-        root = motions_inout[parents[i]]
-        root.substeps = max(root.substeps, wanted)
+        content = content and wanted == substeps
+    return content
+
+
+@subkernel
+def share_substeps(
+    # read
+    members,
+    parents,
+    substeps,
+    # write
+    motions_inout,
+):
+    """Give each member the most that one of its island would take, after a step of so many. Returns how many islands
+    are told to have asked for too many. parents (motions) int32: the root of each one's island, its lowest row.
+    O(members)."""
+    for k in range(len(members)):
+        m = motions_inout[members[k]]
+        root = motions_inout[parents[members[k]]]
+        root.substeps = max(root.substeps, m.substeps)
+        root.demand = max(root.demand, m.demand)
     capped = 0
     for k in range(len(members)):
         i = members[k]
@@ -117,24 +146,41 @@ def ask_by_load(
     rate,
     rate_still,
     members,
-    parents,
+    joins,
+    edges,
+    constraints,
     substeps,
     least,
+    most_by_load,
     most,
     dt,
     patience,
     # write
+    parents_inout,
+    joined_inout,
     motions_inout,
 ):
-    """See add_demands, choose_substeps. O(members + constraints)."""
-    add_demands(blocks, count, rate, rate_still, float(most * most), motions_inout)
-    return choose_substeps(members, parents, substeps, least, most, dt, patience, motions_inout)
+    """Write the substeps that the islands of the members are to take after a step of so many. Returns how many islands
+    have asked for more than they may for as long as `patience` [s], which is none of an impact. See add_demands.
+    O(members + constraints).
+
+    members: rows of MOTION, ascending; joins, edges, constraints, parents_inout, joined_inout: see find_roots, Plan:
+    who is of which island is asked only where they differ.
+    """
+    add_demands(blocks, count, rate, rate_still, substeps, most_by_load, most, motions_inout)
+    if choose_substeps(members, substeps, least, most_by_load, most, dt, patience, motions_inout):
+        return 0
+    if not joined_inout[0]:
+        find_roots(edges, constraints, joins, parents_inout[: len(motions_inout)])
+        joined_inout[0] = True
+    return share_substeps(members, parents_inout, substeps, motions_inout)
 
 
 def ask_for_substeps(
-    state: StepState, motions: Motions, parents: np.ndarray, group: Group, blocks: Blocks, count: int
+    state: StepState, motions: Motions, selection: Selection, group: Group, blocks: Blocks, count: int
 ) -> None:
     """Have the bodies of a group ask for what their contacts, so many blocks of them, need in the next step."""
+    plan = selection.plan
     rate = demand_rate(state)
     state.work[CAP_HITS] += ask_by_load(
         blocks,
@@ -142,11 +188,16 @@ def ask_for_substeps(
         rate,
         rate / STILL_STIFFNESS**2,
         group.members,
-        parents,
+        motions.joins,
+        plan.edges,
+        selection.count,
         group.substeps,
         AUTO_SUBSTEPS[0],
+        LOAD_SUBSTEPS,
         AUTO_SUBSTEPS[-1],
         state.dt,
         EASE_TIME,
+        plan.parents,
+        plan.joined,
         motions.used,
     )

@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.dynamics.graph import color_edges, join_classes, order_edges, order_nodes
+from physics.dynamics.graph import color_edges, find_roots, order_edges, order_nodes, share_classes
 from physics.jit import kernel, subkernel
-from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE
+from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE, LOAD_SUBSTEPS
 from physics.solver.motions import Motions
+from physics.solver.rows import touches_slowly
 from physics.tables.step_state import StepState
 
 
@@ -26,7 +27,8 @@ class Plan(NamedTuple):
     taken: np.ndarray  # (motions) int64 bits of the colours that each has
     degrees: np.ndarray  # (motions) int64 edges of each
     classes: np.ndarray  # (motions) int32 where the substeps of each stand among the choices
-    parents: np.ndarray  # (motions) int32 root of the island of each
+    parents: np.ndarray  # (motions) int32 root of the island of each, where …
+    joined: np.ndarray  # (1) bool … somebody had to know
     members: np.ndarray  # (motions) int32 what moves, by group
     starts: np.ndarray  # int64 where the rows of each colour of each group begin, the colourless first
     firsts: np.ndarray  # int64 where the members of each group begin
@@ -34,6 +36,7 @@ class Plan(NamedTuple):
 
 
 CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
+BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # the last that a load alone may ask for
 
 
 def new_plan(edges: int, motions: int) -> Plan:
@@ -48,6 +51,7 @@ def new_plan(edges: int, motions: int) -> Plan:
         degrees=np.zeros(motions, np.int64),
         classes=np.zeros(motions, np.int32),
         parents=np.zeros(motions, np.int32),
+        joined=np.zeros(1, np.bool_),
         members=np.zeros(motions, np.int32),
         starts=np.zeros(slots, np.int64),
         firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
@@ -138,13 +142,20 @@ def class_for(choices, square, least):
 
 
 @subkernel
-def class_motions(motions, degrees, choices, classes_out):
-    """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest. O(motions)."""
+def class_motions(motions, degrees, choices, by_load, classes_out):
+    """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest, who is not
+    known yet as many as a load may ask for. Returns whether there are such. O(motions)."""
+    unknown = False
     for i in range(len(classes_out)):
         classes_out[i] = 0
         m = motions[i]
         if degrees[i] > 0 and m.pushed:
-            classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
+            if m.substeps == 0:
+                unknown = True
+                classes_out[i] = by_load
+            else:
+                classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
+    return unknown
 
 
 @subkernel
@@ -181,6 +192,40 @@ def expect_impacts(
                 classes_inout[node] = class_for(choices, demand, int(classes_inout[node]))
 
 
+@subkernel
+def expect_columns(manifolds, selected, edges, count, motions, degrees, limits, most, classes_inout):
+    """Raise what newly lies on one thing, and bears no more than another, to the class `most`: how a column leans is
+    not known before its load has come down it, contact by contact, and what began to lean goes on. O(count)."""
+    for i in range(count):
+        row_a = edges[i, 0]
+        row_b = edges[i, 1]
+        a = motions[row_a]
+        b = motions[row_b]
+        m = manifolds[selected[i]]
+        if (
+            (a.substeps == 0 or b.substeps == 0)
+            and a.pushed
+            and b.pushed
+            and degrees[row_a] <= 2
+            and degrees[row_b] <= 2
+            and touches_slowly(m.separation_1, m.speed_1, limits)
+        ):
+            classes_inout[row_a] = most
+
+
+@subkernel
+def are_mixed(joins, degrees, classes):
+    """Whether what touches something is not all of one class. O(motions)."""
+    first = -1
+    for i in range(len(classes)):
+        if joins[i] and degrees[i] > 0:
+            if first < 0:
+                first = classes[i]
+            elif classes[i] != first:
+                return True
+    return False
+
+
 @kernel
 def order_contacts(
     # read
@@ -211,18 +256,28 @@ def order_by_load(
     dt,
     rate,
     choices,
+    by_load,
+    limits,
     # write
     plan_out,
 ):
     """List the manifolds that are solved by how many of the choices of substeps their islands ask for, and by colour.
-    Returns their number. dt [s], rate: see expect_impacts. O(manifolds + motions)."""
+    Returns their number. dt [s], rate: see expect_impacts; by_load: the last of the choices that a load alone may ask
+    for; limits: see settings.Limits. O(manifolds + motions)."""
     plan = plan_out
     nodes = len(motions)
     classes = plan.classes[:nodes]
     count = color_manifolds(manifolds, motion_of, motions, pushable, plan)
-    class_motions(motions, plan.degrees, choices, classes)
-    expect_impacts(manifolds, plan.selected, plan.edges, count, motions, dt, rate, choices, classes)
-    join_classes(plan.edges, count, joins, classes, plan.parents[:nodes])
+    unknown = class_motions(motions, plan.degrees, choices, by_load, classes)
+    expect_impacts(manifolds, plan.selected, plan.edges, count, motions, dt, rate, choices[: by_load + 1], classes)
+    if unknown:
+        most = len(choices) - 1
+        expect_columns(manifolds, plan.selected, plan.edges, count, motions, plan.degrees, limits, most, classes)
+    plan.joined[0] = are_mixed(joins, plan.degrees, classes)
+    if plan.joined[0]:
+        parents = plan.parents[:nodes]
+        find_roots(plan.edges, count, joins, parents)
+        share_classes(parents, classes)
     order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
     order_nodes(movers, classes, plan.firsts, plan.cursors, plan.members)
     return count
@@ -254,17 +309,19 @@ class Selection:
             state.dt,
             demand_rate(state),
             CHOICES,
+            BY_LOAD,
+            state.tolerances.limits,
             plan,
         )
-        colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts.tolist()
+        colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts
         groups = [
             Group(
                 substeps=number,
-                start=starts[k * colors],
-                stop=starts[(k + 1) * colors],
-                loose=starts[k * colors + 1] - starts[k * colors],
+                start=starts.item(k * colors),
+                stop=starts.item((k + 1) * colors),
+                loose=starts.item(k * colors + 1) - starts.item(k * colors),
                 members=plan.members[firsts[k] : firsts[k + 1]],
-                starts=plan.starts[k * colors : (k + 1) * colors + 1],
+                starts=starts[k * colors : (k + 1) * colors + 1],
             )
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]

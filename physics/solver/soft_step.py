@@ -91,7 +91,7 @@ def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -
         blocks, count = prepare(state, contacts, motions, group, pace)
         run(group.members, motions.driven, count, pace, motions.used, blocks)
         if asked:
-            ask_for_substeps(state, motions, contacts.selection.plan.parents, group, blocks, count)
+            ask_for_substeps(state, motions, contacts.selection, group, blocks, count)
         store(state, contacts, motions, blocks, count, h)
     return h
 

@@ -9,10 +9,6 @@ from tests.stability.study.engines import Hitbox
 from tests.stability.study.rows import table
 from tests.stability.study.verdict import Played, judge
 
-# Forty boxes 5 % inside the analytic limit give way, with the most substeps that there are, by more than these 5 %:
-# what leans is balanced from box to box, pass by pass, and does not find its balance before it has leant too far. With
-# 128 it does, and so do thirty boxes and harmonic towers of 24 and 32, which fall with 32.
-OUT_OF_REACH = ("offset_40_in",)
 FAMILIES = sorted({name.split("_")[0] for name, row in table().items() if row.unit != "ms"})
 
 
@@ -25,4 +21,4 @@ def test_rows_are_within_their_limits(family):
             continue
         found = judge(row, played)
         told = f"{name}: {found.figure:.4g} {row.unit}, limit {row.limit}, {found.stood} of {found.seeds} stand"
-        assert found.met is (name not in OUT_OF_REACH), told
+        assert found.met, told

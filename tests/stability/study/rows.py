@@ -62,8 +62,8 @@ def _crooked():
 
 def _towers():
     for kind, places, counts in (
-        ("offset", stacks.offset_places, (5, 10, 20, 40)),
-        ("harmonic", stacks.harmonic_places, (4, 8, 16)),
+        ("offset", stacks.offset_places, (5, 10, 20, 30, 40)),
+        ("harmonic", stacks.harmonic_places, (4, 8, 16, 24, 32)),
     ):
         for count in counts:
             inside, outside = places(count, INSIDE), places(count, OUTSIDE)
