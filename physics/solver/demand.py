@@ -100,8 +100,9 @@ def choose_substeps(
             while wanted < most and wanted * wanted < demand:
                 wanted *= 2
         elif substeps > least and 8.0 * demand <= substeps * substeps:
-            eased = min(m.eased + dt, patience)
-            if eased >= patience:
+            if not m.overloaded:
+                eased = min(m.eased + dt, patience)
+            if abs(eased) >= patience:
                 wanted = substeps // 2
         m.eased = eased
         m.substeps = wanted

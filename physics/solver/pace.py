@@ -93,7 +93,7 @@ def pace_of(
         shallow_speed=spring.bias_rate * speculative,
         spring=spring,
         still_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
-        firm=FIRM if asked else 1.0,
-        firm_alone=FIRM_ALONE if asked else 1.0,
+        firm=FIRM,
+        firm_alone=FIRM_ALONE,
         blow=BLOW if asked else math.inf,
     )

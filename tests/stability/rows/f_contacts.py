@@ -54,8 +54,6 @@ CONTACTS = Section(
             "20 × 20 falls 15 m on two unit boxes (400 : 1), 2.5 m on two triangles (800 : 1), 8 substeps",
             (at_most("overlap at the end", 0.025, "m"), at_most("way of a prop aside", 1.0, "m")),
             "Box2D HighMassRatio2 and 3",
-            fault="with eight substeps two triangles under 800 : 1 give way by 28 mm, as springs of 60 Hz must; with "
-            "substeps by load by 1.2 mm; boxes under 400 : 1 keep the limit",
         ),
         Row(
             "F7",
