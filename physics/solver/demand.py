@@ -41,8 +41,9 @@ def add_demands(
     give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most: the square
     of the most substeps, than which nobody asks for more because it leans. O(constraints).
     """
-    reach = float(max(substeps, most_by_load)) ** 2
-    by_load = 0.5 * float(most_by_load) ** 2
+    capped = max(substeps, most_by_load)
+    reach = float(capped * capped)
+    by_load = 0.5 * float(most_by_load * most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
         for lane in range(at.LANES):

@@ -35,9 +35,9 @@ LABS = {
     "lab/tumbler": 2,
 }
 FRAMES = 125  # stacks have settled
-needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps, questions and carves")
+needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps, questions and carves, or a drum")
 
-HEAVY = {"lab/queries", "lab/mask_stack", "lab/carving"}
+HEAVY = {"lab/queries", "lab/mask_stack", "lab/carving", "lab/tumbler"}
 BY_WEIGHT = [pytest.param(name, marks=needs_speed if name in HEAVY else ()) for name in LABS]
 
 
