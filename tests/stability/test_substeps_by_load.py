@@ -75,6 +75,7 @@ def test_who_bears_little_takes_few_once_that_is_known():
     assert asked(world, ball) == 4, "what nothing touches takes the fewest"
 
 
+@needs_speed
 def test_a_column_takes_the_most_until_its_load_has_come_down():
     """What lies beside it does not; and the column takes as few as its load asks for after that."""
     world = metres(substeps="auto")
