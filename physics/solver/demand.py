@@ -35,14 +35,16 @@ def add_demands(
     # write
     motions_inout,
 ):
-    """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater.
+    """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater, and
+    whether its load would need more than these `substeps` and than a load may ask for.
 
     blocks: so many blocks of lanes, see lanes.py; rate, rate_still: that square per speed that the impulses of the step
-    give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most: the square
-    of the most substeps, than which nobody asks for more because it leans. O(constraints).
+    give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most_by_load,
+    most: the most substeps that a load may ask for, and what leans. O(constraints).
     """
-    capped = max(substeps, most_by_load)
-    reach = float(capped * capped)
+    reach = max(substeps, most_by_load)
+    reach_squared = float(reach * reach)
+    # Half of their square asks for as many, and lets what took twice as many, because it leant, come down to them.
     by_load = 0.5 * float(most_by_load * most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
@@ -60,7 +62,7 @@ def add_demands(
                 if c[at.FIRMNESS + lane] < 0.0 and least > 0.0:
                     # What stands alone on an edge leans by the difference, and has but the rest of the face to lean.
                     lean = min(demand / least, LEAN)
-            overloaded = demand > reach
+            overloaded = demand > reach_squared
             demand = min(lean * min(demand, by_load), float(most * most))
             a = motions_inout[blocks.motion_a[block, lane]]
             b = motions_inout[blocks.motion_b[block, lane]]

@@ -57,10 +57,7 @@ BODY = in_lines(
         ("sleep_time", np.float64),  # … for so long [s]
         ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
         ("eased", np.float64),  # [s] for which fewer would have done, or, below 0, the most were too few
-        (
-            "substeps",
-            np.int64,
-        ),  # that its island is to take in the next step, where they are not given; 0: not known yet
+        ("substeps", np.int64),  # that its island takes in the next step, where they are not given; 0: not known yet
     ]
 )
 GIVEN = np.dtype(

@@ -32,18 +32,18 @@ def asked(world, *bodies):
 
 @pytest.mark.parametrize("boxes", [1, 5, 12])
 def test_no_contact_of_a_column_sinks_further_than_a_millimetre(boxes):
-    """With four substeps it does: that is what they cost."""
+    """With three substeps it does: that is what they cost."""
     world = metres(substeps="auto")
     floor(world)
     heap(world, boxes)
     for _ in range(120):
         world.step()
         assert deepest(world) <= MILLIMETRE
-    soft = metres(substeps=4)
+    soft = metres(substeps=3)
     floor(soft)
     heap(soft, boxes)
     Watch(soft).step(120)
-    assert boxes < 12 or deepest(soft) > MILLIMETRE
+    assert boxes == 1 or deepest(soft) > MILLIMETRE
 
 
 @needs_speed
