@@ -4,7 +4,7 @@ A contact is a spring whose frequency is a share of the substeps per second: und
 quarter of that with twice the substeps. What the last step bore tells what the next one needs. Up at once; down, by
 half, when that has been enough for all of an island for a while: its contacts would still sink by no more than half of
 the accuracy, or islands would go up and down.
-A load alone may ask for no more than LOAD_SUBSTEPS; what leans on the edge of what bears it for more: a column that
+A load alone may ask for no more than LOAD_SUBSTEPS, and so may a heap; a column that leans for more: what
 begins to lean shifts its load further out, and has no second try.
 Source of the spring: Catto, Soft Constraints, GDC 2011.
 """
@@ -76,6 +76,7 @@ def add_demands(
 def choose_substeps(
     # read
     members,
+    degrees,
     substeps,
     least,
     most_by_load,
@@ -91,6 +92,7 @@ def choose_substeps(
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
+        m.crowded = degrees[i] > 2
         demand = m.demand
         wanted = substeps
         eased = 0.0
@@ -109,7 +111,7 @@ def choose_substeps(
                 wanted = substeps // 2
         m.eased = eased
         m.substeps = wanted
-        content = content and wanted == substeps
+        content = content and wanted == substeps and not (m.crowded and substeps > most_by_load)
     return content
 
 
@@ -119,23 +121,25 @@ def share_substeps(
     members,
     parents,
     substeps,
+    most_by_load,
     # write
     motions_inout,
 ):
-    """Give each member the most that one of its island would take, after a step of so many. Returns how many islands
-    are told to have asked for too many. parents (motions) int32: the root of each one's island, its lowest row.
-    O(members)."""
+    """Give each member the most that one of its island would take, after a step of so many; in a heap no more than a
+    load may ask for, since something leans there all the time. Returns how many islands are told to have asked for too
+    many. parents (motions) int32: the root of each one's island, its lowest row. O(members)."""
     for k in range(len(members)):
         m = motions_inout[members[k]]
         root = motions_inout[parents[members[k]]]
         root.substeps = max(root.substeps, m.substeps)
         root.demand = max(root.demand, m.demand)
+        root.crowded = root.crowded or m.crowded
     capped = 0
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
         root = motions_inout[parents[i]]
-        m.substeps = root.substeps
+        m.substeps = min(root.substeps, most_by_load) if root.crowded else root.substeps
         if m.substeps != substeps:
             m.eased = 0.0
         capped += int(parents[i] == i and root.demand == math.inf)
@@ -150,6 +154,7 @@ def ask_by_load(
     rate,
     rate_still,
     members,
+    degrees,
     joins,
     edges,
     constraints,
@@ -168,16 +173,16 @@ def ask_by_load(
     have asked for more than they may for as long as `patience` [s], which is none of an impact. See add_demands.
     O(members + constraints).
 
-    members: rows of MOTION, ascending; joins, edges, constraints, parents_inout, joined_inout: see find_roots, Plan:
-    who is of which island is asked only where they differ.
+    members: rows of MOTION, ascending; degrees, joins, edges, constraints, parents_inout, joined_inout: see find_roots,
+    Plan: who is of which island is asked only where they differ.
     """
     add_demands(blocks, count, rate, rate_still, substeps, most_by_load, most, motions_inout)
-    if choose_substeps(members, substeps, least, most_by_load, most, dt, patience, motions_inout):
+    if choose_substeps(members, degrees, substeps, least, most_by_load, most, dt, patience, motions_inout):
         return 0
     if not joined_inout[0]:
         find_roots(edges, constraints, joins, parents_inout[: len(motions_inout)])
         joined_inout[0] = True
-    return share_substeps(members, parents_inout, substeps, motions_inout)
+    return share_substeps(members, parents_inout, substeps, most_by_load, motions_inout)
 
 
 def ask_for_substeps(
@@ -192,6 +197,7 @@ def ask_for_substeps(
         rate,
         rate / STILL_STIFFNESS**2,
         group.members,
+        plan.degrees,
         motions.joins,
         plan.edges,
         selection.count,

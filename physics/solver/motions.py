@@ -46,6 +46,7 @@ def stand_still(motions_out, pushable_out, joins_out):
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
     m.demand = 0.0
+    m.crowded = False
     m.overloaded = False
     m.eased = 0.0
     m.substeps = 0
@@ -119,6 +120,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.pressed = False
             m.walks = False
             m.demand = 0.0
+            m.crowded = False
             m.overloaded = False
             m.hits = 0
             m.substeps = b.substeps

@@ -35,6 +35,7 @@ MOTION = in_lines(
         ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
         ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
         ("hits", np.int64),  # see solver/hits
+        ("crowded", np.bool_),  # one of its island touches more than one thing below it and one above
         ("overloaded", np.bool_),  # more substeps than these, and than a load may ask for, would be needed
     ]
 )

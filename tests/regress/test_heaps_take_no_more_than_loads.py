@@ -1,0 +1,20 @@
+"""In a heap something leans all the time: the tumbler took 128 substeps in every step, 3.6 times as long as with four.
+
+More than a load may ask for is for columns, which have one thing below and one above.
+"""
+
+from scenes.lab.tumbler import Tumbler
+from tests.stability.piles import needs_speed
+
+
+@needs_speed
+def test_a_drum_of_shapes_takes_32_substeps_at_most():
+    """Once it is a heap: two or three that fell aside are a column, and cost little."""
+    scene = Tumbler(0)
+    world = scene.world
+    world.substeps = "auto"
+    for _ in range(150):
+        world.step()
+    for _ in range(150):
+        world.step()
+        assert (world.bodies["substeps"] > 32).sum() <= 6
