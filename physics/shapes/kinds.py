@@ -18,8 +18,8 @@ SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
-    """Mass of one shape or several together: inertia about the common centre of mass. Where convex ones overlap they
-    are weighed once, as the densest.
+    """Mass of one shape or several together: inertia about the common centre of mass. Where they overlap they are
+    weighed once, as the densest.
 
     density [mass per px2] is that of shapes without a material of their own.
     Raises TypeError for what is no shape, ValueError for a density that is not > 0.

@@ -8,6 +8,7 @@ import shapely
 
 from physics import Capsule, Circle, Effects, Material, PixelMask, Polygon, World, mass_of
 from physics.shapes.mass import polygon_mass, together
+from tests.fitting.rasters import pixels
 
 
 def same(found, expected, within=1e-12):
@@ -63,10 +64,79 @@ def test_what_touches_keeps_its_sums_to_the_bit():
     assert (found.mass, found.center, found.inertia) == (sums.mass, sums.center, sums.inertia)
 
 
-def test_masks_weigh_by_themselves():
-    mask = PixelMask(np.ones((4, 6), bool))
-    found = mass_of([mask, box(10, 6)], 1.0)
-    assert found.mass == 24.0 + 60.0
+def test_a_mask_is_weighed_once_with_what_overlaps_it():
+    mask = PixelMask.from_array(np.ones((4, 6), bool))
+    assert mass_of([mask, box(10, 6)], 1.0) == mass_of([box(10, 6), mask], 1.0)
+    same(mass_of([mask, box(10, 6)], 1.0), box(10, 6).mass_of(1.0))
+    same(mass_of([mask, mask], 1.5), mask.mass_of(1.5))
+    same(mass_of([mask, PixelMask.from_array(np.ones((4, 6), bool))], 1.5), mask.mass_of(1.5))
+    lead = PixelMask.from_array(np.ones((2, 2), bool)).with_(Material(density=11.0))
+    same(mass_of([mask, lead], 1.0), together([box(6, 4).mass_of(1.0), box(2, 2).mass_of(10.0)]))
+
+
+def test_masks_whose_boxes_meet_and_pixels_do_not_keep_their_sums_to_the_bit():
+    """A ball in a ring, combs in each other's gaps, masks side by side."""
+    ring, comb = np.ones((9, 9), bool), np.zeros((6, 7), bool)
+    ring[1:8, 1:8] = False
+    comb[0], comb[:, ::2] = True, True
+    other = PixelMask.from_array(comb[::-1, 1:].copy(), origin=(0.0, -1.0))
+    for shapes in (
+        [PixelMask.from_array(ring, origin=(4.5, 4.5)), Circle(3.5)],
+        [PixelMask.from_array(comb, origin=(0.0, 0.0)), other.with_(Material(density=3.0))],
+        [PixelMask.from_array(comb, origin=(0.1, 0.0)), PixelMask.from_array(comb, origin=(0.1, 6.0))],
+    ):
+        found = mass_of(shapes, 1.0)
+        weights = [each.mass_of(1.0 if each.material is None else each.material.density) for each in shapes]
+        assert found == together(weights)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_masks_with_masks_and_polygons_against_shapely(seed):
+    """Of several densities, between pixels, far from the body's origin or not."""
+    rng = np.random.default_rng(seed)
+    shapes, figures = [], []
+    for _ in range(int(rng.integers(1, 4))):
+        height, width = rng.integers(2, 12, 2).tolist()
+        solid = rng.random((height, width)) < 0.7
+        solid[0, 0] = True
+        origin = tuple((rng.integers(-4, 12, 2) + rng.choice([0.0, 0.25, 0.3], 2) + 1000.0 * (seed % 2)).tolist())
+        density = float(rng.choice([1.0, 1.0, 2.5]))
+        shapes.append(PixelMask.from_array(solid, origin=origin).with_(Material(density=density)))
+        figures.append((shapely.transform(pixels(solid), lambda points, o=origin: points - np.array(o)), density))
+    for _ in range(int(rng.integers(1, 3))):
+        middle = -np.array(shapes[0].origin) + rng.uniform(-2, 9, 2)
+        points = [tuple(each) for each in (middle + rng.uniform(-5, 5, (3, 2)))]
+        density = float(rng.choice([1.0, 4.0]))
+        shapes.append(Polygon(points).with_(Material(density=density)))
+        figures.append((shapely.Polygon(points), density))
+    layers = [
+        (shapely.union_all([each for each, heavy in figures if heavy >= density]), density)
+        for density in sorted({density for _, density in figures})
+    ]
+    below, parts = 0.0, []
+    for union, density in layers:
+        for triangle in shapely.constrained_delaunay_triangles(union).geoms:
+            parts.append(
+                polygon_mass(
+                    np.array(shapely.orient_polygons(triangle, exterior_cw=False).exterior.coords)[:3], density - below
+                )
+            )
+        below = density
+    expected = together(parts)
+    found = mass_of(shapes, 1.0)
+    assert found.mass == pytest.approx(expected.mass, rel=1e-9)
+    assert math.dist(found.center, expected.center) < 1e-8
+    assert found.inertia == pytest.approx(expected.inertia, rel=1e-8)
+
+
+def test_masks_with_round_shapes():
+    """A disc over the corner of a square of pixels, in closed form: three quarters of it lie outside."""
+    square = PixelMask.from_array(np.ones((8, 8), bool), origin=(0.0, 0.0))
+    found = mass_of([square, Circle(3.0)], 2.0)
+    assert found.mass == pytest.approx(2.0 * (64.0 + 0.75 * math.pi * 9.0), rel=1e-13)
+    quarter = 4.0 * 3.0 / (3.0 * math.pi)  # how far a quarter's centre is from the disc's, along each axis
+    moment = 64.0 * 4.0 - 0.25 * math.pi * 9.0 * quarter
+    assert found.center == pytest.approx((2.0 * moment / found.mass,) * 2, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(30))
