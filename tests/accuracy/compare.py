@@ -108,8 +108,12 @@ def _name(row):
 
 
 def main(first: Path, second: Path) -> int:
-    """Print both; 1 where they contradict each other."""
-    a, b = read(first), read(second)
+    """Print both; 1 where they contradict each other, 2 for a folder without a finished report."""
+    try:
+        a, b = read(first), read(second)
+    except FileNotFoundError as error:
+        sys.stderr.write(f"{error.filename} is not there: both must be folders of finished reports\n")
+        return 2
     ours, theirs = claims_of(a), claims_of(b)
     found = contradictions(a, b)
     sure = [name for name in ours if name in theirs and ours[name].verdict != TIE]

@@ -7,7 +7,7 @@ from game.measure.timing import Cost
 from game.report.chart import Chart
 from game.report.claim import ordering, pair
 from game.report.job import spread
-from tests.accuracy.compare import changes, contradictions
+from tests.accuracy.compare import changes, contradictions, main
 from tests.accuracy.page import charts, read
 
 
@@ -73,3 +73,8 @@ def test_in_a_kept_report_the_series_that_was_slowed_down_is_named_and_no_other(
 
     for slowed in (("broadphases", "sweep"), ("tiers", "capsule"), ("solvers", "sequential_impulse"), None):
         assert again(slowed) == ([slowed] if slowed else [])
+
+
+def test_a_folder_without_a_report_is_named(tmp_path, capsys):
+    assert main(tmp_path, tmp_path) == 2
+    assert str(tmp_path / "data" / "tiers.json") in capsys.readouterr().err
