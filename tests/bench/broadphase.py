@@ -6,6 +6,7 @@ the design (which strategy suits which layout) stand or fall by the last table.
 
 import math
 from functools import partial
+from time import perf_counter
 
 import numpy as np
 
@@ -135,4 +136,40 @@ def run(quick=False):
         for layout in LAYOUTS
     ]
     table("Fastest (and how much slower the next one is)", ("", *map(str, sizes)), rows)
-    return findings.ratios()
+    return findings.ratios() | measure_found(sizes[1:3])
+
+
+def measure_found(sizes):
+    """All pairs of boxes found at once, by trees of two and of four boxes a node. Prints the table; returns {name: time
+    of fours over that of twos}."""
+    lines, ratios = [], {}
+    for layout in LAYOUTS:
+        for n in sizes:
+            places, giants = LAYOUTS[layout](np.random.default_rng(5), n)
+            halves = np.concatenate(
+                [np.full((len(places), 2), 6.0), *(np.array([[s.bounds[2], s.bounds[3]]]) for s, _ in giants)]
+            )
+            centers = np.concatenate([places, *(np.array([at]) for _, at in giants)])
+            lower, upper = centers - halves, centers + halves
+            trees = {
+                name: partial(found_in, DynamicTree(width=width), lower, upper)
+                for name, width in (("two", 2), ("four", 4))
+            }
+            least = best_in_turns(5, trees)
+            ratios[f"{n} bodies {layout}, found at once: tree of four / tree"] = least["four"] / least["two"]
+            lines.append(
+                [
+                    f"{layout}, {n}",
+                    *(f"{1e6 * least[name]:.0f}" for name in trees),
+                    f"{least['two'] / least['four']:.2f}",
+                ]
+            )
+    table("All pairs at once: µs", ("", "tree", "tree of four", "times as fast"), lines)
+    return ratios
+
+
+def found_in(tree, lower, upper):
+    """[s] that a tree takes to be made of boxes and find their pairs."""
+    start = perf_counter()
+    tree.find_pairs(lower, upper)
+    return perf_counter() - start

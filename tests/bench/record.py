@@ -1,22 +1,32 @@
-"""What a run of the benchmarks found, as one JSON object: ratios by name, and the machine they were measured on.
+"""What a run of the benchmarks found, as one JSON object: ratios by name, the machine they were measured on, and the
+disk that what is needed at run time takes there.
 
 A ratio is our time over the peer's in the same run, so less is better, and it means nearly the same on another machine.
 """
 
 import json
+from importlib import metadata
 from pathlib import Path
 
 from game import VERSION
 from game.measure.machine import machine
 
 KEPT = Path(__file__).resolve().parents[2] / "docs" / "bench"  # a file per release
+LIBRARIES = ("numpy", "numba", "llvmlite", "pygame-ce")
 NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is pointed at
 
 
 def to_record(ratios, quick):
     """The object to be written. ratios: {bench: {name: our time over the peer's}}."""
     rounded = {bench: {name: float(f"{value:.4g}") for name, value in found.items()} for bench, found in ratios.items()}
-    return {"version": VERSION, "quick": quick, "machine": machine(), "ratios": rounded}
+    found = {"version": VERSION, "quick": quick, "machine": machine(), "installed_mb": round(installed() / 1e6)}
+    return found | {"ratios": rounded}
+
+
+def installed():
+    """Bytes of the libraries that are needed at run time."""
+    files = [metadata.distribution(name).files or () for name in LIBRARIES]
+    return sum(Path(str(each.locate())).stat().st_size for some in files for each in some if each.locate().exists())
 
 
 def to_text(record):

@@ -1,11 +1,12 @@
-"""Pyramids of 55 to 3,240 boxes for 10 s: every solver at 1, 2, 4, 8 substeps, soft_step at as many as the loads ask
+"""Pyramids of 10 to 5,050 boxes for 10 s: every solver at 1, 2, 4, 8 substeps, soft_step at as many as the loads ask
 for ("auto"), and pymunk at its defaults, side by side.
 
 Boxes of 32 px stand on the ground and on one another, friction 0.6, gravity 10 m/s2, 60 steps/s, nothing sleeps. All
 runs of a size advance in turns of a second each, so that whatever else the machine does meets all of them alike. pymunk
 has 10 iterations, no substeps and a collision slop of 0.1 px; ours has a slop of 0.16 px, of which it makes no use at
 rest. sequential_impulse takes no substeps: it makes 2.5 passes for each that soft_step would take. The projection
-pushes out and does not stack: it is shown at the small sizes alone. At the end: what a world costs that is all asleep.
+pushes out and does not stack: it is shown at the small sizes alone. At the end: which stages the time of four substeps
+goes to, and what a world costs that is all asleep.
 """
 
 import math
@@ -18,9 +19,9 @@ from game.report.piles import BOX, EFFECTS, GRAVITY, overlap, pyramid, world_of
 from game.report.pymunk_piles import overlap_in, space_of
 from tests.bench.timing import table
 
-ROWS = (10, 20, 45, 80)  # 55, 210, 1,035, 3,240 boxes
+ROWS = (4, 10, 20, 45, 100)  # 10, 55, 210, 1,035, 5,050 boxes
 SECONDS, RATE = 10, 60
-PROJECTION_LIMIT = 20
+PROJECTION_LIMIT = 20  # rows
 
 
 class Ours:
@@ -148,6 +149,42 @@ def measure(rows, seconds):
     return {f"{boxes} boxes, {run.pile.name} / pymunk": median(run.times) / reference for run in runs[1:]}
 
 
+PASSES = 2 * 4  # of a step over its contacts: each of four substeps solves them and relaxes them
+
+
+def measure_stages(every):
+    """Which stages a step's time goes to with four substeps. Prints the table; returns {name: narrow phase over step}.
+
+    A pass's time is that of the whole stage over manifolds and passes: what is prepared and stored is in it.
+    """
+    lines, ratios = [], {}
+    for rows in every:
+        pile, boxes = Ours(rows, "soft_step", 4), rows * (rows + 1) // 2
+        told = [None] * (2 * RATE)
+        for _ in range(2 * RATE):
+            pile.step()
+        for k in range(len(told)):
+            pile.step()
+            told[k] = dict(pile.world.profile.stages)
+        middle = {name: median(each[name] for each in told) for name in pile.world.stages}
+        whole, manifolds = sum(middle.values()), pile.world.profile.counters["narrow_tests"]
+        shares = {name: spent / whole for name, spent in middle.items()}
+        others = 1.0 - sum(shares[name] for name in ("broad_phase", "narrow_phase", "soft_step"))
+        ratios[f"{boxes} boxes, narrow phase / step"] = shares["narrow_phase"]
+        lines.append(
+            [
+                f"{boxes:,}",
+                f"{1e3 * whole:.3f}",
+                *(f"{100 * shares[name]:.1f} %" for name in ("broad_phase", "narrow_phase", "soft_step")),
+                f"{100 * others:.1f} %",
+                f"{1e9 * middle['soft_step'] / (manifolds * PASSES):.1f}",
+            ]
+        )
+    header = ("boxes", "ms in stages", "broad phase", "narrow phase", "solver", "others", "ns a manifold and pass")
+    table("Where a step of four substeps goes: medians of two seconds", header, lines)
+    return ratios
+
+
 def measure_sleep(rows):
     """What a step costs awake and all asleep. Prints the table; returns {name: asleep over awake}."""
     lines, ratios, boxes = [], {}, rows * (rows + 1) // 2
@@ -183,8 +220,9 @@ def measure_sleep(rows):
 
 
 def run(quick=False):
-    """Print the tables; return {name: time over pymunk's, and asleep over awake}."""
+    """Print the tables; return {name: time over pymunk's, narrow phase over step, asleep over awake}."""
     ratios = {}
-    for rows in ROWS[:2] if quick else ROWS:
+    every = ROWS[1:3] if quick else ROWS
+    for rows in every:
         ratios |= measure(rows, 3 if quick else SECONDS)
-    return ratios | measure_sleep(20 if quick else 45)
+    return ratios | measure_stages(every) | measure_sleep(20 if quick else 45)
