@@ -146,10 +146,9 @@ def measure_found(sizes):
     for layout in LAYOUTS:
         for n in sizes:
             places, giants = LAYOUTS[layout](np.random.default_rng(5), n)
-            halves = np.concatenate(
-                [np.full((len(places), 2), 6.0), *(np.array([[s.bounds[2], s.bounds[3]]]) for s, _ in giants)]
-            )
-            centers = np.concatenate([places, *(np.array([at]) for _, at in giants)])
+            sizes_of = [np.max(shape.points, axis=0) for shape, _ in giants]  # boxes about their own places
+            halves = np.concatenate([np.full((len(places), 2), 6.0), np.reshape(sizes_of, (-1, 2))])
+            centers = np.concatenate([places, np.reshape([at for _, at in giants], (-1, 2))])
             lower, upper = centers - halves, centers + halves
             trees = {
                 name: partial(found_in, DynamicTree(width=width), lower, upper)

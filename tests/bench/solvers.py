@@ -160,12 +160,12 @@ def measure_stages(every):
     lines, ratios = [], {}
     for rows in every:
         pile, boxes = Ours(rows, "soft_step", 4), rows * (rows + 1) // 2
-        told = [None] * (2 * RATE)
+        told = []
         for _ in range(2 * RATE):
             pile.step()
-        for k in range(len(told)):
+        for _ in range(2 * RATE):
             pile.step()
-            told[k] = dict(pile.world.profile.stages)
+            told.append(dict(pile.world.profile.stages))
         middle = {name: median(each[name] for each in told) for name in pile.world.stages}
         whole, manifolds = sum(middle.values()), pile.world.profile.counters["narrow_tests"]
         shares = {name: spent / whole for name, spent in middle.items()}
