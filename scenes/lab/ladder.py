@@ -181,7 +181,7 @@ class Ladder(Scene):
                 ("inertia off", f"{100 * found.inertia_error:.1f} %"),
                 ("bytes", f"{found.bytes:,}"),
                 ("made in", f"{1e3 * figures.build.median:.2f} ms"),
-                ("hit, miss", f"{1e9 * figures.hit.median:,.0f}, {1e9 * figures.miss.median:,.0f} ns"),
+                ("hit, miss", _times(figures.hit.median, figures.miss.median)),
             ]
         else:
             canvas.text("measuring the rest", x, y + 8 + 8 * len(lines), FOG, SMALL)
@@ -247,6 +247,11 @@ class Ladder(Scene):
     def state(self):
         """Which sprite, and what was counted."""
         return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
+
+
+def _times(hit, miss):
+    """Both in one unit; what is long is told in us, for which there is room."""
+    return f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns" if hit < 1e-5 else f"{1e6 * hit:.1f}, {1e6 * miss:.2f} us"
 
 
 @cache

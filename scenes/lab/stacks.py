@@ -171,13 +171,16 @@ class Stacks(Scene):
         tall = self.values["crates"] * SIZE
         rows = (
             ("sinks", self.sag[name] / tall),
-            ("sways", self.sway[name] / SIZE),
+            ("sways", self.sway[name] / SIZE if self.track[name] else None),  # what settles does not sway yet
             ("overlap", deepest(self.worlds[index]) / SIZE),
         )
         for row, (word, share) in enumerate(rows):
             y = box.y + 13 + row * 8
             canvas.text(word, box.x + 6, y, FOG, SMALL)
             canvas.surface.fill(faded(COLORS[name], 0.7), (box.x + 42, y, 56, 5))
+            if share is None:
+                canvas.text("-", box.right - 4, y, PAPER, SMALL, align="right")
+                continue
             canvas.surface.fill(COLORS[name], (box.x + 42, y, round(56 * min(1.0, abs(share))), 5))
             canvas.text(f"{100 * share:.1f} %", box.right - 4, y, PAPER, SMALL, align="right")
         canvas.text("a step", box.x + 6, box.y + 37, FOG, SMALL)

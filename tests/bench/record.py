@@ -26,7 +26,8 @@ def to_record(ratios, quick):
 def installed():
     """Bytes of the libraries that are needed at run time."""
     files = [metadata.distribution(name).files or () for name in LIBRARIES]
-    return sum(Path(str(each.locate())).stat().st_size for some in files for each in some if each.locate().exists())
+    places = [Path(str(each.locate())) for some in files for each in some]
+    return sum(place.stat().st_size for place in places if place.exists())
 
 
 def to_text(record):

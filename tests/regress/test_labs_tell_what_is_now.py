@@ -118,3 +118,12 @@ def test_nodes_of_the_tree_are_tests():
     assert scene.tests["tree"] - before == found["pairs_tested"] + found["nodes_visited"]
     scene.observe()
     assert scene.curves[1].history["tree"][-1] == found["pairs_tested"] + found["nodes_visited"]
+
+
+def test_a_column_that_settles_does_not_sway_by_nothing():
+    """It leant by a crate while its sway was told as 0.0 %: it was not looked at before two seconds had passed."""
+    for frames, told in ((60, False), (180, True)):
+        said = words(after("lab/stacks", frames)[0])
+        sways = [said[at + 1] for at, each in enumerate(said) if each == "sways"]
+        assert len(sways) == len(SOLVERS)
+        assert all((each != "-") == told for each in sways)
