@@ -127,3 +127,10 @@ def test_a_column_that_settles_does_not_sway_by_nothing():
         sways = [said[at + 1] for at, each in enumerate(said) if each == "sways"]
         assert len(sways) == len(SOLVERS)
         assert all((each != "-") == told for each in sways)
+
+
+def test_a_pair_of_cards_that_slides_does_not_stand():
+    """Half way down the word under it was still "stands"."""
+    for frames, word in ((60, "slides"), (200, "slid apart")):
+        said = words(after("lab/card_house", frames)[0])
+        assert word in said and said.count("stands") == 1, "the pair with friction enough"
