@@ -164,7 +164,7 @@ class Ladder(Scene):
         for number, tier in enumerate(TIERS):
             x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
             canvas.surface.fill(NIGHT, (x + 1, y + 1, CELL[0] - 2, CELL[1] - 2))
-            canvas.fix(self.cells[tier][2])
+            canvas.reserve(self.cells[tier][2])
             self._draw_figures(canvas, tier, x + VIEW + 8, y + 4)
 
     def _draw_figures(self, canvas, tier, x, y):
