@@ -40,14 +40,14 @@ def measure_settings(
         survey.kinds = references.kinds
         for setting in settings:
             moment.time_run(setting, 2)  # compiles what is missing
-            survey.dot(setting).errors[number] = references.errors(setting)
+            survey.dot(setting).erred(number, references.errors(setting))
             survey.dot(setting).steps = STEPS
             done += 1
             tell(done, of)
         for _ in range(RUNS):
             chance.shuffle(settings)
             for setting in settings:
-                survey.dot(setting).spent.setdefault(number, []).append(moment.time_run(setting))
+                survey.dot(setting).took(number, moment.time_run(setting))
                 done += 1
                 tell(done, of)
 

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass, field
+from typing import Any
 
 from game.measure.errors import VISIBLE, Error
 from game.measure.front import TIE, cheaper, pareto
@@ -12,16 +13,39 @@ from game.measure.timing import RUNS, Cost
 
 @dataclass
 class Dot:
-    """One setting. spent: seconds a step, by moment and run; errors: by moment."""
+    """One setting. spent: seconds a step, by moment and run; errors: by moment. Both are told by methods: what follows
+    from them is asked several times in every picture of the plot, and worked out once."""
 
     setting: Setting
     spent: dict[int, list[float]] = field(default_factory=dict)
     errors: dict[int, dict[str, Error]] = field(default_factory=dict)
     steps: int = 0  # of one run
+    _known: dict[Any, Any] = field(default_factory=dict)  # what was worked out: "cost", and ("error", its kind)
+
+    def took(self, moment: int, seconds: float) -> None:
+        """One more run of a moment took so long a step."""
+        self.spent.setdefault(moment, []).append(seconds)
+        self._known.clear()
+
+    def erred(self, moment: int, errors: dict[str, Error]) -> None:
+        """What the errors of a moment are."""
+        self.errors[moment] = errors
+        self._known.clear()
 
     @property
     def cost(self) -> Cost | None:
         """Seconds a step: the mean over the moments of what each took; None before the first run."""
+        if "cost" not in self._known:
+            self._known["cost"] = self._pooled_cost()
+        return self._known["cost"]
+
+    def error(self, kind: str) -> Error | None:
+        """The error over all moments; None before the first."""
+        if ("error", kind) not in self._known:
+            self._known["error", kind] = self._pooled_error(kind)
+        return self._known["error", kind]
+
+    def _pooled_cost(self):
         costs = [Cost.of(runs, self.steps) for runs in self.spent.values() if runs]
         if not costs:
             return None
@@ -34,8 +58,7 @@ class Dot:
         """Whether every moment was run often enough."""
         return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
 
-    def error(self, kind: str) -> Error | None:
-        """The error over all moments; None before the first."""
+    def _pooled_error(self, kind):
         found = [errors[kind] for errors in self.errors.values() if kind in errors]
         if not found:
             return None

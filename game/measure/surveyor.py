@@ -173,10 +173,10 @@ class Surveyor:
         else:
             dot = survey.dot(Setting(*found["setting"]))
             if "errors" in found:
-                dot.errors[found["moment"]] = {kind: error_of(each) for kind, each in found["errors"].items()}
+                dot.erred(found["moment"], {kind: error_of(each) for kind, each in found["errors"].items()})
             else:
                 dot.steps = found["steps"]
-                dot.spent.setdefault(found["moment"], []).append(found["spent"])
+                dot.took(found["moment"], found["spent"])
 
     def _take_run(self, moment, lane, spent, overlap, farthest):
         names, lanes = self.asked[int(moment.split()[1])]

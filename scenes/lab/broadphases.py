@@ -64,7 +64,9 @@ class Broadphases(Scene):
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
     switches_broadphase = False
-    keeps = {"broadphase": "a world for each strategy: the first is brute force, which the others are seen beside"}
+    keeps = {
+        "narrowphase": "pairs of boxes are what is found and compared here; whether the discs in them touch, nobody asks"
+    }
     head = HEAD
     legend_at = (330, 248)
 

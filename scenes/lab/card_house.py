@@ -55,6 +55,7 @@ class CardHouse(Scene):
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes", "capsules", "circles")
     features = ("thin capsules that lean on each other", "the friction that theory asks for, from both sides")
+    keeps = {"solver": "how far cards creep under soft step, and with how many substeps, is what its slider shows"}
     sliders = (Slider("friction", 5, 100, 70, "/ 100", step=5), Slider("storeys", 1, 4, 4), Slider("substeps", 1, 8, 4))
     actions = (("Space", "throw a coin"), ("up down", "friction"), ("left right", "storeys"))
     draggable = True

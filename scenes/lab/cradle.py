@@ -54,6 +54,7 @@ class Cradle(Scene):
     pieces = ("circles",)
     features = ("restitution of 1, a chain of collisions", "momentum and energy to nine digits")
     solvers = SOLVERS
+    keeps = {"solver": "a channel for each solver, with the same balls: the first is projection's"}
     sliders = (Slider("strikers", 1, 3, 1), Slider("gap", 0, 16, 8, "px"))
     actions = (("Space", "again"), ("up down", "strikers"), ("left right", "gap"))
     draggable = True

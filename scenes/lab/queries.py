@@ -74,6 +74,7 @@ class Queries(Scene):
     title = "Queries"
     about = "Rays, casts, overlaps, the closest point among hundreds of shapes: what is looked at to find the answer?"
     effects = Effects(narrowphase=False)
+    keeps = {"narrowphase": "it is asked, not stepped: rays, casts and overlaps judge the shapes themselves"}
     pieces = ("circles", "boxes", "capsules", "masks", "queries", "casts")
     features = (
         "rays, casts, overlaps, areas, points, closest point",

@@ -61,7 +61,7 @@ class Sensors(Scene):
     filter_names = {SHIP: "ship", ZONE: "zone"}
     head = HEAD
     legend_at = (8, 252)
-    broadphase = "sweep"
+    broadphase = "brute"
     draggable = True
 
     def build(self):

@@ -50,6 +50,7 @@ class Stacks(Scene):
     pieces = ("boxes",)
     features = ("projection, sequential impulse and soft step side by side", "sag, sway and overlap measured live")
     solvers = SOLVERS
+    keeps = {"solver": "a column for each solver, side by side: the first is projection's, which falls"}
     sliders = (Slider("crates", 4, 12, 11), Slider("top crate", 1, 20, 1, "x as heavy"), Slider("substeps", 1, 8, 4))
     actions = (("Space", "nudge"), ("left right", "crates"), ("up down", "top crate"))
     draggable = True

@@ -20,8 +20,9 @@ def put(survey, setting, seconds, error=0.0, runs=RUNS, spread=0.02):
     """A dot as it would have been measured."""
     dot = survey.dot(setting)
     dot.steps = 60
-    dot.spent[1] = [seconds * (1.0 + spread * k / RUNS) for k in range(runs)]
-    dot.errors[1] = {kind: Error(error, 0.0, 60) for kind in survey.kinds}
+    for k in range(runs):
+        dot.took(1, seconds * (1.0 + spread * k / RUNS))
+    dot.erred(1, {kind: Error(error, 0.0, 60) for kind in survey.kinds})
 
 
 @pytest.fixture
@@ -119,3 +120,15 @@ def test_the_tuner_goes_on_with_the_panel_closed_and_ends_with_the_scene(play):
     assert [each.after.broadphase for each in play.measuring.tuner.decisions] == [other.broadphase, "sweep"]
     play.close()
     assert not play.measuring.tuner.on and play.measuring.surveyor.process is None
+
+
+def test_what_is_read_of_a_dot_follows_what_is_told_of_it(survey):
+    """Cost and error are worked out once, and anew after every run and every error."""
+    put(survey, TREE, 1e-3, 0.5, runs=1)
+    dot, kind = survey.dot(TREE), survey.kinds[0]
+    before = dot.cost, dot.error(kind)
+    assert dot.cost is before[0] and dot.error(kind) is before[1]
+    dot.took(2, 3e-3)
+    assert before[0].median == pytest.approx(1e-3 / 1) and dot.cost.median == pytest.approx(2e-3)
+    dot.erred(2, {kind: Error(1.5, 0.0, 60)})
+    assert dot.error(kind).value == pytest.approx(1.0)
