@@ -64,9 +64,7 @@ class Broadphases(Scene):
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
     switches_broadphase = False
-    keeps = {
-        "narrowphase": "pairs of boxes are what is found and compared here; whether the discs in them touch, nobody asks"
-    }
+    keeps = {"narrowphase": "pairs of boxes are what is found and compared; whether discs in them touch, nobody asks"}
     head = HEAD
     legend_at = (330, 248)
 

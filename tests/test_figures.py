@@ -1,0 +1,163 @@
+"""Every figure of speed, size or error in README.md and CONTRIBUTING.md is what a kept JSON holds, in these very words.
+
+Those of docs/accuracy.md, docs/stability.md and docs/coverage.md are held by the tests of what writes the pages. What
+is measured anew changes a sentence here, and the test tells which; a figure that no sentence here holds fails as well.
+"""
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from tests import coverage
+
+ROOT = Path(__file__).resolve().parents[1]
+KEPT = ROOT / "docs"
+# A number with a unit of measure, or so many times as much.
+FIGURE = re.compile(r"\b\d[\d.,]*\s?(?:ms|us|µs|ns|MB|kB|%|min|minutes|times|mm|s)\b")
+# Figures that are chosen, not measured: (page, words that hold them).
+CHOSEN = (("README.md", "as many steps of 1/60 s as are due"), ("CONTRIBUTING.md", "`update` is one step of 1/60 s"))
+
+
+@cache
+def kept(path):
+    return json.loads((KEPT / path).read_text())
+
+
+def ratios(bench, pattern):
+    """{what the groups of a pattern match in a ratio's name: its value}."""
+    found = {}
+    for name, value in kept("bench/0.1.0.json")["ratios"][bench].items():
+        match = re.fullmatch(pattern, name)
+        if match:
+            found[match.groups()] = value
+    assert found, f"{bench} has no ratio like {pattern!r}"
+    return found
+
+
+def words(text):
+    return " ".join(text.split())
+
+
+def sweeps_lead():
+    """How much slower than the sweep the next strategy is, where everything moves, over layouts and sizes."""
+    shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
+    leads = {}
+    for place in {(size, layout) for size, layout, _ in shipped}:
+        others = min(shipped[*place, name] for name in ("hash", "tree"))
+        leads[place] = others / shipped[*place, "sweep"]
+    case = max(leads, key=leads.__getitem__)
+    assert case[1] == "along the ground", f"the sweep leads most on {case}"
+    least, most = min(leads.values()), max(leads.values())
+    return (
+        f"everything moves: {least:.1f} to {most:.1f} times as fast as the next from 1,000 bodies on, most along a line"
+    )
+
+
+def fours():
+    """Trees of four boxes a node beside those of two."""
+    found = [1.0 / each for each in ratios("broadphase", r"(.*), found at once: tree of four / tree").values()]
+    both = ratios("broadphase", r"(.*, (?:all moving|2 % moving.*)): (tree|tree of four) / brute")
+    steps = [both[case, "tree of four"] / both[case, "tree"] for case in {case for case, _ in both}]
+    return (
+        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and what moves keeps the fours: "
+        f"a step takes {min(steps):.1f} to {max(steps):.1f} of `DynamicTree()`"
+    )
+
+
+def pyramids():
+    """The default beside four substeps and pymunk, awake."""
+    default, four = (
+        {int(boxes): value for (boxes,), value in ratios("solvers", rf"(\d+) boxes, soft_step {some} / pymunk").items()}
+        for some in ("auto", "4")
+    )
+    told = ", ".join(f"{four[boxes]:.2f}" for boxes in (55, 210, 1035, 5050))
+    return (
+        f"With four substeps pyramids of 55, 210, 1,035 and 5,050 boxes take {told} of pymunk's time at its ten "
+        f"iterations; the awake one of 1,035 takes {default[1035] / four[1035]:.1f} times as long by load as with four"
+    )
+
+
+def crater():
+    (share,) = ratios("masks", r"(carve of a terrain / pygame's erase)").values()
+    return (
+        f"A crater of 24 px in 4,096 x 1,024 px takes {100 * share:.0f} % of the time of pygame's `erase` and "
+        "`connected_components`"
+    )
+
+
+def sinks():
+    """What stands, and how deep it is in, by load and with four substeps."""
+    rows = kept("study.json")["rows"]
+    heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
+    assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1
+    return [
+        f"a body 1,000 times as heavy as what it lies on sinks in by {heavy['figure']:.1f} mm",
+        f"with four, columns 2 cm askew stand forty high, {column['figure']:.0f} mm in one another",
+    ]
+
+
+def study():
+    found = kept("study.json")["rows"]
+    met = {name: sum(row["engines"][name]["met"] for row in found.values()) for name in ("auto", "hb4", "pymunk")}
+    return (
+        f"runs {len(found)} of them beside the peers that pip installs: by load {met['auto']} are within their limits, "
+        f"with four substeps {met['hb4']}, in pymunk {met['pymunk']}"
+    )
+
+
+def disk():
+    return f"It takes about {round(kept('bench/0.1.0.json')['installed_mb'], -1)} MB of disk"
+
+
+def suite_takes():
+    minutes = kept("minutes.json")["the README's test command"]
+    return f"That takes {minutes:.0f} minutes on two cores"
+
+
+def parts_take():
+    """The rows of the table of tests."""
+    minutes = kept("minutes.json")
+    return [f"| {minutes[name]:.0f} min |" for name in ("quick tests", "long tests", "run in all")]
+
+
+def reports_take():
+    minutes = kept("minutes.json")["quick report"]
+    return f"`--quick` takes {minutes:.1f} minutes, all of it {kept('accuracy.json')['seconds'] / 60:.0f}"
+
+
+def covered():
+    return f"lines of `physics/` that tests run, kernels as Python: {coverage.share(coverage.kept()):.1f} %"
+
+
+SENTENCES = {
+    "README.md": (sweeps_lead, fours, pyramids, crater, sinks, study, disk, suite_takes, parts_take, reports_take),
+    "CONTRIBUTING.md": (covered,),
+}
+
+
+def sentences(function):
+    said = function()
+    return [words(each) for each in ([said] if isinstance(said, str) else said)]
+
+
+@pytest.mark.parametrize(
+    ("page", "function"),
+    [pytest.param(page, each, id=each.__name__) for page, some in SENTENCES.items() for each in some],
+)
+def test_the_page_says_what_was_measured(page, function):
+    text = words((ROOT / page).read_text())
+    for each in sentences(function):
+        assert each in text, f"{page} does not say: {each}"
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "docs/cookbook.md", "docs/physics_alone.md"])
+def test_no_figure_stands_without_its_source(page):
+    text = words(re.sub(r"```.*?```", "", (ROOT / page).read_text(), flags=re.DOTALL))
+    held = [each for function in SENTENCES.get(page, ()) for each in sentences(function)]
+    for each in [*held, *(said for where, said in CHOSEN if where == page)]:
+        text = text.replace(each, "")
+    loose = [text[max(0, each.start() - 60) : each.end() + 20] for each in FIGURE.finditer(text)]
+    assert not loose, f"{page}: figures that no kept measurement is named for here: {loose}"
