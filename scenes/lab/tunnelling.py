@@ -94,7 +94,7 @@ class Tunnelling(Scene):
         self.of_body = {}  # body id -> its trial
         self.spent = {}  # body id -> colour: shots that have hit, seen for one more step
         self.trails = []  # [lane, what, pose before, pose, age], only seen
-        self.marks = []  # [x, y, colour, age], only seen
+        self.marks = []  # [lane, x, y, colour, age], only seen
         keys = [(kind, lane) for kind in SHOTS for lane in LANES]
         self.fired, self.due = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)  # due: must hit, by geometry
         self.hit, self.missed = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)
@@ -179,7 +179,7 @@ class Tunnelling(Scene):
             self.hit[key] += trial["must"]
             self.false[key] += trial["passes"]
             x, y = float(row["point_x"]), float(row["point_y"])
-            self.marks.append([x, y, COLORS[trial["lane"]], 0])
+            self.marks.append([trial["lane"], x, y, COLORS[trial["lane"]], 0])
             self.particles.burst(x, y, 14, SPARKS, speed=(30, 160), life=(0.15, 0.5), angle=pi, spread=2.0)
             self.play("hit", x, 0.3)
             self._end(trial)
@@ -194,9 +194,9 @@ class Tunnelling(Scene):
         for trail in self.trails:
             trail[4] += 1
         for mark in self.marks:
-            mark[3] += 1
+            mark[4] += 1
         self.trails = [t for t in self.trails if t[4] < GLOW_STEPS]
-        self.marks = [m for m in self.marks if m[3] < GLOW_STEPS * 3]
+        self.marks = [m for m in self.marks if m[4] < GLOW_STEPS * 3]
 
     def _count_passed(self, before):
         for trial in list(self.trials):
@@ -209,7 +209,7 @@ class Tunnelling(Scene):
                 if trial["must"]:
                     self.missed[self.kind, trial["lane"]] += 1
                     x = PLATE_X if self.plates else (GUN_X + END_X) / 2
-                    self.marks.append([x, pose[1], WHITE, 0])
+                    self.marks.append([trial["lane"], x, pose[1], WHITE, 0])
                 self._end(trial)
 
     def draw(self, canvas, alpha):
@@ -232,10 +232,11 @@ class Tunnelling(Scene):
         for identity, trial in self.of_body.items():
             canvas.surface.set_clip(inside(trial["lane"]))
             self._draw_shot(canvas.surface, self._pose(identity), COLORS[trial["lane"]])
-        canvas.surface.set_clip(None)
-        for x, y, color, age in self.marks:
+        for lane, x, y, color, age in self.marks:
+            canvas.surface.set_clip(inside(lane))
             fading = faded(color, age / (GLOW_STEPS * 3))
             pygame.draw.circle(canvas.surface, fading, (round(x), round(y)), 3 + age // 3, 1)
+        canvas.surface.set_clip(None)
         self.particles.draw(canvas, self.camera, alpha)
 
     def _draw_lane(self, canvas, lane):
