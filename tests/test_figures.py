@@ -11,12 +11,15 @@ from pathlib import Path
 
 import pytest
 
+from scenes import SCENES
+from scenes.lab.gallery.pages import PAGES
 from tests import coverage
 
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ROOT / "docs"
 # A number with a unit of measure, or so many times as much.
 FIGURE = re.compile(r"\b\d[\d.,]*\s?(?:ms|us|µs|ns|MB|kB|%|min|minutes|times|mm|s)\b")
+NUMBERS = {3: "three", 19: "nineteen", 22: "twenty-two", 25: "twenty-five"}  # as far as they are counted
 # Figures that are chosen, not measured: (page, words that hold them).
 CHOSEN = (("README.md", "as many steps of 1/60 s as are due"), ("CONTRIBUTING.md", "`update` is one step of 1/60 s"))
 
@@ -132,8 +135,36 @@ def covered():
     return f"lines of `physics/` that tests run, kernels as Python: {coverage.share(coverage.kept()):.1f} %"
 
 
+def scenes_and_labs():
+    labs = sum(name.startswith("lab/") for name in SCENES)
+    return f"{NUMBERS[len(SCENES) - labs]} games and {NUMBERS[labs]} labs"
+
+
+def gallery_pages():
+    return [f"`lab/gallery` | {len(PAGES)} hard cases", f"`lab/gallery` shows {NUMBERS[len(PAGES)]}"]
+
+
+def tasks():
+    count = len(re.findall("^## ", (KEPT / "cookbook.md").read_text(), re.MULTILINE))
+    return f"has {NUMBERS[count]} tasks with their code"
+
+
 SENTENCES = {
-    "README.md": (sweeps_lead, fours, pyramids, crater, sinks, study, disk, suite_takes, parts_take, reports_take),
+    "README.md": (
+        sweeps_lead,
+        fours,
+        pyramids,
+        crater,
+        sinks,
+        study,
+        disk,
+        suite_takes,
+        parts_take,
+        reports_take,
+        scenes_and_labs,
+        gallery_pages,
+        tasks,
+    ),
     "CONTRIBUTING.md": (covered,),
 }
 
