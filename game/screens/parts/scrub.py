@@ -15,6 +15,7 @@ REPEAT = 0.35  # [s] an arrow is held until it goes on by itself
 MANY = 10  # steps with Shift
 LEAST_WIDTH = 360  # [text px] that the bar needs
 BAR_HEIGHT = 24  # [text px]
+MOST_CUT = 12  # [text px] of a line of text above the bar that goes with what the bar covers of it
 KEYS_LINE = "\u2190 \u2192 a step   Shift ten   Backspace runs back   P plays on from here"
 BACK_KEY = pygame.K_BACKSPACE
 WAYS = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1}
@@ -138,8 +139,10 @@ class Scrub:
     def draw(self, frame: Frame) -> None:
         """Ten seconds from left to right: what can be gone back to, where the key frames lie, and where we are."""
         scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
-        frame.surface.fill(INK, rect)
-        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
+        covered = [box for box, _ in frame.boxes if rect.colliderect(box)]
+        top = min([rect.y, *(box.y - scale for box in covered if rect.y - box.y < MOST_CUT * scale)])
+        frame.surface.fill(INK, (rect.x, top, rect.width, rect.bottom - top))  # a line of text goes as a whole
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
         y = rect.y + 4 * scale
         earliest = frame.text(f"-{STEPS / 60:.0f} s", rect.x + 4 * scale, y, FOG, TEXT, scale)
         back = (rewind.end - rewind.position) / 60.0
