@@ -240,7 +240,7 @@ class Body(BodySettings):
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: str) -> None:
-        """static, kinematic or dynamic. A body that becomes static stops."""
+        """static, kinematic or dynamic. What becomes static stops. ValueError for a character, it stays kinematic."""
         editing.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:

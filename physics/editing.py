@@ -238,9 +238,12 @@ def touch(world: WorldState, ids: Any) -> None:
 
 
 def set_kind(world: WorldState, identity: int, kind: str) -> None:
-    """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles."""
+    """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles, and for what walks: the body of a
+    character is kinematic."""
     world._unlocked()
     row = world._body_row(identity)
+    if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
+        raise ValueError(f"kind must be 'kinematic' for the body of a character (got {kind!r}, body {identity})")
     shapes, own_mass = world._shapes_of[identity], world._given.rows["mass"][world._row_number(identity)].item()
     check_shapes(shapes, KINDS.index(kind), [row["angle"].item()])
     check_weight(world, shapes, KINDS.index(kind), own_mass)
