@@ -12,6 +12,7 @@ import numpy as np
 from game.drawing.number_text import count_text, plain_name
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import World
+from physics.collision.owners import by_owner
 from physics.queries.pair_batch import PairBatch
 
 MICRO, NANO = 1e6, 1e9
@@ -57,8 +58,8 @@ def still_there(world: World, touch: Touch) -> bool:
 
 def explain(world: World, touch: Touch) -> list[Part]:
     """The way of a pair that touches through the last step. Raises ValueError for one that does not."""
-    rows = world.told_manifolds()
-    mine = rows[(rows["shape_a"] == touch.shape_a) & (rows["shape_b"] == touch.shape_b)]
+    rows, _ = by_owner(world.told_manifolds())
+    mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["owner_b"] == touch.shape_b)]  # all that its parts touch in
     if not len(mine):
         raise ValueError(f"touch must be of a pair that touches (got {touch})")
     parts = [_broad_phase(world, touch), _filter(world, touch), _narrow_phase(world, touch, mine)]

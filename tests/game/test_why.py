@@ -4,10 +4,13 @@ import numpy as np
 import pygame
 import pytest
 
-from game.measure.why import cost_of, explain, nearest, still_there
+from game.measure.why import Touch, cost_of, explain, nearest, still_there
+from game.run.session import Session
+from game.run.sources import BotSource
 from game.screens.play import Play
 from physics import BROADPHASES, JIT, Circle, Effects, Filter, Material, PixelMask, Polygon, World
 from scenes import SCENES
+from tests.lockstep import make_scene
 
 
 def pile(**effects):
@@ -139,3 +142,31 @@ def test_a_running_scene_is_not_asked(frozen):
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
     assert play.why.chosen is None
+
+
+def test_a_mask_that_rests_by_its_parts_is_explained():
+    """The program ended: what is told of a mask has its own id, what its parts touch in has theirs."""
+    world = World(Effects.rigid_bodies(), gravity=(0.0, 320.0))
+    table = np.ones((12, 40), bool)
+    table[4:, 5:35] = False  # on two legs
+    world.add_body(Polygon.box(80, 8), position=(0.0, 20.0), kind="static")
+    world.add_body(PixelMask.from_array(table), position=(0.0, 10.0))
+    for _ in range(20):
+        world.step()
+    assert len(world.contacts) >= 2 and not (world.contacts["shape_b"] == world.told_manifolds()["shape_b"][0]).any()
+    touch = nearest(world, 18.0, 16.0, 6.0)
+    told = said(world, touch)
+    assert "pair 1 of 1" in told["broad phase, hash"] and "4 points" in told["narrow phase"]
+    assert still_there(world, touch) and cost_of(world, touch).least > 0.0
+
+
+@pytest.mark.parametrize("name", ["lander", "lab/mask_stack", "lab/carving", "lab/mask_sweep", "lab/effects"])
+def test_every_contact_of_the_scenes_with_masks_is_explained(name):
+    session, asked = Session(make_scene(name), BotSource()), 0
+    for frame in range(120):
+        session.step()
+        for world, _ in session.scene.views() if frame % 20 == 19 else ():
+            for row in world.contacts[["body_a", "body_b", "shape_a", "shape_b"]].tolist():
+                assert explain(world, Touch(*row, 0.0, 0.0))
+                asked += 1
+    assert asked
