@@ -210,9 +210,10 @@ def _hand_on(process, order, save, found):
 
 
 def _listen(process, found):
-    for line in process.stdout:
-        with contextlib.suppress(ValueError):
-            found.put(json.loads(line))
+    with contextlib.suppress(ValueError):  # whoever ends the process closes what is read here
+        for line in process.stdout:
+            with contextlib.suppress(ValueError):
+                found.put(json.loads(line))
     found.put({"ended": True, "failed": "the process that measures has ended"})
 
 
