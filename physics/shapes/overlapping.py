@@ -5,7 +5,7 @@ of each union are those that overlap, one with another; what only touches keeps 
 bit.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
@@ -153,31 +153,37 @@ def _mass_of_group(group: set) -> Mass:
     )
 
 
-@lru_cache(maxsize=256)
-def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Of hulls that overlap: layer on layer, each the union of all that are at least so dense."""
+def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
+    """Layer on layer, each what found_of says of all that are at least so dense."""
     densities = sorted({each.density for each in group})
     layers = []
     for below, density in zip([0.0, *densities], densities, strict=False):
-        layers.append(_layer(moments(_outline([each for each in group if each.density >= density])), density - below))
+        found, share = found_of([each for each in group if each.density >= density]), density - below
+        layers.append(Mass(share * found.area, Vec2(found.x, found.y), share * found.inertia))
     return together(layers)
+
+
+@lru_cache(maxsize=256)
+def _union_mass(group: tuple[Hull, ...]) -> Mass:
+    """Of hulls that overlap."""
+    return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """As _union_mass, of masks and hulls: each layer is what masks are, what hulls are, less what both are."""
+    """Of masks and hulls that overlap: what masks are, what hulls are, less what both are."""
     base = _box_of(masks[0])[:2]
-    densities = sorted({each.density for each in (*masks, *hulls)})
-    layers = []
-    for below, density in zip([0.0, *densities], densities, strict=False):
-        heavy = [each for each in masks if each.density >= density]
-        dense = [each for each in hulls if each.density >= density]
-        around = _outline(dense)
-        sums = _mask_sums(heavy, base).plus(sums_of(moments(around), base))
-        if heavy and dense:
-            cells = cells_of([_placed(each) for each in heavy], _around([_box_of(each) for each in dense]))
+
+    def union(dense):
+        pixels = [each for each in dense if isinstance(each, Pixels)]
+        solids = [each for each in dense if isinstance(each, Hull)]
+        around = _outline(solids)
+        sums = _mask_sums(pixels, base).plus(sums_of(moments(around), base))
+        if pixels and solids:
+            cells = cells_of([_placed(each) for each in pixels], _around([_box_of(each) for each in solids]))
             sums = sums.plus(shared_sums(around, cells, base), -1.0)
-        layers.append(_layer(sums.moments(base), density - below))
-    return together(layers)
+        return sums.moments(base)
+
+    return _layered([*masks, *hulls], union)
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
@@ -192,7 +198,3 @@ def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
         return sums
     cells = cells_of([_placed(each) for each in masks], _around(windows))
     return sums.plus(cell_sums(cells, np.maximum(cells.count - 1, 0), base), -1.0)
-
-
-def _layer(found: Moments, share: float) -> Mass:
-    return Mass(share * found.area, Vec2(found.x, found.y), share * found.inertia)
