@@ -48,6 +48,7 @@ TOLD = ("aabb", "hull", "outline")  # in the finding
 HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # hold all pixels of a sprite
 COLUMNS = 3
 CELL = (160, 84)
+ROOM = 12  # letters of a figure beside a name of nine
 VIEW = 70  # [px] of a cell that the sprite has, each way
 MOST = 256  # [px] of a picture of one's own, each way
 BOT_LOOKS = 20  # steps at each sprite
@@ -250,8 +251,9 @@ class Ladder(Scene):
 
 
 def _times(hit, miss):
-    """Both in one unit; what is long is told in us, for which there is room."""
-    return f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns" if hit < 1e-5 else f"{1e6 * hit:.1f}, {1e6 * miss:.2f} us"
+    """Both in one unit; what would run into its name is told in us."""
+    told = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
+    return told if len(told) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
 
 
 @cache

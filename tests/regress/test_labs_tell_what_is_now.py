@@ -2,12 +2,13 @@
 
 import pytest
 
-from game.drawing.canvas import Canvas
+from game.drawing.canvas import SMALL, Canvas
 from game.registry import Registry
 from game.run.session import Session
 from game.run.sources import BotSource, IdleSource
 from scenes import SCENES
 from scenes.lab.cradle import SPEED
+from scenes.lab.ladder import _times
 from scenes.lab.piles import SOLVERS
 
 
@@ -134,3 +135,11 @@ def test_a_pair_of_cards_that_slides_does_not_stand():
     for frames, word in ((60, "slides"), (200, "slid apart")):
         said = words(after("lab/card_house", frames)[0])
         assert word in said and said.count("stands") == 1, "the pair with friction enough"
+
+
+@pytest.mark.parametrize("costs", [(1443e-9, 133e-9), (3711e-9, 54e-9), (18501e-9, 77e-9), (99999e-9, 999e-9)])
+def test_times_of_the_ladder_do_not_run_into_their_name(costs):
+    """ "hit, miss1,443, 133 ns"."""
+    canvas = Canvas()
+    name, told = (canvas.measure(text, SMALL)[0] for text in ("hit, miss", _times(*costs)))
+    assert name + told < 78 - 2, "the width of a column of figures, and a gap"
