@@ -9,10 +9,11 @@ from importlib import metadata
 from pathlib import Path
 
 from game import VERSION
+from game.measure.machine import installed as version_of
 from game.measure.machine import machine
 
 KEPT = Path(__file__).resolve().parents[2] / "docs" / "bench"  # a file per release
-LIBRARIES = ("numpy", "numba", "llvmlite", "pygame-ce")
+LIBRARIES = ("numpy", "numba", "llvmlite", "pygame-ce", "pygame")  # numba can be left out, either pygame will do
 NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is pointed at
 
 
@@ -24,8 +25,8 @@ def to_record(ratios, quick):
 
 
 def installed():
-    """Bytes of the libraries that are needed at run time."""
-    files = [metadata.distribution(name).files or () for name in LIBRARIES]
+    """Bytes of the libraries that are used at run time, of those that are there."""
+    files = [metadata.distribution(name).files or () for name in LIBRARIES if version_of(name)]
     places = [Path(str(each.locate())) for some in files for each in some]
     return sum(place.stat().st_size for place in places if place.exists())
 
