@@ -104,20 +104,20 @@ def time_of_hulls(a, a_count, b_count, radii, vx, vy, target, most, b_inout):
 
 
 @subkernel
-def bring_together(batch, p, q, a, a_count, b_count, radii, b_inout):
+def bring_together(margin, ahead, p, q, a, a_count, b_count, radii, b_inout):
     """Move B's corners to where two hulls touch in this step, where they meet faster than the margin allows for.
 
     p, q: BODY rows of A and B; a, b_inout: world corners, grown by the radii together [px]. Returns (when [s], or
     NEVER; B's velocity seen from A [px/s]; how far apart [px] their points may be then: who turns nears too).
     """
-    if batch.ahead == 0.0:
-        return 0.0, 0.0, 0.0, batch.margin
+    if ahead == 0.0:
+        return 0.0, 0.0, 0.0, margin
     vx, vy, speed = nearing(p, q)
-    far = reach_of(p, q, speed, batch.margin, batch.ahead)
-    reach = max(far, reach_turning(p, q, speed, batch.margin, batch.ahead))
-    if far <= batch.margin or batch.ahead * speed <= batch.margin:
+    far = reach_of(p, q, speed, margin, ahead)
+    reach = max(far, reach_turning(p, q, speed, margin, ahead))
+    if far <= margin or ahead * speed <= margin:
         return 0.0, 0.0, 0.0, reach
-    return time_of_hulls(a, a_count, b_count, radii, vx, vy, batch.margin, batch.ahead, b_inout), vx, vy, reach
+    return time_of_hulls(a, a_count, b_count, radii, vx, vy, margin, ahead, b_inout), vx, vy, reach
 
 
 @subkernel

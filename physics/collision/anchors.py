@@ -1,6 +1,6 @@
 """What a manifold is fastened to: places of its points in the body spaces of its sides, and what its normal turns with.
 
-From the anchors, points, normal and separations follow at any pose (persist.follow), without detecting again. They are
+From the anchors, points, normal and separations follow at any pose (follow_anchor), without detecting again. They are
 right to second order in the motion: a normal turns with the side whose face it is, and a point stays with the corner
 that it was, on whichever side that is.
 """
@@ -62,10 +62,10 @@ def frame_of(a, b, feature, radii):
 
 
 @subkernel
-def is_corner(geometry, body, shape, corner, local_x, local_y):
+def is_corner(polygons, table, body, shape, corner, local_x, local_y):
     """Whether a point [px] in a body's space is a corner, by its number, of a hull's core; after the last the first."""
-    span = geometry.polygons[shape.geometry]
-    c = geometry.corners[span.offset + (corner if corner < span.count else 0)]
+    span = polygons[shape.geometry]
+    c = table[span.offset + (corner if corner < span.count else 0)]
     return length_of(c.x - local_x, c.y - local_y) <= SAME * body.extent
 
 
@@ -77,7 +77,7 @@ def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
 
 
 @subkernel
-def share_of(geometry, body_a, body_b, a, b, anchor, feature, second):
+def share_of(polygons, table, body_a, body_b, a, b, anchor, feature, second):
     """Where between the cores, along the face, a point of a manifold stays: 0 with A's, 1 with B's, 0.5 between them.
 
     A disc's middle stays over the face, and so does a corner; what a face's end cuts off stays with the face. feature:
@@ -100,24 +100,25 @@ def share_of(geometry, body_a, body_b, a, b, anchor, feature, second):
     edge = part // 64
     if has_corners(b if with_a else a):
         if with_a:
-            over = is_corner(geometry, body_b, b, corner, local_bx, local_by)
+            over = is_corner(polygons, table, body_b, b, corner, local_bx, local_by)
         else:
-            over = is_corner(geometry, body_a, a, corner, local_ax, local_ay)
+            over = is_corner(polygons, table, body_a, a, corner, local_ax, local_ay)
         return 1.0 - face_share if over else face_share
     if has_corners(a if with_a else b):
         cut = False
         for end in range(2):
             if with_a:
-                cut = cut or is_corner(geometry, body_a, a, edge + end, local_ax, local_ay)
+                cut = cut or is_corner(polygons, table, body_a, a, edge + end, local_ax, local_ay)
             else:
-                cut = cut or is_corner(geometry, body_b, b, edge + end, local_bx, local_by)
+                cut = cut or is_corner(polygons, table, body_b, b, edge + end, local_bx, local_by)
         return face_share if cut else 1.0 - face_share
     return 0.5
 
 
 @subkernel
-def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
-    """Remember a manifold that was detected at the present poses in the body spaces of its sides.
+def anchor_manifold(polygons, table, bodies, shapes, manifold, anchor_out):
+    """Remember a manifold that was detected at the present poses in the body spaces of its sides. polygons, table:
+    geometry.polygons and geometry.corners, by themselves: see placement.polygon_at.
 
     A round side keeps its core, or the point would wander off with its spin.
     """
@@ -154,7 +155,7 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
     c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, m.x_1, m.y_1, nx, ny, -(half + c.radius_a), 0.0)
     c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, m.x_1, m.y_1, nx, ny, half + c.radius_b, m.lead)
     c.base_1 = m.separation_1
-    c.share_1 = share_of(geometry, a, b, s, o, c, m.feature_1, False)
+    c.share_1 = share_of(polygons, table, a, b, s, o, c, m.feature_1, False)
     c.local_ax_2 = 0.0
     c.local_ay_2 = 0.0
     c.local_bx_2 = 0.0
@@ -168,7 +169,7 @@ def anchor_manifold(geometry, bodies, shapes, manifold, anchor_out):
         c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, m.x_2, m.y_2, nx, ny, -(half + c.radius_a), 0.0)
         c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, m.x_2, m.y_2, nx, ny, half + c.radius_b, m.lead)
         c.base_2 = m.separation_2
-        c.share_2 = share_of(geometry, a, b, s, o, c, m.feature_2, True)
+        c.share_2 = share_of(polygons, table, a, b, s, o, c, m.feature_2, True)
 
 
 @subkernel
@@ -196,7 +197,7 @@ def write_anchors(
     """Write the anchor of every manifold that was detected at the present poses, without forces. O(manifolds)."""
     for i in range(len(manifolds)):
         rest_anchor(anchors_out[i])
-        anchor_manifold(geometry, bodies, shapes, manifolds[i], anchors_out[i])
+        anchor_manifold(geometry.polygons, geometry.corners, bodies, shapes, manifolds[i], anchors_out[i])
 
 
 @subkernel

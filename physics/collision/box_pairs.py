@@ -2,13 +2,13 @@
 
 from physics.collision.manifold import add_point
 from physics.dynamics.awake import is_active, wakes
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.tables.counters import SENSOR_TESTS
 
 ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
 
 
-@subkernel
+@inlined
 def may_change(a, b):
     """Whether a step can change the contact of two bodies."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)

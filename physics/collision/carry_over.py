@@ -76,12 +76,12 @@ def renew(geometry, bodies, shapes, manifold_inout, anchor_inout):
     approach(bodies, m)
 
 
-@subkernel
+@inlined
 def begin_anchor(geometry, bodies, shapes, previous, previous_anchors, first, manifold_inout, anchor_out):
     """Write the anchor of a manifold that was found anew, with the forces of the points of the same pair and feature in
     the step before; first: the first of these."""
     rest_anchor(anchor_out)
-    anchor_manifold(geometry, bodies, shapes, manifold_inout, anchor_out)
+    anchor_manifold(geometry.polygons, geometry.corners, bodies, shapes, manifold_inout, anchor_out)
     take_over(previous, previous_anchors, first, manifold_inout, anchor_out)
     renew(geometry, bodies, shapes, manifold_inout, anchor_out)
 

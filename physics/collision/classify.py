@@ -17,14 +17,14 @@ from physics.collision.manifold import (
     POLYGONS,
     SURFACE_ANY,
 )
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel
 from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
 
 PARTED = NOTHING + 1  # behind the kinds of pairs: where it is counted how many are of parts
 
 
-@subkernel
+@inlined
 def kind_of_pair(low, high):
     """The kind of pair of two shape kinds, the lower first."""
     if low == CIRCLE and high == CIRCLE:
@@ -41,7 +41,7 @@ def kind_of_pair(low, high):
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
 
 
-@subkernel
+@inlined
 def as_snapped(kind, a, b):
     """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
     snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
@@ -56,7 +56,7 @@ def as_snapped(kind, a, b):
     return kind
 
 
-@subkernel
+@inlined
 def boxes_apart(a, b, margin):
     """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
     return (
@@ -67,8 +67,37 @@ def boxes_apart(a, b, margin):
     )
 
 
-@subkernel
-def classify_pairs(
+@inlined
+def kind_asked(bodies, a, b, margin, ahead, which):
+    """The kind of a candidate pair of SHAPE rows, NOTHING if this pass does not look at it. which: see classify."""
+    if which != ALL and (a.sensor or b.sensor) != (which == SENSORS):
+        return NOTHING
+    kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
+    if kind == NOTHING or which == ALL:
+        return kind
+    if boxes_apart(a, b, margin):
+        if ahead <= 0.0 or kind > POLYGONS:
+            return NOTHING
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        if ahead * most_nearing(p, q) <= margin:
+            return NOTHING
+        _, _, speed = nearing(p, q)
+        if boxes_apart(a, b, reach_of(p, q, speed, margin, ahead)):
+            return NOTHING
+    if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
+        return NOTHING
+    return kind
+
+
+@inlined
+def is_of_part(a, b):
+    """Whether a side of a pair of SHAPE rows is a part of another shape."""
+    return a.owner != a.id or b.owner != b.id
+
+
+@kernel
+def classify(
     # read
     bodies,
     shapes,
@@ -94,45 +123,11 @@ def classify_pairs(
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        sensor = a.sensor or b.sensor
-        kind = NOTHING
-        if which == ALL or sensor == (which == SENSORS):
-            kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
-        if kind != NOTHING and which != ALL:
-            apart = boxes_apart(a, b, margin)
-            if apart and ahead > 0.0 and kind <= POLYGONS:
-                p = bodies[a.body_row]
-                q = bodies[b.body_row]
-                if ahead * most_nearing(p, q) > margin:
-                    _, _, speed = nearing(p, q)
-                    apart = boxes_apart(a, b, reach_of(p, q, speed, margin, ahead))
-            if apart:
-                kind = NOTHING
-            elif which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
-                kind = NOTHING
+        kind = kind_asked(bodies, a, b, margin, ahead, which)
         kind_out[i] = kind
         counts_out[kind] += 1
-        if kind != NOTHING and (a.owner != a.id or b.owner != b.id):
-            counts_out[PARTED] += 1
-        sensors += int(sensor and kind != NOTHING)
+        if kind != NOTHING:
+            counts_out[PARTED] += int(is_of_part(a, b))
+            sensors += int(a.sensor or b.sensor)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
     work_inout[SENSOR_TESTS] += sensors
-
-
-@kernel
-def classify(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    count,
-    margin,
-    ahead,
-    which,
-    # write
-    kind_out,
-    counts_out,
-    work_inout,
-):
-    """See classify_pairs."""
-    classify_pairs(bodies, shapes, candidates, count, margin, ahead, which, kind_out, counts_out, work_inout)

@@ -4,11 +4,57 @@ Solvers, sweeps and characters move bodies one after the other. What is told, se
 after all of them; contacts are carried there by their anchors, nothing is detected twice.
 """
 
-from physics.collision.follow import follow_all
-from physics.jit import kernel
+from physics.collision.follow import follow_anchor
+from physics.collision.recycle import serves_again
+from physics.jit import kernel, subkernel
+from physics.math2d import heading
 from physics.shapes.placement import refresh_boxes
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.step_state import StepState, stage
+
+
+@subkernel
+def is_settled(body):
+    """Whether a body is where its centre of mass was written last."""
+    return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
+
+
+@subkernel
+def carry_all(
+    # read
+    shapes,
+    anchors,
+    distance,
+    # write
+    bodies_inout,
+    manifolds_inout,
+):
+    """Carry points, normals and separations of all manifolds to where their bodies are, and note which will do again
+    for the next step: see serves_again. O(manifolds)."""
+    row_a = -1
+    row_b = -1
+    a_cosine = 1.0
+    a_sine = 0.0
+    b_cosine = 1.0
+    b_sine = 0.0
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        a = bodies_inout[m.body_row_a]
+        b = bodies_inout[m.body_row_b]
+        # The manifolds of a pair, and often those of a body, stand together.
+        if m.body_row_a != row_a:
+            row_a = m.body_row_a
+            a_cosine, a_sine = heading(a.angle)
+            a.followed = is_settled(a)
+        if m.body_row_b != row_b:
+            row_b = m.body_row_b
+            b_cosine, b_sine = heading(b.angle)
+            b.followed = is_settled(b)
+        c = anchors[i]
+        fits = serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, c, distance, m)
+        if not fits:
+            follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, True, m)
+        m.again = fits and not m.swept
 
 
 @kernel
@@ -16,23 +62,26 @@ def settle(
     # read
     shape_rows,
     geometry,
-    bodies,
     anchors,
+    distance,
     # write
+    bodies_inout,
     shapes_inout,
     manifolds_inout,
 ):
-    """Write the boxes of these shapes, and carry all manifolds to where their bodies are. O(rows + manifolds)."""
-    refresh_boxes(shape_rows, geometry, bodies, shapes_inout)
-    follow_all(bodies, anchors, manifolds_inout)
+    """Write the boxes of these shapes, and carry all manifolds to where their bodies are; distance [px]: see
+    serves_again. O(rows + manifolds)."""
+    refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
+    carry_all(shapes_inout, anchors, distance, bodies_inout, manifolds_inout)
 
 
 @stage(
     "final_poses",
-    reads=("awake", "bodies", "shapes", "library", "manifolds", "anchors"),
+    reads=("tolerances", "awake", "bodies", "shapes", "library", "manifolds", "anchors"),
     writes=(
         "manifolds",
         "library",
+        "bodies.followed",
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
@@ -41,4 +90,5 @@ def settle_contacts(state: StepState) -> None:
     rows, bodies, shapes = state.awake.shapes, state.bodies, state.shapes
     # What was pushed round may stand at an angle that was not foreseen.
     add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
-    settle(rows, state.library.tables, bodies, state.anchors, shapes, state.manifolds)
+    distance = state.tolerances.recycle
+    settle(rows, state.library.tables, state.anchors, distance, bodies, shapes, state.manifolds)

@@ -3,7 +3,7 @@
 An anchor keeps the surface points and the normal in the body spaces of its sides; nothing is detected again.
 """
 
-from physics.jit import inlined, kernel, subkernel
+from physics.jit import inlined, kernel
 from physics.math2d import heading, length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
 
@@ -54,7 +54,7 @@ def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
 
 
 @inlined
-def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
+def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
     """Write points, normal and separations [px] at the present poses. Returns (how far the points have moved on each
     other since they were detected, along a face or across it [px], how far a core rolled round a corner [px]).
 
@@ -109,8 +109,8 @@ def follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout
     return moved, rolled
 
 
-@subkernel
-def follow_all(
+@kernel
+def follow_bodies(
     # read
     bodies,
     anchors,
@@ -135,16 +135,4 @@ def follow_all(
         if m.body_row_b != row_b:
             row_b = m.body_row_b
             b_cosine, b_sine = heading(b.angle)
-        follow(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)
-
-
-@kernel
-def follow_bodies(
-    # read
-    bodies,
-    anchors,
-    # write
-    manifolds_inout,
-):
-    """See follow_all."""
-    follow_all(bodies, anchors, manifolds_inout)
+        follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)

@@ -250,7 +250,7 @@ def collide_polygon_pairs(
             b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
             # Who is never pushed is only told of: by whichever part is met.
             deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
-        time, vx, vy, reach = bring_together(batch, p, q, a, na, nb, a_radius + b_radius, b)
+        time, vx, vy, reach = bring_together(margin, batch.ahead, p, q, a, na, nb, a_radius + b_radius, b)
         if time < 0.0:
             continue
         points = collide_hulls(a, na, a_radius, a_edges, b, nb, b_radius, b_edges, reach, batch.bias, deepest, manifold)

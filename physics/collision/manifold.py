@@ -101,6 +101,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.swept = False
     m.persisted_1 = False
     m.persisted_2 = False
+    m.again = False
     m.normal_impulse_1 = 0.0
     m.tangent_impulse_1 = 0.0
     m.normal_impulse_2 = 0.0
@@ -209,6 +210,7 @@ def copy_manifold(manifolds, source, target, manifolds_out):
     d.swept = s.swept
     d.persisted_1 = s.persisted_1
     d.persisted_2 = s.persisted_2
+    d.again = s.again
     d.x_1 = s.x_1
     d.y_1 = s.y_1
     d.separation_1 = s.separation_1

@@ -5,125 +5,28 @@ Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent 
 
 from physics.collision.box_pairs import SOLIDS
 from physics.collision.carry_over import is_before, is_of, renew
-from physics.collision.classify import PARTED, classify_pairs
-from physics.collision.follow import follow
+from physics.collision.classify import PARTED, is_of_part, kind_asked
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY
-from physics.jit import inlined, kernel, subkernel
+from physics.collision.recycle import serves_again, stands
+from physics.jit import inlined, kernel
 from physics.math2d import heading
-from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE
-from physics.tables.shape import CIRCLE, MASK
+from physics.tables.counters import NARROW_TESTS
+from physics.tables.shape import MASK
 
 
 @inlined
-def is_sound(manifold, anchor):
-    """Whether a manifold that followed its anchor has numbers that are: what is finite is 0 less than itself."""
-    m = manifold
-    c = anchor
-    total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
-    if m.count == 2:
-        total += m.x_2 + m.y_2 + m.separation_2
-    return total - total == 0.0 and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
-
-
-@inlined
-def may_move(manifold, anchor, distance):
-    """How far [px] points may move on each other: the distance, or RECYCLE_MOVE times that on a face that bears another
-    and is not short itself: they follow it exactly.
-
-    What bears nothing has to find its own way out of an overlap.
-    """
-    m = manifold
-    c = anchor
-    loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
-    if m.count == 1 or not loaded or c.radius_a > 0.0 or c.radius_b > 0.0:
-        return distance
-    x = m.x_2 - m.x_1
-    y = m.y_2 - m.y_1
-    far = RECYCLE_MOVE * distance
-    return far if far * far <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y) else distance
-
-
-@subkernel
-def use_again(
-    # read
-    batch,
-    distance,
-    # write
-    previous_inout,
-    anchors_inout,
-    kinds_inout,
-    counts_inout,
-    stale_out,
-):
-    """Use the manifolds of the last step again where no point moved on its partner by more than may_move of `distance`
-    [px], and neither side turned on the other by more than that.
-
-    previous_inout MANIFOLD and ANCHOR rows, in the order of shape ids as the candidates, follow their bodies; a pair
-    that is served is NOTHING in kinds_inout; stale_out (previous) int32: the other rows, masks' always. Returns how
-    many these are. O(both).
-    """
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    stale, j = 0, 0
-    row_a, row_b = -1, -1
-    p_cosine, p_sine, q_cosine, q_sine = 1.0, 0.0, 1.0, 0.0
-    for i in range(batch.count):
-        if kinds_inout[i] == NOTHING:
-            continue
-        a = shapes[candidates[i, 0]]
-        b = shapes[candidates[i, 1]]
-        while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
-            stale_out[stale] = j
-            stale += 1
-            j += 1
-        if j >= len(previous_inout):
-            break
-        if not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
-            continue
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        # The manifold lies within both: what a turn moves is no further out than the smaller side.
-        reach = min(p.extent, q.extent) if min(p.extent, q.extent) > 0.0 else max(p.extent, q.extent)
-        # The pairs of a body stand together.
-        if a.body_row != row_a:
-            row_a = a.body_row
-            p_cosine, p_sine = heading(p.angle)
-        if b.body_row != row_b:
-            row_b = b.body_row
-            q_cosine, q_sine = heading(q.angle)
-        turns = a.kind == CIRCLE or b.kind == CIRCLE  # as it likes
-        fits, last = True, j
-        while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
-            m = previous_inout[last]
-            c = anchors_inout[last]
-            if fits and not m.swept:
-                moved, rolled = follow(p, p_cosine, p_sine, q, q_cosine, q_sine, c, False, m)
-                turn = 0.0 if turns else abs((q.angle - c.angle_b) - (p.angle - c.angle_a)) * reach
-                fits = max(rolled, turn) <= distance and moved <= may_move(m, c, distance) and is_sound(m, c)
-            else:
-                fits = False
-            last += 1
-        if not fits:
-            continue  # the next candidate passes them by
-        for k in range(j, last):
-            m = previous_inout[k]
-            m.body_row_a = a.body_row
-            m.body_row_b = b.body_row
-            m.row_a = candidates[i, 0]
-            m.row_b = candidates[i, 1]
-            m.candidate = i
-            m.previous = k
-            m.persisted_1 = True
-            m.persisted_2 = True
-            renew(batch.geometry, bodies, shapes, m, anchors_inout[k])
-        j = last
-        counts_inout[kinds_inout[i]] -= 1
-        kinds_inout[i] = NOTHING
-    for k in range(j, len(previous_inout)):
-        stale_out[stale] = k
-        stale += 1
-    return stale
+def take_as_it_is(a, b, row_a, row_b, candidate, place, manifold_inout):
+    """Write what may be new about a manifold that is used again: the rows of its sides, SHAPE rows a and b, its
+    candidate and its place among those of the step before."""
+    m = manifold_inout
+    m.body_row_a = a.body_row
+    m.body_row_b = b.body_row
+    m.row_a = row_a
+    m.row_b = row_b
+    m.candidate = candidate
+    m.previous = place
+    m.persisted_1 = True
+    m.persisted_2 = True
 
 
 @kernel
@@ -139,24 +42,67 @@ def recycle_manifolds(
     stale_out,
     work_inout,
 ):
-    """Classify the pairs of what is solid, and use the manifolds of the last step again where that will do: see
-    classify_pairs, use_again. O(candidates + manifolds).
+    """Classify the pairs of what is solid, see classify, and use the manifolds of the last step again where they will
+    do: see serves_again, distance [px]. Where both bodies stand as that step left them it has been asked already.
 
-    Returns how many manifolds are stale, and how many pairs ask for more: those to be detected, those of parts.
+    previous_inout MANIFOLD and ANCHOR rows, in the order of shape ids as the candidates, follow their bodies; a pair
+    that is served is NOTHING in kinds_out, and not counted; stale_out (previous) int32: the other rows, masks' always.
+    Returns how many these are, and how many pairs ask for more: those to be detected, those of parts.
+    O(candidates + manifolds).
     """
-    classify_pairs(
-        batch.bodies,
-        batch.shapes,
-        batch.candidates,
-        batch.count,
-        batch.margin,
-        batch.ahead,
-        SOLIDS,
-        kinds_out,
-        counts_out,
-        work_inout,
-    )
-    stale = use_again(batch, distance, previous_inout, anchors_inout, kinds_out, counts_out, stale_out)
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    stale, j = 0, 0
+    row_a = -1
+    p_stands = False
+    for i in range(batch.count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kinds_out[i] = kind
+        counts_out[kind] += 1
+        if kind == NOTHING:
+            continue
+        counts_out[PARTED] += int(is_of_part(a, b))
+        while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
+            stale_out[stale] = j
+            stale += 1
+            j += 1
+        if j == len(previous_inout) or not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
+            continue
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        # The pairs of a body stand together.
+        if a.body_row != row_a:
+            row_a = a.body_row
+            p_stands = stands(p)
+        still = p_stands and stands(q)
+        fits, last = True, j
+        while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
+            m = previous_inout[last]
+            if fits and not (still and m.again):
+                c = anchors_inout[last]
+                m.row_a = candidates[i, 0]
+                m.row_b = candidates[i, 1]
+                p_cosine, p_sine = heading(p.angle)
+                q_cosine, q_sine = heading(q.angle)
+                fits = not m.swept and serves_again(shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, c, distance, m)
+            last += 1
+        if not fits:
+            continue  # the next candidate passes them by
+        for k in range(j, last):
+            take_as_it_is(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
+            renew(batch.geometry, bodies, shapes, previous_inout[k], anchors_inout[k])
+        j = last
+        counts_out[kind] -= 1
+        kinds_out[i] = NOTHING
+    for k in range(j, len(previous_inout)):
+        stale_out[stale] = k
+        stale += 1
+    work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
     asking = counts_out[PARTED]
     for kind in range(NOTHING):
         asking += counts_out[kind]

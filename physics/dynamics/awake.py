@@ -7,7 +7,7 @@ nothing. The lists are kept as things wake and fall asleep, not searched for.
 
 import numpy as np
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.rows import rows_of
 from physics.tables.step_state import StepState, stage
@@ -16,7 +16,7 @@ from physics.tables.world_tables import WorldTables
 NONE = np.zeros(0, np.int64)
 
 
-@subkernel
+@inlined
 def is_active(body):
     """Whether a body can change a contact: awake and dynamic, or moved by hand, or about to move."""
     if body.kind == DYNAMIC:

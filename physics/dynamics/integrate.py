@@ -110,6 +110,7 @@ def put_center(u, v, body_inout):
     b = body_inout
     b.center_x = b.x + u
     b.center_y = b.y + v
+    b.followed = False
     if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
         b.settled_x = b.x
         b.settled_y = b.y
@@ -164,7 +165,8 @@ def integrate_velocities(state: StepState) -> None:
         "work",
         "library",
         *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
-        *(f"bodies.{name}" for name in ("center_x", "center_y", "settled_x", "settled_y", "settled_angle")),
+        *(f"bodies.{name}" for name in ("center_x", "center_y", "followed")),
+        *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )

@@ -55,6 +55,7 @@ WRITES = (
     "bodies.island",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
+    "bodies.followed",
     *(f"bodies.{name}" for name in REST),
 )
 

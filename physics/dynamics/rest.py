@@ -243,6 +243,7 @@ def _park(state, slept):
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
     parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
+    parked["again"] = False  # the other side may be carried elsewhere meanwhile
     # What is not dynamic is in no island, whatever it was in before it changed its kind.
     sides = [
         np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)

@@ -383,6 +383,7 @@ WRITES = (
     *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),
     *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
+    "bodies.followed",
     *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "eased")),
 )
 

@@ -25,6 +25,7 @@ MANIFOLD = in_lines(
         ("swept", np.bool_),  # met on the way, not at the end of the step
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
+        ("again", np.bool_),  # as it is it will do for the next step, while both bodies stand as this one left them
         # Where it is.
         ("normal_x", np.float64),  # unit, from A to B
         ("normal_y", np.float64),

@@ -1,0 +1,177 @@
+"""Contacts of the step before that are used as they are: where both bodies stand as that step left them, nothing about
+them is asked a second time. The oracle asks all the same, of every contact in every step: their flag is cleared."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import JIT, Capsule, Character, Circle, Effects, PixelMask, Polygon, World
+
+STEPS = 90 if JIT else 20
+AWAKE = Effects.rigid_bodies().with_(sleeping=False)
+ALL = Effects.rigid_bodies().with_(continuous=True, carving=True, one_way=True, sensors=True)
+TOLD = ("shape_a", "shape_b", "count", "normal_x", "normal_y", "x_1", "y_1", "separation_1", "speed_1")
+SHAPES = (
+    Polygon.box(24, 16),
+    Circle(10),
+    Capsule((-8, 0), (8, 0), 6),
+    Polygon([(0, -12), (11, -3), (7, 10), (-7, 10), (-11, -3)]),
+)
+
+
+def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
+    """(world, floor, the bodies of a heap that stands on it)."""
+    world = World(effects, solver=solver, **arguments)
+    floor = world.add_body(Polygon.box(400, 40), kind="static", position=(0, 20))
+    bodies = [
+        world.add_body(shapes[k % len(shapes)], position=(26.0 * (k % 4) - 39.0, -13.0 - 26.0 * (k // 4)))
+        for k in range(12)
+    ]
+    return world, floor, bodies
+
+
+def ask_again(world):
+    """Have every contact asked anew in the next step."""
+    world.manifolds["again"] = False
+    for island in world.sleepers.islands.values():
+        island.manifolds["again"] = False
+
+
+def follow(make, edit):
+    """Run a world twice, and once with all asked: what is told in each step is the same. edit(world, step, memory)."""
+    ran = []
+    for asked in (False, True):
+        world, _, _ = made = make()
+        memory, told = {"made": made}, []
+        for step in range(STEPS):
+            edit(world, step, memory)
+            if asked:
+                ask_again(world)
+            world.step()
+            told.append((world.digest(), [world.manifolds[name].copy() for name in TOLD]))
+        ran.append(told)
+    for step, ((digest, rows), (expected, asked)) in enumerate(zip(*ran, strict=True)):
+        for name, values, wanted in zip(TOLD, rows, asked, strict=True):
+            assert np.array_equal(values, wanted), f"step {step}: {name}"
+        assert digest == expected, f"step {step}"
+
+
+def leave(world, step, memory):
+    """Nothing is done by hand."""
+
+
+def move_floor(world, step, memory):
+    if step % 7 == 5:
+        _, floor, _ = memory["made"]
+        floor.position = (0.0, 20.0 + 0.5 * (step % 2))
+
+
+def write_floor(world, step, memory):
+    if step % 7 == 5:
+        world.bodies["y"][0] += 0.3 if step % 2 else -0.3
+
+
+def turn_one_in_the_table(world, step, memory):
+    if step % 9 == 4:
+        world.bodies["angle"][6] += 0.01
+
+
+def put_in_its_place(world, step, memory):
+    """Another takes the row and the very pose of one that is removed, and its own is taken by a third."""
+    _, _, bodies = memory["made"]
+    if step in (STEPS // 3, STEPS // 2):
+        first, second = bodies.pop(4), bodies[4]
+        pose = first.position, first.angle
+        first.remove()
+        second.move_to(*pose)
+
+
+def restore(world, step, memory):
+    """A floor that was moved by hand before the snapshot was taken, and stood there in the steps after it."""
+    _, floor, _ = memory["made"]
+    if step == STEPS // 4:
+        floor.position = (0.0, 20.75)
+        memory["kept"] = world.snapshot()
+    if step in (STEPS // 2, STEPS // 2 + 3):
+        world.restore(memory["kept"])
+
+
+def retune(world, step, memory):
+    if step % 11 == 3:
+        world.shapes["friction"][1 + step % 10] = 0.1 * (step % 5)
+    if step == STEPS // 2:
+        world.solver = "sequential_impulse"
+    if step == STEPS // 2 + 5:
+        world.solver = "soft_step"
+
+
+@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
+def test_a_heap_that_is_left_alone(solver):
+    follow(lambda: heap(AWAKE, solver), leave)
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [move_floor, write_floor, turn_one_in_the_table, put_in_its_place, restore, retune],
+    ids=lambda e: e.__name__,
+)
+@pytest.mark.parametrize("effects", [AWAKE, ALL], ids=["awake", "all effects"])
+def test_a_heap_that_hands_move(edit, effects):
+    follow(lambda: heap(effects), edit)
+
+
+def test_contacts_that_sleep_are_asked_when_they_wake():
+    """Where the other side stood in the last step tells nothing about who was asleep in it."""
+    world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(24, 24),))
+    for _ in range(120):
+        world.step()
+        if not any(body.awake for body in bodies):
+            break
+    asleep = [island.manifolds for island in world.sleepers.islands.values()]
+    assert sum(map(len, asleep)) >= 12 and not any(rows["again"].any() for rows in asleep)
+
+
+def test_a_character_that_pushes_and_a_lift_that_carries():
+    def made():
+        world, floor, _ = heap(ALL, shapes=(Polygon.box(24, 24),))
+        lift = world.add_body(Polygon.box(60, 10), kind="kinematic", position=(120, -5), velocity=(0, -20))
+        world.add_body(Polygon.box(16, 16), position=(120, -18))
+        return world, floor, (lift, Character(world, Polygon.box(12, 20), (-90, -20)))
+
+    def edit(world, step, memory):
+        _, _, (lift, hero) = memory["made"]
+        hero.move(2.0, 1.0)
+        if step % 20 == 19:
+            lift.velocity = (0, 20 if step % 40 == 19 else -20)
+        if step % 30 == 10:
+            lift.set_target((120, -6))
+
+    follow(made, edit)
+
+
+def test_masks_that_are_carved():
+    def made():
+        solid = np.ones((24, 24), bool)
+        solid[:6, :6] = False
+        return heap(ALL, shapes=(PixelMask(solid), Polygon.box(20, 14)))
+
+    def edit(world, step, memory):
+        _, _, bodies = memory["made"]
+        if step % 15 == 8 and bodies[step % 3 * 2].id in world.bodies["id"]:
+            hit = bodies[step % 3 * 2]
+            hit.carve(Circle(4), (*hit.position, 0.0))
+
+    follow(made, edit)
+
+
+def test_what_rests_is_used_as_it_is_and_what_turns_is_not():
+    world, _, _ = heap(AWAKE, shapes=(Polygon.box(24, 24),))
+    for _ in range(STEPS):
+        world.step()
+    assert world.manifolds["again"].all() and len(world.manifolds) >= 12
+    world.bodies["angular_velocity"][9:] = math.tau
+    world.step()
+    again = world.manifolds["again"]
+    turned = (world.manifolds["body_row_a"] >= 9) | (world.manifolds["body_row_b"] >= 9)
+    assert turned.any() and not again[turned].any() and again[~turned].any()
