@@ -7,7 +7,7 @@ from physics.collision.box_pairs import SOLIDS
 from physics.collision.carry_over import is_before, is_of, renew
 from physics.collision.classify import PARTED, is_of_part, kind_asked
 from physics.collision.manifold import GRID_ANY, NOTHING, SURFACE_ANY
-from physics.collision.recycle import serves_again, stands
+from physics.collision.recycle import is_sound, serves_again, stands
 from physics.jit import inlined, kernel
 from physics.math2d import heading
 from physics.tables.counters import NARROW_TESTS
@@ -83,7 +83,7 @@ def recycle_manifolds(
         fits, last = True, j
         while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
             m = previous_inout[last]
-            if fits and not (still and m.again):
+            if fits and not (still and m.again and is_sound(m)):
                 c = anchors_inout[last]
                 m.row_a = candidates[i, 0]
                 m.row_b = candidates[i, 1]

@@ -11,14 +11,13 @@ from physics.tables.shape import CIRCLE
 
 
 @inlined
-def is_sound(manifold, anchor):
-    """Whether a manifold that followed its anchor has numbers that are: what is finite is 0 less than itself."""
+def is_sound(manifold):
+    """Whether a manifold has numbers that are: what is finite is 0 less than itself."""
     m = manifold
-    c = anchor
     total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
     if m.count == 2:
         total += m.x_2 + m.y_2 + m.separation_2
-    return total - total == 0.0 and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
+    return total - total == 0.0
 
 
 @inlined
@@ -54,7 +53,8 @@ def serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, dista
     turn = abs((b.angle - c.angle_b) - (a.angle - c.angle_a)) * reach
     if turn > distance and (shapes[m.row_a].kind == CIRCLE or shapes[m.row_b].kind == CIRCLE):
         turn = 0.0  # as it likes
-    return max(rolled, turn) <= distance and moved <= may_move(m, c, distance) and is_sound(m, c)
+    near = max(rolled, turn) <= distance and moved <= may_move(m, c, distance)
+    return near and is_sound(m) and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
 
 
 @inlined
