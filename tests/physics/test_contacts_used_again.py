@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from physics import JIT, Capsule, Character, Circle, Effects, PixelMask, Polygon, World
+from physics.collision.follow import follow_bodies
 
 STEPS = 90 if JIT else 20
 AWAKE = Effects.rigid_bodies().with_(sleeping=False)
@@ -136,6 +137,28 @@ def test_contacts_that_sleep_are_asked_when_they_wake():
             break
     asleep = [island.manifolds for island in world.sleepers.islands.values()]
     assert sum(map(len, asleep)) >= 12 and not any(rows["again"].any() for rows in asleep)
+
+
+def test_contacts_sleep_exactly_where_they_stand():
+    """Those that wake are solved as they are: to the bit as if the last step had carried every point along its edge."""
+    world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(30, 16), Polygon.box(18, 24)))
+    for k, body in enumerate(bodies):
+        body.move_to((26.0 * (k % 4) - 39.0 + 7.0 * (k // 4), -20.0 - 30.0 * (k // 4)), 0.4 * math.sin(5.0 * k))
+    for _ in range(400):
+        world.step()
+        if not any(body.awake for body in bodies):
+            break
+    islands = list(world.sleepers.islands.values())
+    assert sum(len(island.manifolds) for island in islands) >= 12
+    for island in islands:
+        rows = world.rows(island.manifolds["body_a"]), world.rows(island.manifolds["body_b"])
+        carried = island.manifolds.copy()
+        carried["body_row_a"], carried["body_row_b"] = rows
+        follow_bodies(world.bodies, island.anchors, carried)
+        for name in (*TOLD[3:8], "x_2", "y_2", "separation_2"):
+            kept, moved = island.manifolds[name], carried[name]
+            two = island.manifolds["count"] == 2 if name.endswith("_2") else slice(None)
+            assert np.array_equal(kept[two], moved[two]), name
 
 
 def test_a_character_that_pushes_and_a_lift_that_carries():
