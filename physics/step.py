@@ -18,6 +18,7 @@ from physics.character.workspace import new_scratch
 from physics.collision.detect import detect_ended, detect_piles, sense
 from physics.collision.dispatch import NarrowPhase
 from physics.collision.final_poses import settle_contacts
+from physics.collision.follow import follow_bodies
 from physics.dynamics.awake import list_awake
 from physics.dynamics.integrate import integrate_positions, integrate_velocities
 from physics.dynamics.quarantine import REASONS, quarantine, quarantine_solved
@@ -57,6 +58,16 @@ def sound_rectangles(state: StepState) -> None:
     motion_rectangles(state)
 
 
+@stage("rest", reads=rest.reads, writes=rest.writes)
+def rest_exactly(state: StepState) -> None:
+    """Who falls asleep keeps its contacts exactly where they stand: whoever wakes it has them solved as they are."""
+    rest(state)
+    if state.parked is not None:
+        for key in np.unique(state.parked[1]).tolist():
+            island = state.sleepers.islands[key]
+            follow_bodies(state.bodies, island.anchors, island.manifolds)
+
+
 class Plan(NamedTuple):
     """The stages of a step, in order, and their names."""
 
@@ -83,7 +94,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (carry_characters, characters),
             (settle_contacts, True),
             (sense, e.sensors),
-            (rest, e.sleeping),
+            (rest_exactly, e.sleeping),
             (events.tell, True),
         )
     else:

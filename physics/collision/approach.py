@@ -52,11 +52,9 @@ def closing_speed(a, b, x, y, nx, ny, lead):
 
 
 @inlined
-def approach(bodies, manifold_inout):
-    """Write the closing speed of both points of a MANIFOLD row before any response."""
+def approach(a, b, manifold_inout):
+    """Write the closing speed of both points of a MANIFOLD row of two bodies, BODY rows, before any response."""
     m = manifold_inout
-    a = bodies[m.body_row_a]
-    b = bodies[m.body_row_b]
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
     if m.count == 2:
         m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.lead)
@@ -66,4 +64,5 @@ def approach(bodies, manifold_inout):
 def measure_approach(bodies, manifolds_inout):
     """Write the closing speed of every point before any response. manifolds_inout MANIFOLD rows. O(manifolds)."""
     for i in range(len(manifolds_inout)):
-        approach(bodies, manifolds_inout[i])
+        m = manifolds_inout[i]
+        approach(bodies[m.body_row_a], bodies[m.body_row_b], m)

@@ -56,8 +56,9 @@ def take_over(previous, anchors, first, manifold_inout, anchor_inout):
 
 
 @inlined
-def renew(geometry, bodies, shapes, manifold_inout, anchor_inout):
-    """Write what is new in every step: what the materials are now, and how fast both sides approach."""
+def renew(geometry, p, q, a, b, manifold_inout, anchor_inout):
+    """Write what is new in every step: what the materials are now, and how fast both sides approach. p, q: BODY rows of
+    the sides; a, b: their SHAPE rows."""
     m = manifold_inout
     c = anchor_inout
     m.normal_impulse_1 = 0.0
@@ -68,12 +69,12 @@ def renew(geometry, bodies, shapes, manifold_inout, anchor_inout):
     forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
     if not forces + abs(c.rolling_force) < LARGEST_FORCE:
         rest_anchor(c)
-    c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, shapes, m)
+    c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, a, b, m)
     # These stand in a line that nobody else writes: what stays as it is need not go back to memory.
     if c.rolling_resistance != rolling_resistance or c.surface_speed != surface_speed:
         c.rolling_resistance = rolling_resistance
         c.surface_speed = surface_speed
-    approach(bodies, m)
+    approach(p, q, m)
 
 
 @inlined
@@ -83,7 +84,9 @@ def begin_anchor(geometry, bodies, shapes, previous, previous_anchors, first, ma
     rest_anchor(anchor_out)
     anchor_manifold(geometry.polygons, geometry.corners, bodies, shapes, manifold_inout, anchor_out)
     take_over(previous, previous_anchors, first, manifold_inout, anchor_out)
-    renew(geometry, bodies, shapes, manifold_inout, anchor_out)
+    m = manifold_inout
+    sides = bodies[m.body_row_a], bodies[m.body_row_b], shapes[m.row_a], shapes[m.row_b]
+    renew(geometry, *sides, m, anchor_out)
 
 
 @kernel

@@ -8,6 +8,7 @@ from physics.collision.follow import follow_anchor
 from physics.collision.recycle import serves_again
 from physics.jit import kernel, subkernel
 from physics.math2d import heading
+from physics.settings import RECYCLE_WANDER
 from physics.shapes.placement import refresh_boxes
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.step_state import StepState, stage
@@ -51,9 +52,9 @@ def carry_all(
             b_cosine, b_sine = heading(b.angle)
             b.followed = is_settled(b)
         c = anchors[i]
-        fits = serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, c, distance, m)
+        fits = serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, c, distance, RECYCLE_WANDER * distance, m)
         if not fits:
-            follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, True, m)
+            follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, 0.0, m)
         m.again = fits and not m.swept
 
 

@@ -3,6 +3,8 @@
 An anchor keeps the surface points and the normal in the body spaces of its sides; nothing is detected again.
 """
 
+import math
+
 from physics.jit import inlined, kernel
 from physics.math2d import heading, length_of, turned, unit
 from physics.tables.manifold import CORES, WITH_A, WITH_B
@@ -20,20 +22,23 @@ def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local
 
 
 @inlined
-def cut_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny):
-    """The gap [px] of cores at a point that the end of a face cuts from the edge over it.
+def carried_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny, wander):
+    """(the gap [px] of cores at a point that the end of a face cuts from the edge over it, whether it is another one).
 
     The edge runs through the other side's cores of both points: as they slide along the face, the cut wanders on it.
     gap: from core to core of the point; dx, dy: B's core of the point seen from A's, other_dx, other_dy those of the
-    other point, apart_x, apart_y: the other point's core of A seen from this one's; with_a: the face is A's.
+    other point, apart_x, apart_y: the other point's core of A seen from this one's; with_a: the face is A's; wander
+    [px]: it stays as it is where the cut makes no more of a difference.
     """
     edge_x = apart_x + (other_dx - dx if with_a else 0.0)
     edge_y = apart_y + (other_dy - dy if with_a else 0.0)
     along = edge_y * nx - edge_x * ny
     across = edge_x * nx + edge_y * ny
-    if abs(across) >= abs(along) or along == 0.0:
-        return gap  # too steep to be the edge that lies along the face
-    return gap - (dy * nx - dx * ny) * across / along
+    rise = (dy * nx - dx * ny) * across
+    # An edge that is too steep is not the one that lies along the face.
+    if abs(across) >= abs(along) or along == 0.0 or abs(rise) <= wander * abs(along):
+        return gap, False
+    return gap - rise / along, True
 
 
 @inlined
@@ -54,12 +59,13 @@ def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
 
 
 @inlined
-def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifold_inout):
+def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, wander, manifold_inout):
     """Write points, normal and separations [px] at the present poses. Returns (how far the points have moved on each
-    other since they were detected, along a face or across it [px], how far a core rolled round a corner [px]).
+    other since they were detected, along a face or across it [px], how far a core rolled round a corner [px], whether
+    what a face's end cuts off was carried along the edge).
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; cut: whether what a
-    face's end cuts off wanders along the edge, which counts only where much has moved.
+    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; wander [px]: the end's
+    cut is carried where that makes more of a difference, which it does only where much has moved; infinite: never.
     """
     m = manifold_inout
     c = anchor
@@ -91,14 +97,16 @@ def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifol
     m.normal_y = ny + 0.0
     gap_1 = dx_1 * nx + dy_1 * ny
     gap_2 = dx_2 * nx + dy_2 * ny
-    if cut and two:
+    wandered_1 = False
+    wandered_2 = False
+    if two and wander < math.inf:
         x = ax_2 - ax_1
         y = ay_2 - ay_1
         with_a = c.frame == WITH_A
         if is_cut(c, c.share_1):
-            gap_1 = cut_gap(gap_1, dx_1, dy_1, dx_2, dy_2, x, y, with_a, nx, ny)
+            gap_1, wandered_1 = carried_gap(gap_1, dx_1, dy_1, dx_2, dy_2, x, y, with_a, nx, ny, wander)
         if is_cut(c, c.share_2):
-            gap_2 = cut_gap(gap_2, dx_2, dy_2, dx_1, dy_1, -x, -y, with_a, nx, ny)
+            gap_2, wandered_2 = carried_gap(gap_2, dx_2, dy_2, dx_1, dy_1, -x, -y, with_a, nx, ny, wander)
     m.x_1, m.y_1, m.separation_1 = point_of(ax_1, ay_1, dx_1, dy_1, nx, ny, gap_1, c.share_1, c.radius_a, c.radius_b)
     moved = max(moved, abs(m.separation_1 - c.base_1))
     if two:
@@ -106,7 +114,7 @@ def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, cut, manifol
             ax_2, ay_2, dx_2, dy_2, nx, ny, gap_2, c.share_2, c.radius_a, c.radius_b
         )
         moved = max(moved, abs(m.separation_2 - c.base_2))
-    return moved, rolled
+    return moved, rolled, wandered_1 or wandered_2
 
 
 @kernel
@@ -135,4 +143,4 @@ def follow_bodies(
         if m.body_row_b != row_b:
             row_b = m.body_row_b
             b_cosine, b_sine = heading(b.angle)
-        follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], True, m)
+        follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchors[i], 0.0, m)

@@ -8,8 +8,9 @@ from physics.tables.shape import CHAIN, MASK, TILES
 
 
 @inlined
-def mixed(geometry, shapes, manifold):
-    """(friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold; a chain's link has its own.
+def mixed(geometry, a, b, manifold):
+    """(friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold of two shapes, SHAPE rows; a
+    chain's link has its own.
 
     Friction is the geometric mean, restitution and rolling resistance the greater, surface speeds add up. Rolling
     resistance is a length here: the coefficient times the greater radius (Catto, Box2D v3.1).
@@ -20,7 +21,7 @@ def mixed(geometry, shapes, manifold):
     radius = 0.0
     speed = 0.0
     for side in range(2):
-        s = shapes[manifold.row_a if side == 0 else manifold.row_b]
+        s = a if side == 0 else b
         own_friction = s.friction
         own_restitution = s.restitution
         own_rolling = s.rolling_resistance

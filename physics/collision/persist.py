@@ -3,6 +3,8 @@
 Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 """
 
+import math
+
 from physics.collision.box_pairs import SOLIDS
 from physics.collision.carry_over import is_before, is_of, renew
 from physics.collision.classify import PARTED, is_of_part, kind_asked
@@ -89,13 +91,15 @@ def recycle_manifolds(
                 m.row_b = candidates[i, 1]
                 p_cosine, p_sine = heading(p.angle)
                 q_cosine, q_sine = heading(q.angle)
-                fits = not m.swept and serves_again(shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, c, distance, m)
+                fits = not m.swept and serves_again(
+                    shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, c, distance, math.inf, m
+                )
             last += 1
         if not fits:
             continue  # the next candidate passes them by
         for k in range(j, last):
             take_as_it_is(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
-            renew(batch.geometry, bodies, shapes, previous_inout[k], anchors_inout[k])
+            renew(batch.geometry, p, q, a, b, previous_inout[k], anchors_inout[k])
         j = last
         counts_out[kind] -= 1
         kinds_out[i] = NOTHING

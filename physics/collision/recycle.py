@@ -39,21 +39,22 @@ def may_move(manifold, anchor, distance):
 
 
 @inlined
-def serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, distance, manifold_inout):
+def serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, distance, wander, manifold_inout):
     """Carry a manifold to the present poses, and say whether that will do: no point moved on its partner by more than
-    may_move of `distance` [px], and neither side turned on the other by more than that.
+    may_move of `distance` [px], neither side turned on the other by more than that, and what a face's end cuts off is
+    right to within `wander` [px] without being carried along the edge.
 
     a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
     """
     m = manifold_inout
     c = anchor
-    moved, rolled = follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, False, m)
+    moved, rolled, wandered = follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, wander, m)
     # The manifold lies within both: what a turn moves is no further out than the smaller side.
     reach = min(a.extent, b.extent) if min(a.extent, b.extent) > 0.0 else max(a.extent, b.extent)
     turn = abs((b.angle - c.angle_b) - (a.angle - c.angle_a)) * reach
     if turn > distance and (shapes[m.row_a].kind == CIRCLE or shapes[m.row_b].kind == CIRCLE):
         turn = 0.0  # as it likes
-    near = max(rolled, turn) <= distance and moved <= may_move(m, c, distance)
+    near = max(rolled, turn) <= distance and moved <= may_move(m, c, distance) and not wandered
     return near and is_sound(m) and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
 
 

@@ -9,7 +9,6 @@ import math
 
 import numpy as np
 
-from physics.collision.follow import follow_bodies
 from physics.dynamics.awake import is_active
 from physics.dynamics.graph import join, root_of
 from physics.dynamics.sleepers import Island
@@ -244,9 +243,7 @@ def _park(state, slept):
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
     parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
-    # They are solved as they are when they wake: exactly where they stand, and asked, whatever the other side does.
-    follow_bodies(bodies, parked_anchors, parked)
-    parked["again"] = False
+    parked["again"] = False  # the other side may be carried elsewhere meanwhile
     # What is not dynamic is in no island, whatever it was in before it changed its kind.
     sides = [
         np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)

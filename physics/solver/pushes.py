@@ -35,7 +35,7 @@ def prepare_pushes(
             continue
         a = bodies[m.body_row_a]
         b = bodies[m.body_row_b]
-        friction, restitution, rolling, surface_speed = mixed(geometry, shapes, m)
+        friction, restitution, rolling, surface_speed = mixed(geometry, shapes[m.row_a], shapes[m.row_b], m)
         for k in range(m.count):
             r = pushes_out[found]
             r.manifold = i
