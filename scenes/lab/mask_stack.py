@@ -222,7 +222,7 @@ class MaskStack(Scene):
             ("corners", f"{corners:.0f}"),
             ("air held", f"{over:,.0f} px"),
             ("missed", f"{missed:,.0f} px"),
-            ("sinks", f"{self.sinks[way]:.2f} px"),
+            ("sinks", f"{self.sinks[way]:z.2f} px"),
             ("sways", f"{self.sways[way]:.2f} px"),
             ("step, awake", cost_text(self, self._lane(way))),
         )
@@ -250,7 +250,7 @@ class MaskStack(Scene):
         corners = dict(zip(WAYS, (each[0] for each in self.shares), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
         return [
-            Goal("the outlines stand", SLEPT_BY, self.stands_now("outline"), f"sinks {self.sinks['outline']:.2f} px"),
+            Goal("the outlines stand", SLEPT_BY, self.stands_now("outline"), f"sinks {self.sinks['outline']:z.2f} px"),
             Goal("the outlines sleep", SLEPT_BY, self.asleep["outline"], f"since step {self.changed['outline']}"),
             Goal(
                 "an outline holds less air than hull and box",
@@ -274,7 +274,7 @@ class MaskStack(Scene):
         told = []
         for way in TOLD:
             corners, air, _ = self.shares[WAYS.index(way)]
-            stands = f"sinks {self.sinks[way]:.2f} px" if self.stands_now(way) else "fell"
+            stands = f"sinks {self.sinks[way]:z.2f} px" if self.stands_now(way) else "fell"
             told.append(f"{way} {air:,.0f} px of air, {corners:,.0f} corners, {stands}")
         return "; ".join(told)
 

@@ -183,7 +183,7 @@ class Stacks(Scene):
                 canvas.text("-", box.right - 4, y, PAPER, SMALL, align="right")
                 continue
             canvas.surface.fill(COLORS[name], (box.x + 42, y, round(56 * min(1.0, abs(share))), 5))
-            canvas.text(f"{100 * share:.1f} %", box.right - 4, y, PAPER, SMALL, align="right")
+            canvas.text(f"{100 * share:z.1f} %", box.right - 4, y, PAPER, SMALL, align="right")
         canvas.text("a step", box.x + 6, box.y + 37, FOG, SMALL)
         canvas.text(cost_text(self, (*self.chosen, name)), box.right - 4, box.y + 37, PAPER, SMALL, align="right")
 
@@ -217,7 +217,7 @@ class Stacks(Scene):
                 "it keeps its height to a hundredth",
                 300,
                 abs(self.sag[soft]) < tall / 100,
-                f"sinks {self.sag[soft]:.2f} px",
+                f"sinks {self.sag[soft]:z.2f} px",
             ),
             Goal(
                 "its crates overlap by less than a fiftieth",
@@ -235,7 +235,7 @@ class Stacks(Scene):
                 "projection falls, or sinks three times as far",
                 300,
                 not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
-                f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:.2f} px",
+                f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:z.2f} px",
             ),
         ]
 

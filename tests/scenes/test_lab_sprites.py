@@ -238,7 +238,7 @@ def test_who_stands_is_told_as_it_is():
         top.velocity = (0.0, 0.0)
         session.step()
         assert scene.stands_now("outline") == stands
-        shown = f"{scene.sinks['outline']:.2f} px"
+        shown = f"{scene.sinks['outline']:z.2f} px"
         assert shown in words(scene)
     for top in scene.tops:
         top.move_to((x, start + 40.0), 0.0)
