@@ -26,8 +26,8 @@ RECYCLE_DISTANCE = (
     0.25 * LINEAR_SLOP
 )  # [m] a manifold is used again while its points moved less. Larger: ghosts on corners
 RECYCLE_MOVE = 4.0  # times that, of a face that bears another, …
-RECYCLE_WANDER = 2.0**-7  # of that distance: as exactly is told how deep it is. Larger: coarser. Smaller: more is asked
 RECYCLE_SHARE = 0.02  # … if no more than this of the way between its points. Both larger: who slides off leaves late
+RECYCLE_WANDER = 2.0**-7  # of RECYCLE_DISTANCE: so exactly depths are told. Larger: coarser. Smaller: more is asked
 STICKING_TURN = 0.01  # [rad] two faces that stick keep their arms and normal while neither body turned more. Larger:
 # boxes tip late (Box2D knows no bound and tips at 35 degrees instead of 27). Smaller: columns buckle as springs do
 STICKING_SHARE = 0.5  # … and while they moved against each other by less than this share of SPECULATIVE_DISTANCE

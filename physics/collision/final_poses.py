@@ -5,19 +5,13 @@ after all of them; contacts are carried there by their anchors, nothing is detec
 """
 
 from physics.collision.follow import follow_anchor
-from physics.collision.recycle import serves_again
+from physics.collision.recycle import is_settled, serves_again
 from physics.jit import kernel, subkernel
 from physics.math2d import heading
 from physics.settings import RECYCLE_WANDER
 from physics.shapes.placement import refresh_boxes
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.step_state import StepState, stage
-
-
-@subkernel
-def is_settled(body):
-    """Whether a body is where its centre of mass was written last."""
-    return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
 
 
 @subkernel

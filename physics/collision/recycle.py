@@ -59,8 +59,13 @@ def serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, dista
 
 
 @inlined
+def is_settled(body):
+    """Whether a body, a BODY row, is where its centre of mass was written last."""
+    return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
+
+
+@inlined
 def stands(body):
     """Whether a body, a BODY row, is where its contacts were carried to when the last step ended. Who moves it clears
     the flag; what is written into the table is seen by the pose."""
-    b = body
-    return b.followed and b.x == b.settled_x and b.y == b.settled_y and b.angle == b.settled_angle
+    return body.followed and is_settled(body)

@@ -40,7 +40,7 @@ def ask_again(world):
 
 
 def follow(make, edit):
-    """Run a world twice, and once with all asked: what is told in each step is the same. edit(world, step, memory)."""
+    """Run a world as it is, and with all asked: what is told in each step is the same. edit(world, step, memory)."""
     ran = []
     for asked in (False, True):
         world, _, _ = made = make()
