@@ -6,7 +6,7 @@ from time import perf_counter
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import GOLD
+from game.drawing.colors import FOG, GOLD
 from game.drawing.presenter import Frame
 from game.drawing.typical import Typical
 from game.drawing.window import open_window
@@ -15,13 +15,12 @@ from game.files.data_folder import data_folder, free_name
 from game.files.settings import Settings, load_settings
 from game.input.inputs import InputState
 from game.registry import Registry
-from game.run.compilers import Compilers, start_compilers
+from game.run.beside import Beside
 from game.run.headless import finish, save_or_fail
 from game.run.loop import FixedStep
 from game.run.options import Options
 from game.run.picture import save_png
 from game.screens.arcade import Arcade
-from game.screens.loading import LoadingStopped
 from game.screens.parts.wipe import Wipe
 from game.screens.screen import Outcome
 from game.screens.stack import AnyScreen, Screens
@@ -35,14 +34,14 @@ def run_app(options: Options, registry: Registry) -> int:
     """Open the window and run until it is closed. Returns the exit code."""
     settings, message = load_settings()
     say(message)
-    compilers = start_compilers(registry)
+    beside = Beside(registry)
     try:
         surface = open_window(settings)
-        app = App(options, registry, settings, surface, message, compilers)
-        return app.run()
+        if options.scene or options.replay:
+            beside.start()  # no title is shown first
+        return App(options, registry, settings, surface, message, beside).run()
     finally:
-        if compilers is not None:
-            compilers.stop()
+        beside.stop()
         pygame.quit()
 
 
@@ -56,11 +55,10 @@ class App:
         settings: Settings,
         surface: pygame.Surface,
         message: str = "",
-        compilers: Compilers | None = None,
+        beside: Beside | None = None,
     ) -> None:
-        self.options, self.settings = options, settings
+        self.options, self.settings, self.beside = options, settings, beside
         self.arcade = Arcade(options, registry, settings, surface, message)
-        self.arcade.compilers = compilers
         self.screens = Screens(self.arcade)
         self.inputs = InputState()
         self.clock = FixedStep()  # of the menus: a scene keeps its own time
@@ -113,15 +111,12 @@ class App:
             self.screens.complain(error)
             self._arrive()
             return
-        except LoadingStopped:
-            self.arcade.stop_if_closed()
-            return
         self.wipe.draw(self.window, started, self.settings.reduced_flashing)
         self._sound(started)
         pygame.mouse.set_visible(self.screen.shows_pointer)
         pygame.display.flip()
-        if self.arcade.compilers is not None:
-            self.arcade.compilers.turn(self.screen.shows_scene)
+        if self.beside is not None:
+            self.beside.turn(self.screen.shows_scene)
         self._rest(started)
         if self.screen.outcome is not None:
             self._follow(self.screen.outcome)
@@ -133,6 +128,11 @@ class App:
             yield self.inputs
 
     def _after_drawing(self, frame: Frame | None) -> None:
+        if frame is not None and self.beside is not None and (share := self.beside.share) < 1.0:
+            area = frame.area.clip(frame.rect)
+            text, height = f"getting faster: {share:.0%}", frame.measure("0", SMALL, frame.text_scale)[1]
+            x, y = area.right - 4 * frame.text_scale, area.bottom - height - 4 * frame.text_scale
+            frame.text_if_free(text, x, y, FOG, SMALL, frame.text_scale, "right", True)
         if frame is not None and self.settings.show_fps:
             text = f"{self.frame_time.value * 1000:.1f} ms a frame"
             x, y = frame.area.right - 4, frame.area.top + 4

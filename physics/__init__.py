@@ -4,6 +4,7 @@ Pixels, seconds, radians; x right, y down; a positive angle turns clockwise on t
 `World.step` in physics/world.py.
 """
 
+from physics.background import compile_in_background
 from physics.body import Body
 from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import DynamicTree
@@ -75,6 +76,7 @@ __all__ = [
     "Vec2",
     "World",
     "collide",
+    "compile_in_background",
     "decompose",
     "distance",
     "fit",

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from physics.background import compile_ahead
 from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import REBUILD_FROM, DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -12,6 +13,7 @@ from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
+from physics.jit import tiers
 from physics.proximity.trace import steps_of
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
 from physics.shapes.bounds import Bounds
@@ -46,12 +48,44 @@ def warmup(
     progress: Callable[[int, int, str], Any] | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Compile, or load from the cache, what a world with these effects calls.
+    """Compile, or load from the cache, what a world with these effects calls, with all cores.
 
-    broadphase: brute, sweep, hash, tree or "all"; pieces: those of PIECES that will be met, None: all; progress(done,
-    total, name) is called before each piece and at the end. What was left out is compiled when it is first met. Without
-    compiled kernels it runs the same and costs milliseconds. Raises KeyError for an unknown broad phase or piece.
+    broadphase: brute, sweep, hash, tree or "all"; pieces: those of PIECES that will be met, None: all. progress(done,
+    total, name) is called before each piece, with each kernel that is compiled, and at the end; `total` grows when it
+    is known how many kernels are to be compiled. What was left out is compiled when it is first met. Without numba the
+    pieces run the same. Raises KeyError for an unknown broad phase or piece.
     """
+    runs = _runs(effects, broadphase, solver, pieces)
+
+    def tell(done, total, name):
+        if progress:
+            progress(len(runs) + done, len(runs) + total, name)
+
+    with tiers.collecting() as found:
+        for number, (name, run) in enumerate(runs):
+            if progress:
+                progress(number, len(runs), name)
+            run()
+    compile_ahead(found, tell)
+    tell(len(found), len(found), "ready")
+
+
+def run_warmup(
+    effects: Effects | None = None,
+    broadphase: str = "hash",
+    solver: str | None = None,
+    pieces: Iterable[str] | None = None,
+) -> None:
+    """Run small worlds that call all kernels which a world with these effects calls, in whatever form they are.
+
+    Arguments and errors as of warmup().
+    """
+    for _, run in _runs(effects, broadphase, solver, pieces):
+        run()
+
+
+def _runs(effects, broadphase, solver, pieces):
+    """Return [(name, function)] of the small worlds to run. Raises KeyError for an unknown broad phase or piece."""
     effects = Effects() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
     runs: list[tuple[str, Callable[[], None]]] = [
@@ -98,12 +132,7 @@ def warmup(
         runs.append(
             ("several pairs", lambda: _together(effects, solver, [PAIRS[each][0] for each in PAIRS if each in pieces]))
         )
-    for number, (name, run) in enumerate(runs):
-        if progress:
-            progress(number, len(runs), name)
-        run()
-    if progress:
-        progress(len(runs), len(runs), "ready")
+    return runs
 
 
 def _kind_of(shape):

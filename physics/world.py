@@ -19,6 +19,7 @@ from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
 from physics.environment import Environment, checked_accuracy, checked_substeps, own_solver
 from physics.events import Events, Pairs
+from physics.jit import tiers
 from physics.queries.index import QueryIndex
 from physics.questions import Questions
 from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
@@ -110,6 +111,8 @@ class World(Environment, Questions):
 
         Raises ValueError for a negative or non-finite dt."""
         self._unlocked()
+        if tiers.arrived:
+            tiers.take_over()
         dt = step_length(self, dt)
         stages, names = self._plan_now
         spent = self.profile.begin(names)

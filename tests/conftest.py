@@ -75,9 +75,9 @@ def pytest_sessionstart(session):
     """Before workers start, compile what they would otherwise each compile."""
     workers = session.config.getoption("numprocesses", None)
     if workers and "NUMBA_DISABLE_JIT" not in os.environ and not hasattr(session.config, "workerinput"):
-        from tests.warm_kernels import warm_up_side_by_side
+        from tests.warm_kernels import warm_up
 
-        warm_up_side_by_side(workers)
+        warm_up(workers)
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m chooses

@@ -1,6 +1,6 @@
 """`python -m game.measure.kernel_counts`: how many kernels each effect has compiled for it, told as lines of JSON.
 
-Started with HITBOX_LISTING=1: kernels are run as they are and note the types they are called with; nothing is compiled.
+Kernels run plain and note the types they are called with; nothing is compiled.
 One line on standard input: {"effects": names, "broadphase": name, "pieces": as physics.warmup takes them}. For each
 effect [name, kernels called with it and not without it] on standard output; nothing where there is no compiler.
 """
@@ -13,15 +13,15 @@ from functools import cache
 import physics
 from game.measure.effect_costs import sides_of
 from physics import Effects
+from physics.jit import tiers
+from physics.warmup import run_warmup
 
 
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
-    """(kernel, types) of all that a world under effects may call. Only where physics.jit.LISTING is set."""
-    from physics.jit.dispatchers import listed
-
-    listed.clear()
-    physics.warmup(effects, broadphase, pieces=pieces)
-    return frozenset(listed)
+    """Return (kernel, types) of all that a world under effects may call."""
+    with tiers.collecting(all_calls=True) as found:
+        run_warmup(effects, broadphase, pieces=pieces)
+    return frozenset(found)
 
 
 def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:

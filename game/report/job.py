@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from game.measure.rates import Rate
 from game.measure.timing import Cost
-from physics.jit.compile_time import compiling
+from physics.jit.totals import measured as compiling
 
 Row = dict[str, Any]
 COST = "cost"  # what the keys of times end in

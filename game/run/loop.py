@@ -7,6 +7,8 @@ taken from perf_counter and never assumed.
 from game.scene import STEP_SECONDS
 
 LONGEST_FRAME = 0.25  # [s] a window drag or a debugger may stall us; more would spiral into catching up
+WORST_LOAD = 2.0  # of one frame: a single long one does not make the next ones slow
+SMOOTHING = 0.2  # of the load, per frame
 SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05)  # slow motion, as fractions of real time
 
 
@@ -21,6 +23,8 @@ class FixedStep:
         self.left_over = 0.0
         self.before = None
         self.requested = 0
+        self.due = 0  # steps of the last frame
+        self.load: float | None = None  # time that frames take, over the time that their steps stand for; a mean
 
     def advance(self, now: float) -> int:
         """Whole steps due at `now` [s, perf_counter]. The first call only starts the clock."""
@@ -31,9 +35,22 @@ class FixedStep:
             self.left_over = 0.0
             return due
         self.left_over += passed * self.speed * self.pace
-        due = int(self.left_over / self.step)
-        self.left_over -= due * self.step
-        return due
+        self.due = int(self.left_over / self.step)
+        self.left_over -= self.due * self.step
+        if self.behind and self.due > 1:
+            self.due, self.left_over = 1, 0.0
+        return self.due
+
+    @property
+    def behind(self) -> bool:
+        """Whether this machine cannot make the steps in time. Then time slows down evenly, a step a frame, in place of
+        ever more steps that are to be caught up with."""
+        return self.load is not None and self.load > 1.0
+
+    def note(self, busy: float) -> None:
+        """Take note of how long [s] the steps and the picture of this frame took."""
+        load = min(busy / (self.step * max(self.due, 1)), WORST_LOAD)
+        self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 
     def rest(self) -> None:
         """Time does not count until advance() is called again: another screen is in front."""

@@ -1,28 +1,47 @@
-"""Compiling the kernels before they are needed, with a bar that shows how far that is."""
+"""Compiling the kernels of scenes before they are needed."""
 
 import sys
-from collections.abc import Callable
 from time import perf_counter
-from typing import TextIO
+from typing import Any, TextIO
 
 import physics
 from game.registry import Registry
 from game.scene import Scene
 from physics import Effects
+from physics.background import StderrProgress, compile_ahead, compile_jobs
+from physics.jit import tiers
+from physics.warmup import run_warmup
 
-Progress = Callable[[int, int, str], None]  # done, total, name of the piece that is next
-
+Job = dict[str, Any]  # what physics.warmup takes, as JSON can hold it
 BAR = 32  # characters
 
 
-def warm_up_scene(
-    scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, progress: Progress | None = None
-) -> None:
-    """Compile what one scene needs at its start. progress(done, total, name) is called before each piece."""
-    strategy = strategy_of(scene_class, broadphase)
-    worlds = worlds_of(scene_class, solver)
-    for index, (effects, name) in enumerate(worlds):
-        physics.warmup(effects, strategy, name, part_of(progress, index, len(worlds)), pieces_of(scene_class))
+def jobs_of(
+    scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, everything: bool = False
+) -> list[Job]:
+    """Return what one scene's worlds need at their start, as jobs for physics.warmup.
+
+    everything: all pieces and all broad phases, whatever the scene declares.
+    """
+    return [
+        {
+            "effects": list(effects.names()),
+            "broadphase": "all" if everything else strategy_of(scene_class, broadphase),
+            "solver": name,
+            "pieces": None if everything else pieces_of(scene_class),
+        }
+        for effects, name in worlds_of(scene_class, solver)
+    ]
+
+
+def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
+    """Compile with all cores what one scene needs at its start, and load it; progress goes to standard error."""
+    progress = StderrProgress()
+    with tiers.collecting() as found:
+        for effects, name in worlds_of(scene_class, solver):
+            run_warmup(effects, strategy_of(scene_class, broadphase), name, pieces_of(scene_class))
+    compile_ahead(found, progress)
+    progress.end()
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
@@ -49,26 +68,13 @@ def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
     return (*scene_class.pieces, *("queries",) * (scene_class.draggable and "queries" not in scene_class.pieces))
 
 
-def part_of(progress: Progress | None, index: int, parts: int) -> Progress | None:
-    """`progress` for one of several equal parts: it counts on where the part before ended. None stays None."""
-    if progress is None:
-        return None
-    return lambda done, total, name: progress(index * total + done, parts * total, name)
-
-
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """--warmup: every scene under every broad phase. Returns the exit code."""
+    """--warmup: every scene under every broad phase, with all cores. Returns the exit code."""
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()
-    for index, scene_class in enumerate(classes):
-
-        def show(done, total, name, index=index, stream=stream):
-            draw_bar(stream, (index + done / max(total, 1)) / len(classes), name)
-
-        worlds = worlds_of(scene_class)
-        for part, (effects, name) in enumerate(worlds):
-            physics.warmup(effects, "all", name, progress=part_of(show, part, len(worlds)))
+    jobs = [job for each in classes for job in jobs_of(each, everything=True)]
+    compile_jobs(jobs, lambda done, total, name: draw_bar(stream, done / max(total, 1), f"{done} of {total} kernels"))
     draw_bar(stream, 1.0, "ready")
     if stream.isatty():
         stream.write("\n")

@@ -9,15 +9,9 @@ from game.files.settings import Settings, save_settings
 from game.input.devices import DeviceSource
 from game.input.pads import Pads
 from game.registry import Registry
-from game.run.compilers import Compilers, jobs_of
 from game.run.options import Options
 from game.run.picture import Picture
-from game.run.warmup import warm_up_scene
-from game.scene import Scene
-from game.screens.loading import Loading
 from game.startup import say
-
-WAIT = 100  # [ms] between two pictures of the bar: painting it must not cost those who compile a core
 
 
 class Arcade:
@@ -36,38 +30,6 @@ class Arcade:
         say(self.sounds.silent_because)
         self.mode = mode_of(settings)
         self.running = True
-        self.compilers: Compilers | None = None  # at work in the background, where a window is open
-
-    def stop_if_closed(self) -> None:
-        """End the program if the window's closing waits in the queue: it was what stopped the loading."""
-        self.running = self.running and not pygame.event.peek(pygame.QUIT)
-
-    def compile_for(
-        self,
-        scene_class: type[Scene],
-        solver: str | None = None,
-        broadphase: str | None = None,
-        stops_for_anybody: bool = False,
-    ) -> None:
-        """Compile what a scene needs, behind a bar. Raises LoadingStopped."""
-        loading = Loading(scene_class.title, stops_for_anybody)
-        broadphase = broadphase or self.options.broadphase
-        self._wait_for_compilers(loading, jobs_of(scene_class, broadphase, solver))
-        warm_up_scene(
-            scene_class,
-            broadphase,
-            solver,
-            lambda done, total, kernel: loading.show(self.picture, done / max(total, 1), kernel),
-        )
-
-    def _wait_for_compilers(self, loading, jobs):
-        """Let the processes in the background do it, all of them; where none is left the foreground does."""
-        if self.compilers is None:
-            return
-        self.compilers.first(jobs)
-        while (share := self.compilers.share(jobs)) is not None and share < 1.0:
-            loading.show(self.picture, share, f"{share:.0%} of the kernels, on every core")
-            pygame.time.wait(WAIT)
 
     def apply_settings(self) -> None:
         """Put changed settings to work."""

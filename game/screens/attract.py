@@ -8,6 +8,7 @@ from game.drawing.colors import GOLD
 from game.drawing.presenter import Frame
 from game.errors import UsageError
 from game.files.accessibility import Accessibility
+from game.run.loop import FixedStep
 from game.run.picture import Picture
 from game.scene import Scene
 from game.screens.parts.demo import Demo
@@ -23,7 +24,7 @@ ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, 
 
 
 class Attract(SceneScreen):
-    """`make(name)` builds a scene, or returns None when a person came back while it was being prepared.
+    """`make(name)` builds a scene.
 
     `outcome` becomes ("back",). `quiet` tells the app to play the music low.
     """
@@ -31,7 +32,7 @@ class Attract(SceneScreen):
     shows_pointer = False
     quiet = True
 
-    def __init__(self, make: Callable[[str], Scene | None], names: Sequence[str], accessibility: Accessibility) -> None:
+    def __init__(self, make: Callable[[str], Scene], names: Sequence[str], accessibility: Accessibility) -> None:
         super().__init__()
         self.make, self.accessibility = make, accessibility
         self.names = [name for name in SCENES if name in names] or list(names[:1])
@@ -39,6 +40,11 @@ class Attract(SceneScreen):
         self.steps = 0
         self.ended = False  # the bot's game is over
         self.demo = None
+
+    @property
+    def running_clock(self) -> FixedStep | None:
+        """The clock by which the scene's steps are due."""
+        return self.demo.clock if self.demo else None
 
     @property
     def tune(self) -> str | None:
@@ -75,10 +81,7 @@ class Attract(SceneScreen):
             self.at += 1
             return
         self.steps, self.ended = 0, False
-        if scene is None:
-            self.outcome = ("back",)
-        else:
-            self.demo = Demo(scene, self.accessibility)
+        self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene, and that it is a demonstration."""

@@ -75,21 +75,25 @@ class Play(SceneScreen):
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
-        self.measuring = Measuring(scene, devices, lambda solver: self.prepare(solver))
+        self.measuring = Measuring(scene, devices)
         measuring = self.measuring
         self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
         self.why = Why(scene)
-        self.prepare = lambda solver: None  # called before a solver is switched to; the app compiles it then
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
         self.assisted = False
         self.since_result = 0
         self.helped_since = 0  # the step from which the keys are shown
         self.now = 0.0  # [s] of the last turn
-        self.switches = Switches(scene, devices, lambda solver: self.prepare(solver))
+        self.switches = Switches(scene, devices)
         self.hint = first_card(scene, settings) if self.person and settings is not None else None
         self.apply_settings()
+
+    @property
+    def running_clock(self) -> FixedStep:
+        """The clock by which the scene's steps are due."""
+        return self.clock
 
     @property
     def tune(self) -> str | None:

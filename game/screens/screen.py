@@ -6,6 +6,7 @@ draws at the window's resolution (SceneScreen).
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from time import perf_counter
 from typing import Any
 
 import pygame
@@ -13,6 +14,7 @@ import pygame
 from game.drawing.canvas import Canvas
 from game.drawing.presenter import Frame
 from game.input.inputs import InputState
+from game.run.loop import FixedStep
 from game.run.picture import Picture
 from game.scene import STEP_SECONDS
 
@@ -90,6 +92,11 @@ class SceneScreen(Screen, ABC):
 
     shows_scene = True
 
+    @property
+    @abstractmethod
+    def running_clock(self) -> FixedStep | None:
+        """The clock by which the scene's steps are due; None while there is no scene."""
+
     @abstractmethod
     def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]."""
@@ -100,5 +107,9 @@ class SceneScreen(Screen, ABC):
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
         """One turn of the program's loop at `now` [s]. Returns the frame, which the frame time may be written on."""
+        started = perf_counter()
         self.advance(now)
-        return self.draw(picture)
+        frame = self.draw(picture)
+        if self.running_clock is not None:
+            self.running_clock.note(perf_counter() - started)
+        return frame

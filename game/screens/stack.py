@@ -11,14 +11,13 @@ from game.files.data_folder import free_name
 from game.files.own_levels import level_digest
 from game.files.records import Entry
 from game.input.bindings import help_pairs
-from game.run.options import make_scene, scene_class_of
+from game.run.options import make_scene
 from game.run.replay_check import load_replay_for
 from game.run.replay_shelf import put_recent, replays_folder
 from game.run.tape import Tape
 from game.scene import set_loaded_aside
 from game.screens.arcade import Arcade
 from game.screens.attract import Attract
-from game.screens.loading import LoadingStopped
 from game.screens.menu import Menu
 from game.screens.message_screen import error_message
 from game.screens.parts.background import SceneBackground
@@ -69,16 +68,12 @@ class Screens:
     def open_first(self) -> None:
         """What the command line asks for: a recording, a scene, or the title."""
         arcade, options = self.arcade, self.arcade.options
-        try:
-            if options.replay and not options.is_a_run:
-                self.watch(options.replay)
-            elif options.scene:
-                self.play_first()
-            else:
-                self.title(arcade.message)
-        except LoadingStopped:
+        if options.replay and not options.is_a_run:
+            self.watch(options.replay)
+        elif options.scene:
+            self.play_first()
+        else:
             self.title(arcade.message)
-            arcade.stop_if_closed()
 
     @property
     def top(self) -> AnyScreen:
@@ -93,8 +88,6 @@ class Screens:
             self.table[name](*rest)
         except UsageError as error:
             self.complain(error, name not in ("watch", "file"))
-        except LoadingStopped:
-            self.arcade.stop_if_closed()
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
         """Show why a file cannot be used, over what can be gone on with.
@@ -164,7 +157,6 @@ class Screens:
             self.watch(path)
             return
         arcade = self.arcade
-        arcade.compile_for(taker)
         level_digest(path)
         scene = taker(arcade.options.seed or 0, level=Path(path))
         self._leave_play()
@@ -172,11 +164,10 @@ class Screens:
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def watch(self, path: str | Path) -> None:
-        """A recording; its kernels are compiled first. Raises UsageError for one that cannot be used."""
+        """A recording. Raises UsageError for one that cannot be used."""
         arcade = self.arcade
         recording, scene_class = load_replay_for(path, arcade.registry)
         level = recording.level_path()
-        arcade.compile_for(scene_class, recording.solver, recording.broadphase)
 
         def make():
             return scene_class(recording.seed, recording.broadphase, recording.solver, recording.tier, level)
@@ -187,38 +178,25 @@ class Screens:
     def tour(self) -> None:
         """The tour of the overlays."""
         arcade = self.arcade
-        self.stack.append(Tour(self._make_demo, arcade.registry.names, arcade.devices, arcade.settings.accessibility()))
+        accessibility = arcade.settings.accessibility()
+        self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
 
     def attract(self) -> None:
         """The bots play, until somebody comes."""
         self.stack.append(Attract(self._make_shown, self.arcade.registry.names, self.arcade.settings.accessibility()))
 
-    def _make_demo(self, name):
-        scene_class = self.arcade.registry.scene_class(name)
-        self.arcade.compile_for(scene_class)
-        return scene_class(0)
-
     def _make_shown(self, name):
-        scene_class = self.arcade.registry.scene_class(name)
-        try:
-            self.arcade.compile_for(scene_class, stops_for_anybody=True)
-        except LoadingStopped:
-            return None
-        return scene_class(0)
+        return self.arcade.registry.scene_class(name)(0)
 
     def play(self, name: str, level: Path | None = None) -> None:
         """A scene from the menu."""
         arcade = self.arcade
-        scene_class = arcade.registry.scene_class(name)
-        arcade.compile_for(scene_class)
-        scene = scene_class(arcade.options.seed or 0, level=level)
+        scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def play_first(self) -> None:
         """The scene that the command line names, with all it says about it."""
         arcade, options = self.arcade, self.arcade.options
-        scene_class = scene_class_of(options, arcade.registry)
-        arcade.compile_for(scene_class, options.solver, options.broadphase)
         scene = make_scene(options, arcade.registry)
         play = Play(
             scene,
@@ -235,10 +213,8 @@ class Screens:
         self._begin(play)
 
     def _begin(self, play):
-        scene_class = type(play.scene)
         self.last_played = play.scene.name
         set_loaded_aside()
-        play.prepare = lambda solver: self.arcade.compile_for(scene_class, solver)
         play.run_ended = self._keep_run
         play.settings_changed = self.arcade.save_settings
         if play.person:

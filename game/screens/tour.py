@@ -14,6 +14,7 @@ from game.drawing.presenter import Frame
 from game.errors import UsageError
 from game.files.accessibility import Accessibility
 from game.input.devices import DeviceSource
+from game.run.loop import FixedStep
 from game.run.picture import Picture
 from game.scene import Scene
 from game.screens.parts.demo import Demo
@@ -225,6 +226,11 @@ class Tour(SceneScreen):
         self.shown = self.waited = 0
         self.subject = None
         self.demo.clock.rest()
+
+    @property
+    def running_clock(self) -> FixedStep | None:
+        """The clock by which the scene's steps are due."""
+        return self.demo.clock if self.demo else None
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Take an event; True if it is used up."""

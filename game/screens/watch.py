@@ -68,6 +68,11 @@ class Watch(SceneScreen):
         return self.shows_controls or self.panel_open
 
     @property
+    def running_clock(self) -> FixedStep:
+        """The clock by which the scene's steps are due."""
+        return self.clock
+
+    @property
     def tune(self) -> str | None:
         """The music of the recorded game."""
         return self.tape.scene.music

@@ -1,19 +1,28 @@
-"""Whether there is a compiler, and which. What else here imports numba is imported only where there is one."""
+"""The compiler: whether there is one, and the only place that imports it."""
 
 import os
+import warnings
+from importlib.util import find_spec
 from typing import Any
 
-try:
-    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
-        raise ImportError("NUMBA_DISABLE_JIT is set")
-    # Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
+# Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
+if os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0"):
     os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
-    import numba as installed
-
-    numba: Any = installed  # Any: it declares no type for half of what is used here
-    JIT = True
-except ImportError:
-    numba = None
+    JIT = find_spec("numba") is not None
+else:
     JIT = False
 
-LISTING = JIT and os.environ.get("HITBOX_LISTING", "") == "1"  # this process only compiles: kernels are noted, not run
+_found: list[Any] = []  # numba, or None where it cannot be imported
+
+
+def compiler() -> Any:
+    """Return numba, imported at the first call; None where it cannot be imported, which is reported once."""
+    if not _found:
+        try:
+            import numba
+
+            _found.append(numba)
+        except ImportError as error:
+            warnings.warn(f"numba cannot be imported ({error}): kernels run as Python, slower", stacklevel=2)
+            _found.append(None)
+    return _found[0]

@@ -10,14 +10,14 @@ a library of its own (numba.core.codegen.CodeLibrary). Imported only where there
 
 from typing import Any
 
-from numba.core import typed_passes
+import llvmlite.binding as llvm
+from numba import _dynfunc
+from numba.core import codegen, typed_passes
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, compile_result
 from numba.core.compiler_machinery import register_pass
 
-from physics.jit.compiler import numba
 
-
-class PartLibrary(numba.core.codegen.JITCodeLibrary):
+class PartLibrary(codegen.JITCodeLibrary):
     """Code that is linked into others: the calls in it are resolved, but nothing is optimized or can be run."""
 
     def _optimize_final_module(self):
@@ -35,7 +35,7 @@ class PartLibrary(numba.core.codegen.JITCodeLibrary):
     def from_bitcode(cls, generator: Any, name: str, code: bytes) -> "PartLibrary":
         """The library that was kept; generator: a numba CPUCodegen."""
         library = cls(generator, name)
-        library._final_module = library._shared_module = numba.core.codegen.ll.parse_bitcode(code)
+        library._final_module = library._shared_module = llvm.parse_bitcode(code)
         library._finalized = True
         return library
 
@@ -50,7 +50,7 @@ class PartLowering(typed_passes.NativeLowering):
         """As numba's, which would go on to ask for the address of the machine code."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
-        state.flags.noalias = getattr(state.func_id.func, "separate", False)
+        state.flags.noalias = getattr(state.func_id.func, "noalias", False)
         super().run_pass(state)
         state.library.finalize()
         lowered = state["cr"]
@@ -75,7 +75,7 @@ class PartCompiler(CompilerBase):
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
     """What numba knows a compiled function by: a function of no address, as nobody calls it."""
     name = descriptor.qualname.split(".")[-1]
-    return numba._dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
+    return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:

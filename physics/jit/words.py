@@ -1,12 +1,34 @@
-"""Words of 64 bits in kernels: counting their bits, and values as words, compiled and as they are."""
+"""Words of 64 bits in kernels: the count of their bits, and values as words, compiled and plain."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from physics.jit.compiler import JIT, LISTING, numba
+from physics.jit.compiler import JIT, compiler
 
 WORD_MASK = 0xFFFFFFFFFFFFFFFF
+
+
+class Builtin:
+    """A function that kernels call and that has a form of its own for the compiler.
+
+    plain: the Python function; make: returns the function as numba knows it; sources: functions it is made of.
+    """
+
+    def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
+        self.plain, self.make, self.sources = plain, make, sources
+        self.made: Any = None
+
+    def __call__(self, value):
+        return self.plain(value)
+
+    @property
+    def compiled(self) -> Any:
+        """The function as numba knows it, made at the first use."""
+        if self.made is None:
+            self.made = self.make()
+        return self.made
 
 
 def _bits_of(word):
@@ -18,32 +40,31 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Number of set bits of a uint64."""
+    """Type and generate the number of set bits of a uint64 (numba.extending.intrinsic)."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64
         count = builder.ctpop(args[0])
         return builder.zext(count, context.get_value_type(signature.return_type)) if narrow else count
 
+    numba = compiler()
     return numba.types.int64(numba.types.uint64), generate
 
 
 def _as_word(value):
-    """The value as an unsigned 64-bit word."""
+    """Return the value as an unsigned 64-bit word."""
     return np.uint64(value)
 
 
-popcount: Any = _bits_of  # Any: called with one argument, and declared with the context's too
-word: Any = _masked
-if JIT:
+def _make_popcount():
     from numba.extending import intrinsic
 
-    popcount, word = intrinsic(_count_bits), numba.njit(inline="always")(_as_word)
-if LISTING:
-    from physics.jit.dispatchers import Listed
+    return intrinsic(_count_bits)
 
-    class _ListedIntrinsic(numba.core.extending._Intrinsic):
-        __call__ = staticmethod(_bits_of)
 
-    popcount.__class__, word.__class__ = _ListedIntrinsic, Listed
-    word.plain = _masked
+def _make_word():
+    return compiler().njit(inline="always")(_as_word)
+
+
+popcount: Any = Builtin(_bits_of, _make_popcount, _count_bits) if JIT else _bits_of
+word: Any = Builtin(_masked, _make_word, _as_word) if JIT else _masked

@@ -19,7 +19,6 @@ from game.run.replay_shelf import recent_folder, replays_folder
 from game.run.tape import Tape
 from game.scene import Result
 from game.screens.attract import Attract
-from game.screens.loading import Loading
 from game.screens.menu import Menu
 from game.screens.message_screen import error_message
 from game.screens.parts.background import SceneBackground
@@ -87,13 +86,6 @@ def test_title():
         title = settled(Title(LONG), 30 + 90 * mark)
         title.list.mark = mark
         check(title)
-
-
-def test_loading():
-    loading = Loading("Broad phases")
-    loading.share = 0.5
-    loading.what = "physics.broadphase.spatial_hash.update_cells_of_moved_proxies_incrementally"
-    check(loading)
 
 
 def crowded_records():

@@ -1,6 +1,6 @@
 """Joins a played scene to what measures it: which world, when a moment is taken, what a setting changes there."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 from operator import is_
 
 from game.drawing.number_text import plain_name
@@ -21,13 +21,10 @@ EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
 
 
 class Measuring:
-    """Of one scene that is played. It measures between open() and close().
+    """Of one scene that is played. It measures between open() and close()."""
 
-    prepare(solver): called before a solver is put to work; who has kernels to compile does it then.
-    """
-
-    def __init__(self, scene: Scene, devices: DeviceSource, prepare: Callable[[str], None]) -> None:
-        self.scene, self.devices, self.prepare = scene, devices, prepare
+    def __init__(self, scene: Scene, devices: DeviceSource) -> None:
+        self.scene, self.devices = scene, devices
         self.surveyor = Surveyor()
         self.tuner = Tuner(self.surveyor.survey, self._try)
         self.bench = Surveyor()  # of what the scene wants to know …
@@ -135,7 +132,6 @@ class Measuring:
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
-        self._prepare(setting)
         for name, value in changes:
             self.devices.change(name, value)
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
@@ -145,7 +141,6 @@ class Measuring:
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
-        self._prepare(setting)
         self.race = Race(self.scene, changes)
         if self.split is not None:
             self.split = SplitScreen(self.race)
@@ -166,10 +161,6 @@ class Measuring:
         """The settings, one thing changed, that the scene can be raced against."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
-
-    def _prepare(self, setting):
-        if setting.solver is not None and setting.solver != self.now().solver:
-            self.prepare(setting.solver)
 
     def _changes(self, setting):
         """[(change, value)] that bring the scene to a setting, or a sentence about why it cannot be brought there."""

@@ -1,6 +1,6 @@
 """What a player may switch in a running scene, by key or panel, and the line that tells what was switched."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from game.drawing.number_text import plain_name
@@ -13,22 +13,21 @@ TOLD_SECONDS = 2.5  # how long a line stays about what was switched
 
 
 class Switches:
-    """Every switch goes in as input of the next step, so that a recording holds it. way: 1 the next, -1 the one before.
+    """Every switch goes in as input of the next step, so that a recording holds it.
 
-    prepare(solver): called before a solver is switched to; who has kernels to compile does it then.
+    way: 1 the next, -1 the one before.
     """
 
-    def __init__(self, scene: Scene, devices: DeviceSource, prepare: Callable[[str], None]) -> None:
-        self.scene, self.devices, self.prepare = scene, devices, prepare
+    def __init__(self, scene: Scene, devices: DeviceSource) -> None:
+        self.scene, self.devices = scene, devices
         self.now = 0.0  # [s]
         self.told: tuple[str, float] = ("", 0.0)  # what was switched, and when it is no longer told [s]
 
     def solver(self, way: int) -> None:
-        """How overlaps are resolved; its kernels are compiled first, behind a bar."""
+        """How overlaps are resolved."""
         choices = self.scene.solver_choices()
         if choices:
             name = following(choices, solver_name(self.scene), way)
-            self.prepare(name)
             self._switch("solver", "solver", name, solver_name(self.scene))
         elif self.scene.effects.response:
             self.tell("each world here has a solver of its own")

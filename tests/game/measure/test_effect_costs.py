@@ -1,7 +1,6 @@
 """What effects cost at a moment: both sides of each, counted kernels, and the table in the panel."""
 
 import json
-import os
 import subprocess
 import sys
 from time import monotonic
@@ -109,7 +108,6 @@ def test_kernels_are_counted_by_a_process_that_compiles_none():
         capture_output=True,
         text=True,
         check=True,
-        env={**os.environ, "HITBOX_LISTING": "1"},
     )
     found = dict(json.loads(line) for line in run.stdout.splitlines() if line.startswith("["))
     assert list(found) == list(EFFECTS)
@@ -206,13 +204,15 @@ def test_the_measuring_ends_with_the_panel_and_with_the_scene(driver):
 def test_types_are_those_that_numba_says():
     from numba import njit
 
-    from physics.jit.dispatchers import type_of
+    from physics.jit.signatures import key_of, type_of
 
     dispatcher = njit(lambda x: x)
     table = np.zeros(6, [("a", "f8"), ("b", "i4")])
     sealed = np.zeros((3, 4))
     sealed.flags.writeable = False
     values = [table, table[::2], table[1:], np.zeros((3, 4)), np.zeros((3, 4)).T, sealed, np.zeros(3, np.int32)]
-    values += [Cost(*values[:4], table), (table, 1), (table, 1.0), (), 3, 2**63, True, 1.5, "word"]
+    values += [Cost(*values[:4], table), (table, 1), (table, 1.0), (), 3, 2**63, True, 1.5, None, np.uint8(3)]
     for value in [*values, *values]:
-        assert type_of(dispatcher, value) == dispatcher.typeof_pyval(value), value
+        assert type_of(key_of(value)) == dispatcher.typeof_pyval(value), value
+    with pytest.raises(TypeError, match="str: 'word'"):
+        key_of("word")

@@ -132,7 +132,7 @@ def test_what_a_worker_tells_is_what_the_lanes_are_made_of(tmp_path):
 
 def test_a_screen_asks_once_for_each_name():
     scene = Wishing()
-    measuring = Measuring(scene, DeviceSource(), lambda solver: None)
+    measuring = Measuring(scene, DeviceSource())
     try:
         for piles in ((1, 2), (2, 3), (1, 3)):
             scene.piles = piles

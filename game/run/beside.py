@@ -1,0 +1,54 @@
+"""Compiling beside the arcade: the played scene first, then all others, with one process fewer while it is played."""
+
+import contextlib
+from collections.abc import Iterator
+
+import physics
+from game.errors import UsageError
+from game.registry import Registry
+from game.run.warmup import jobs_of
+from game.scene import Scene
+from physics.background import Background
+from physics.jit.workers import cores_here
+
+
+class Beside:
+    """Kernels run as plain Python until they are compiled; nothing waits. Nothing is started before `start` or the
+    first `turn`, so that the title is there first."""
+
+    def __init__(self, registry: Registry, cores: int | None = None) -> None:
+        self.cores = cores_here() if cores is None else cores
+        self.scenes = self._all_scenes(registry)
+        self.background: Background | None = None
+
+    def _all_scenes(self, registry) -> Iterator[type[Scene]]:
+        """Yield one scene class after the other, imported when it is asked for."""
+        for name in registry.names:
+            with contextlib.suppress(UsageError):
+                yield registry.scene_class(name)
+
+    def start(self) -> None:
+        """Start to compile beside the program."""
+        if self.background is None and physics.JIT:
+            self.background = physics.compile_in_background(self.cores)
+
+    def turn(self, plays: bool) -> None:
+        """Once per turn of the program's loop. plays: a scene is on the screen, so one core is left to it, and no other
+        scene is imported."""
+        self.start()
+        if self.background is None:
+            return
+        self.background.workers.limit = max(1, self.cores - plays)
+        if not plays and (scene_class := next(self.scenes, None)) is not None:
+            self.background.expect(jobs_of(scene_class))
+
+    @property
+    def share(self) -> float:
+        """How many of the kernels that were called run compiled, 0..1."""
+        return 1.0 if self.background is None else self.background.share
+
+    def stop(self) -> None:
+        """End the processes; what they have compiled stays."""
+        if self.background is not None:
+            self.background.stop()
+            self.background = None

@@ -1,0 +1,326 @@
+"""Compiling beside the program, or ahead of it, in worker processes."""
+
+import json
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from hashlib import blake2b
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from physics.jit import JIT, tiers
+from physics.jit.compiler import compiler
+from physics.jit.kernels import Kernel, Keys
+from physics.jit.store import store
+from physics.jit.twins import globals_of
+from physics.jit.workers import Task, Workers
+
+WORKER = f"{__package__}.compile_worker"
+FEW = 2  # kernels that are compiled here: a worker takes about as long to start
+Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
+
+_running: "list[Background]" = []
+
+
+def compile_in_background(workers: int | None = None) -> "Background":
+    """Never wait for the compiler from now on: run kernels as plain Python while worker processes compile them.
+
+    Compiled forms take over between two steps. Both forms give the same bits, so nothing but the speed changes. The
+    kernels that take most of the time are compiled first. workers: how many processes, None: one fewer than there are
+    cores, at least one. They start when something is to be compiled, as `python -m`, so a script needs no guard; a
+    frozen program has none, and compiles in a thread. Without numba nothing changes. Call it before the first step;
+    another call returns the same object. Raises ValueError for a number of workers below 0.
+    """
+    if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
+        raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
+    if not _running:
+        _running.append(Background(workers))
+    return _running[0]
+
+
+class Background:
+    """What is to be compiled for this program, and how far that is. Made by compile_in_background()."""
+
+    def __init__(self, workers: int | None = None) -> None:
+        self.workers = Workers(WORKER, workers)
+        if workers is None:
+            self.workers.limit = max(1, self.workers.count - 1)
+        self.failed: list[str] = []  # names of kernels that stay plain
+        self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> what is to run from it
+        self._ordered: set[str] = set()
+        self._expected: deque[tuple[int, dict[str, Any]]] = deque()
+        self._jobs = 0
+        self._wake, self._stopped = threading.Event(), False
+        self._thread = threading.Thread(target=self._work, daemon=True)
+        if JIT:
+            tiers.start(self._wake.set)
+            self._thread.start()
+
+    @property
+    def share(self) -> float:
+        """How many of the kernels that were called run compiled, 0..1."""
+        return tiers.share_taken_over()
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is wanted, expected or being compiled."""
+        return not tiers.wanted and not self._expected and not self.workers.left
+
+    def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
+        """Compile what physics.warmup(**job) would, when nothing is wanted at once; the first job first."""
+        for job in jobs:
+            self._expected.append((self._jobs, dict(job)))
+            self._jobs += 1
+        self._wake.set()
+
+    def stop(self) -> None:
+        """End the processes; what is compiled stays. From now on a kernel is compiled at its first call again."""
+        self._stopped = True
+        self._wake.set()
+        self.workers.stop()
+        if self in _running:
+            _running.remove(self)
+            tiers.stop()
+
+    def _work(self):
+        """Look for what is wanted, until stopped, in a thread of its own."""
+        if compiler() is None:
+            tiers.stop()
+            return
+        from physics.jit import compiling
+
+        compiling.prepare()
+        tiers.load = compiling.load
+        while not self._stopped:
+            self._wake.wait()
+            self._wake.clear()
+            for kernel, keys in list(tiers.wanted):
+                self._find(kernel, keys)
+            while self._expected and not self._stopped:
+                self._list(*self._expected.popleft())
+
+    def _find(self, kernel, keys):
+        """Load a wanted kernel, or have it compiled."""
+        from physics.jit import compiling
+
+        name = compiling.name_of(kernel, keys)
+        waiting = self._waiting.setdefault(name, [])
+        if (kernel, keys) in waiting:
+            return
+        waiting.append((kernel, keys))
+        form = compiling.load(kernel, keys)
+        if form is not None:
+            self._arrive(name)
+        elif self.workers.alive:
+            from physics.jit.specs import spec_of
+
+            self._order(name, spec_of(kernel), keys, 0)
+        else:
+            compiling.load_or_compile(kernel, keys)
+            self._arrive(name)
+
+    def _order(self, name, spec, keys, index):
+        """Have a kernel compiled: at once if it is wanted, the one with most of the time first; else in its turn."""
+        if name in self._ordered:
+            return
+        self._ordered.add(name)
+
+        def urgency():
+            waiting = self._waiting.get(name)
+            return 1.0 + sum(kernel.seconds for kernel, _ in waiting) if waiting else -index - 0.5
+
+        def done(answer):
+            if answer != name:
+                self.failed.append(name)
+                for each in self._waiting.pop(name, []):
+                    tiers.wanted.pop(each, None)
+            self._arrive(name)
+
+        self.workers.add([Task(("compile", spec, keys), urgency, done)])
+
+    def _arrive(self, name):
+        from physics.jit import compiling
+
+        for kernel, keys in self._waiting.pop(name, []):
+            form = compiling.load(kernel, keys)
+            if form is not None:
+                tiers.arrived.append((kernel, keys, form))
+
+    def _list(self, index, job):
+        """Have a job's kernels listed and compiled, unless an earlier start found nothing left of it."""
+        mark = _mark(json.dumps(job, sort_keys=True))
+        if store().has(mark) or not self.workers.alive:
+            return
+
+        def done(answer):
+            if answer == []:
+                store().write(mark, b"")
+            for name, spec, keys in answer or ():
+                self._order(name, spec, keys, index)
+
+        self.workers.add([Task(("list", job), lambda: -float(index), done)])
+
+
+def _mark(job):
+    """Return the name of a file that says: all kernels of this job are compiled, from these sources."""
+    from physics.jit.content import environment
+
+    digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
+    return f"all.{digest}"
+
+
+@cache
+def _sources():
+    digest = blake2b(digest_size=20)
+    for path in sorted(Path(__file__).parent.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | None = None) -> None:
+    """Compile kernels with all cores, load them, and return when they are ready.
+
+    found: (kernel, types), as tiers.collecting() gives them; progress(done, total, name) is called before each is
+    ready. What no process can compile is compiled here.
+    """
+    order = _spread(dict.fromkeys(found))
+    if not order:
+        return
+    from physics.jit import compiling
+    from physics.jit.specs import spec_of
+
+    names = {compiling.name_of(kernel, keys): (kernel, keys) for kernel, keys in order}
+    told: list[str] = []
+
+    def tell(name):
+        if progress and name not in told:
+            progress(len(told), len(names), name.partition("(")[0])
+        told.append(name)
+
+    workers = Workers(WORKER)
+    if workers.count > 1 and len(names) > FEW:
+        specs = [("compile", spec_of(kernel), keys) for kernel, keys in names.values()]
+        places = zip(names, specs, range(len(names)), strict=True)
+        workers.add([Task(spec, lambda n=n: -n, lambda _, name=name: tell(name)) for name, spec, n in places])
+        try:
+            workers.wait()
+        finally:
+            workers.stop()
+    for name, (kernel, keys) in names.items():
+        if name not in told:
+            tell(name)
+        kernel.install(keys, compiling.load_or_compile(kernel, keys))
+
+
+def compile_jobs(
+    jobs: Iterable[Mapping[str, Any]], progress: Progress | None = None, processes: int | None = None
+) -> None:
+    """Compile what physics.warmup(**job) would compile, for many jobs, with all cores; nothing is loaded here.
+
+    progress(done, total, name): of kernels; `total` grows while jobs are listed. A job of which an earlier call has
+    left nothing to compile is not listed again. Raises RuntimeError naming what could not be compiled.
+    """
+    if not JIT or compiler() is None:
+        return
+    marks = {_mark(json.dumps(job, sort_keys=True)): job for job in jobs}
+    workers = Workers(WORKER, processes)
+    ordered: dict[str, None] = {}
+    failed: list[str] = []
+    done = 0
+
+    def finished(name, answer):
+        nonlocal done
+        done += 1
+        if answer != name:
+            failed.append(name)
+        if progress:
+            progress(done, len(ordered), name)
+
+    def listed(mark, job, answer):
+        if answer is None:
+            failed.append(json.dumps(job))
+        fresh = [each for each in answer or () if each[0] not in ordered]
+        ordered.update(dict.fromkeys(name for name, *_ in fresh))
+        if progress:
+            progress(done, len(ordered), "")
+        tasks = [("compile", spec, keys) for _, spec, keys in fresh]
+        names = [name for name, *_ in fresh]
+        workers.add(
+            [
+                Task(order, lambda: 0.0, lambda found, name=name: finished(name, found))
+                for order, name in zip(tasks, names, strict=True)
+            ]
+        )
+
+    left = {mark: job for mark, job in marks.items() if not store().has(mark)}
+    orders = [(("list", job), mark, job) for mark, job in left.items()]
+    workers.add([Task(each, lambda: 1.0, lambda found, m=m, j=j: listed(m, j, found)) for each, m, j in orders])
+    try:
+        workers.wait()
+    finally:
+        workers.stop()
+    if failed:
+        raise RuntimeError(f"{len(failed)} kernels could not be compiled: {', '.join(failed[:5])}")
+    for mark in left:
+        store().write(mark, b"")
+
+
+def _spread(found):
+    """Return kernels in the order in which each adds most to those before: processes that share the work are then at
+    different parts of the physics, and seldom wait for one another (measured with the platformer on two cores: 1 % of
+    the processes' time was waiting, 14 % with the longest code first)."""
+    left = {each: _parts_of(each[0]) for each in found}
+    order, covered = [], set()
+    while left:
+        first = max(left, key=lambda each: sum(size for part, size in left[each].items() if part not in covered))
+        covered.update(left.pop(first))
+        order.append(first)
+    return order
+
+
+def _parts_of(kernel):
+    """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
+    found: dict[Any, int] = {}
+    todo = [kernel]
+    while todo:
+        each = todo.pop()
+        if each not in found:
+            function = each.py_func
+            found[each] = len(function.__code__.co_code)
+            values = [value for _, value in globals_of(function)]
+            values += [cell.cell_contents for cell in function.__closure__ or ()]
+            todo += [value for value in values if isinstance(value, Kernel)]
+    return found
+
+
+class StderrProgress:
+    """Says on standard error how far compiling is, once it has taken over a second: over one line of a terminal, else a
+    line every ten seconds."""
+
+    def __init__(self, quiet: float = 1.0) -> None:
+        self.started = self.told = perf_counter()
+        self.quiet = quiet
+        self.shown = False
+
+    def __call__(self, done: int, total: int, name: str) -> None:
+        """Say it, if it is time to."""
+        now = perf_counter()
+        if sys.stderr is None or now - self.started < self.quiet:
+            return
+        if sys.stderr.isatty():
+            sys.stderr.write(f"\rhitbox: compiling the physics, {done} of {total} ready, {now - self.started:.0f} s ")
+        elif not self.shown or now - self.told >= 10.0:
+            self.told = now
+            sys.stderr.write(f"hitbox: compiling the physics, {done} of {total} ready\n")
+        self.shown = True
+        sys.stderr.flush()
+
+    def end(self) -> None:
+        """Say how long it took, if anything was said."""
+        if self.shown and sys.stderr is not None:
+            lead = "\r" if sys.stderr.isatty() else ""
+            sys.stderr.write(f"{lead}hitbox: physics compiled in {perf_counter() - self.started:.0f} s{' ' * 24}\n")
+            sys.stderr.flush()

@@ -1,0 +1,61 @@
+"""`python -m physics.compile_worker`: compiles kernels for another process, which tells it what, a line at a time.
+
+("compile", spec, keys) compiles one kernel and keeps it (physics/jit/store.py); the answer is its name. ("list",
+arguments of physics.warmup) runs that warm-up plain, and answers with (name, spec, keys) of each kernel of it that is
+not kept yet. The answer is None where a task fails. The process ends with its standard input.
+"""
+
+import contextlib
+import os
+import queue
+import sys
+import threading
+import traceback
+from typing import Any
+
+NICE = 10  # of the system's 0 to 19: the program goes first
+
+
+def answer(order: tuple) -> Any:
+    """Do one task and return what it comes to."""
+    from physics.effects import Effects
+    from physics.jit import compiling, specs, tiers
+    from physics.warmup import run_warmup
+
+    if order[0] == "compile":
+        kernel = specs.kernel_of(order[1])
+        compiling.load_or_compile(kernel, order[2])
+        return compiling.name_of(kernel, order[2])
+    with tiers.collecting() as found:
+        run_warmup(**{**order[1], "effects": Effects.named(order[1]["effects"])})
+    return [(compiling.name_of(kernel, keys), specs.spec_of(kernel), keys) for kernel, keys in found]
+
+
+def main() -> None:
+    """Answer one order after the other until standard input ends; then end, even amid one."""
+    from physics.jit.workers import decoded, encoded
+
+    with contextlib.suppress(OSError, AttributeError):
+        os.nice(NICE)
+    answers, orders = sys.stdout, queue.SimpleQueue()
+    sys.stdout = sys.stderr  # nothing else gets between the answers
+
+    def listen():
+        for line in sys.stdin:
+            orders.put(line)
+        os._exit(0)
+
+    threading.Thread(target=listen, daemon=True).start()
+    while True:
+        order = decoded(orders.get())
+        try:
+            found = answer(order)
+        except Exception:  # told by None: the program goes on plain, and the next task may be sound
+            traceback.print_exc()
+            found = None
+        answers.write(encoded(found) + "\n")
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,297 @@
+"""Compiled forms of kernels: loaded from the store, or compiled and kept there. Imported only where numba is.
+
+A stage's kernel is kept as machine code, and linked straight into numba's engine when it is loaded: that takes no types
+and none of numba's tables (measured: 1 to 3 ms, where numba's own way takes 9 to 53). A part is kept as code for
+linking (parts.py). Both are named by content (content.py), and so are their symbols: numba's own hold a counter of the
+process, with which parts of two processes can be linked to the wrong code.
+"""
+
+import hashlib
+import importlib
+import pickle
+import secrets
+import zlib
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from time import perf_counter
+from typing import Any
+
+import llvmlite.binding as llvm
+from numba import _dynfunc
+from numba.core import bytecode, caching, types
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.environment import Environment, lookup_environment
+from numba.core.registry import cpu_target
+from numba.core.runtime import _nrt_python
+
+from physics.jit import parts, totals
+from physics.jit.compiler import compiler
+from physics.jit.content import NotHashable, content_of_library, fingerprint
+from physics.jit.kernels import Form, Kernel, Keys
+from physics.jit.signatures import text_of, type_of
+from physics.jit.store import store
+from physics.jit.twins import rebound
+from physics.jit.words import Builtin
+
+# No kernel makes an array, so none counts references; and only stages' kernels need an entry from Python. Measured:
+# compiling what the platformer needs takes 145 s of processor time, with both 190, on one busy machine.
+LEANER = {"_nrt": False, "no_cfunc_wrapper": True}
+READABLE = 48  # characters of a kernel's name in the name of its file
+
+
+def file_name(kernel: Kernel, types_text: str) -> str:
+    """Return the name under which a form is kept: readable, then the kernel's fingerprint, then its types."""
+    readable = f"{kernel.__module__.partition('.')[2]}.{kernel.__name__}"[-READABLE:]
+    return f"{readable}.{fingerprint(kernel)}.{hashlib.blake2b(types_text.encode(), digest_size=8).hexdigest()}"
+
+
+def name_of(kernel: Kernel, keys: Keys) -> str:
+    """Return the name under which a stage's kernel is kept for arguments of these types."""
+    return file_name(kernel, ",".join(map(text_of, keys)))
+
+
+def load(kernel: Kernel, keys: Keys) -> Form | None:
+    """Return the compiled form of a kernel from the store; None where it is not there."""
+    content = store().read(name_of(kernel, keys))
+    if content is None:
+        return None
+    started = perf_counter()
+    form = _link(pickle.loads(zlib.decompress(content)))
+    totals.loaded += 1
+    totals.loading += perf_counter() - started
+    return form
+
+
+def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
+    """Return the compiled form of a kernel, compiled and kept where it was not in the store yet."""
+    form = load(kernel, keys)
+    if form is None:
+        with store().claim(name_of(kernel, keys)):
+            form = load(kernel, keys) or _compile(kernel, keys)
+    return form
+
+
+def _compile(kernel, keys):
+    found = tuple(map(type_of, keys))
+    with totals.compiling(), global_compiler_lock, stable_symbols(), _claims():
+        made = dispatcher_of(kernel)
+        made.compile(found)
+        result = made.overloads[found]
+    store().write(name_of(kernel, keys), zlib.compress(pickle.dumps(_kept(result)), 1))
+    return result.entry_point
+
+
+def _kept(result):
+    """Return what is kept of a stage's kernel: names, constants that its entry uses, machine code."""
+    descriptor = result.fndesc
+    constants = [
+        (each.env_name, each.globals["__name__"], list(each.consts)) for each in result._find_referenced_environments()
+    ]
+    return (
+        descriptor.modname,
+        descriptor.qualname,
+        descriptor.llvm_cpython_wrapper_name,
+        descriptor.env_name,
+        constants,
+        result.library._get_compiled_object(),
+    )
+
+
+def prepare() -> None:
+    """Start LLVM, so that the first kernel that is loaded does not wait for it."""
+    with global_compiler_lock:
+        cpu_target.target_context.codegen()
+        _add_runtime_symbols()
+
+
+def _link(kept):
+    """Return the function that the machine code holds, linked into numba's engine."""
+    modname, qualname, symbol, env_name, constants, code = kept
+    with global_compiler_lock:
+        generator = cpu_target.target_context.codegen()
+        _add_runtime_symbols()
+        engine = generator._engine
+        engine._ee.add_object_file(llvm.ObjectFileRef.from_data(code))
+        engine.finalize_object()
+        address = engine.get_function_address(symbol)
+        environments = {}
+        for name, module, values in constants:
+            environments[name] = _environment(name, module, values)
+            generator.set_env(name, environments[name])
+        if env_name not in environments:
+            environments[env_name] = _environment(env_name, modname, [])
+    name = qualname.rpartition(".")[2]
+    module = importlib.import_module(modname)
+    return _dynfunc.make_function(module, name, "", address, environments[env_name], tuple(environments.values()))
+
+
+def _environment(name, module, values):
+    """Return what compiled code knows of its module: its globals and constants."""
+    known = lookup_environment(name)
+    if known is not None:
+        return known
+    made = Environment(importlib.import_module(module).__dict__)
+    made.consts[:] = values
+    made.env_name = name
+    Environment._memo[name] = made
+    return made
+
+
+_runtime: list[bool] = []
+
+
+def _add_runtime_symbols():
+    """Tell LLVM where numba's runtime is, which numba itself does when it compiles for the first time."""
+    if not _runtime:
+        for name, address in _nrt_python.c_helpers.items():
+            llvm.add_symbol(name if name.startswith("_") else f"NRT_{name}", address)
+        _runtime.append(True)
+
+
+_UNDER_WAY = object()
+
+
+def dispatcher_of(kernel: Kernel) -> Any:
+    """Return numba's dispatcher of a kernel, whose function names the dispatchers of all that it calls."""
+    if kernel.dispatcher is _UNDER_WAY:
+        raise TypeError(f"{kernel.name} calls itself, which kernels do not")
+    if kernel.dispatcher is None:
+        kernel.dispatcher = _UNDER_WAY
+        more = LEANER | ({"pipeline_class": parts.PartCompiler} if kernel.is_part else {})
+        twin = rebound(kernel.py_func, _compiled_form_of)
+        twin.noalias = kernel.noalias
+        twin.content = fingerprint(kernel)
+        kernel.dispatcher = compiler().njit(
+            twin,
+            error_model="numpy",
+            fastmath=False,
+            no_cpython_wrapper=kernel.is_part,
+            forceinline=kernel.is_inlined,
+            **more,
+        )
+        _take_literals_as_values(kernel.dispatcher)
+        if kernel.is_part:
+            kernel.dispatcher._cache = PartCache(kernel)
+    return kernel.dispatcher
+
+
+def _compiled_form_of(value):
+    if isinstance(value, Kernel):
+        return dispatcher_of(value)
+    return value.compiled if isinstance(value, Builtin) else value
+
+
+def _take_literals_as_values(dispatcher):
+    """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
+
+    Measured: compiling what the platformer needs takes 136 s of processor time with them, 80 s without.
+    """
+    general = dispatcher.get_call_template
+
+    def get_call_template(args, kws):
+        return general(
+            tuple(types.unliteral(each) for each in args), {name: types.unliteral(each) for name, each in kws.items()}
+        )
+
+    dispatcher.get_call_template = get_call_template
+
+
+_claimed: dict[str, ExitStack] = {}  # file name -> what lets it go, of all parts that are being compiled here
+
+
+@contextmanager
+def _claims():
+    """Let go at the end what an error has left claimed."""
+    try:
+        yield
+    finally:
+        for claim in _claimed.values():
+            claim.close()
+        _claimed.clear()
+
+
+class PartCache(caching._Cache):
+    """The store, as numba's dispatcher of a part asks it."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.kernel = kernel
+
+    @property
+    def cache_path(self) -> str:
+        """The folder."""
+        return str(store().folder)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return a kept part; if it is not there, claim it, so that other processes wait for it."""
+        name = self._name(sig)
+        content = store().read(name)
+        if content is None and name not in _claimed:
+            _claimed[name] = ExitStack()  # of what is called, never of what calls: no ring of waiting
+            _claimed[name].enter_context(store().claim(name))
+            content = store().read(name)
+        if content is None:
+            return None
+        if name in _claimed:
+            _claimed.pop(name).close()
+        target_context.refresh()
+        totals.parts_loaded += 1
+        return parts.rebuild(target_context, pickle.loads(zlib.decompress(content)))
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep a part."""
+        name = self._name(sig)
+        store().write(name, zlib.compress(pickle.dumps(parts.reduce(data)), 1))
+        if name in _claimed:
+            _claimed.pop(name).close()
+
+    def _name(self, sig):
+        return file_name(self.kernel, ",".join(map(_type_text, sig)))
+
+    def enable(self) -> None:
+        """Do nothing: the store is always on."""
+
+    def disable(self) -> None:
+        """Do nothing: the store is always on."""
+
+    def flush(self) -> None:
+        """Do nothing: files of other contents have other names."""
+
+
+def _type_text(found):
+    """Return a numba type as text that differs for different types."""
+    if isinstance(found, types.BaseNamedTuple):
+        kind = found.instance_class
+        return f"{kind.__module__}.{kind.__qualname__}{kind._fields}({','.join(map(_type_text, found))})"
+    if isinstance(found, types.BaseTuple):
+        return f"({','.join(map(_type_text, found))})"
+    return str(found)
+
+
+@contextmanager
+def stable_symbols() -> Iterator[None]:
+    """While this lasts, numba names what it compiles by content, in place of a counter of the process."""
+    identity = bytecode.FunctionIdentity
+    counted = identity.__dict__["from_function"]
+
+    def from_function(cls, pyfunc):
+        made = counted.__func__(cls, pyfunc)
+        made.unique_id = _symbol(made.func)
+        made.unique_name = f"{made.func_qualname}${made.unique_id}"
+        return made
+
+    identity.from_function = classmethod(from_function)
+    try:
+        yield
+    finally:
+        identity.from_function = counted
+
+
+def _symbol(function):
+    """Return text that differs for different functions in every process: a hash of the content, else a random one."""
+    content = getattr(function, "content", None)
+    if content is not None:
+        return content
+    try:
+        return content_of_library(function)
+    except NotHashable:
+        return secrets.token_hex(20)

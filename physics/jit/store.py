@@ -1,0 +1,252 @@
+"""Compiled kernels on disk, in a folder of the user's own: its files are code, so it is checked before any is loaded.
+
+One file per kernel and types, named by all that its contents follow from, with a checksum in front. A file appears
+whole (written beside, renamed) and is removed when it was not used for KEPT, or first when the folder outgrows LIMIT.
+"""
+
+import atexit
+import contextlib
+import hashlib
+import os
+import shutil
+import stat
+import sys
+import tempfile
+import time
+import warnings
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
+
+LIMIT = 240 << 20  # bytes: two checkouts and a bounds-checked run, at most 80 MB each
+KEPT = 14 * 86_400.0  # [s] that a file stays without being used
+DAY = 86_400.0  # [s] between two sweeps of a folder, and between two notes that a file was used
+ABANDONED = 3_600.0  # [s] after which an unfinished file is nobody's any more
+PATIENCE = 120.0  # [s] to wait for another process that compiles the same kernel
+POLL = 0.02  # [s]
+CHECKSUM = 16  # bytes
+SUFFIX, UNFINISHED, CLAIMED = ".kernel", ".part", ".claim"
+TEMPORARY = "hitbox-kernels-"  # beginning of the names of folders for one run
+
+
+def cache_home() -> Path:
+    """Return the folder for compiled kernels by the platform's rule, or HITBOX_CACHE_DIR, without creating it."""
+    override = os.environ.get("HITBOX_CACHE_DIR")
+    if override:
+        return Path(override)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local")) / "hitbox" / "compiled"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "hitbox" / "compiled"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "hitbox" / "compiled"
+
+
+def make_private(folder: Path) -> str:
+    """Make a folder that only this user can read and write; return "" or why it is not one.
+
+    An existing folder is never changed, but for the permission of others to read it where it holds nothing else.
+    """
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(FileExistsError):
+            folder.mkdir(mode=0o700)
+        if folder.is_symlink():
+            return f"{folder} is a link"
+        if not folder.is_dir():
+            return f"{folder} is not a folder"
+        problem = _exposed(folder.resolve()) if hasattr(os, "getuid") else ""
+        if not problem:
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        return problem
+    except OSError as error:
+        return f"{folder}: {error.strerror or error}"
+
+
+def _exposed(folder):
+    """Return how somebody else could put code into the folder, or read it; "" if nobody can."""
+    info = folder.stat()
+    if info.st_uid != os.getuid():
+        return f"{folder} belongs to another user"
+    if info.st_mode & 0o022:
+        return f"{folder} can be written by others (mode {stat.S_IMODE(info.st_mode):04o}, 0700 is needed)"
+    for above in folder.parents:
+        mode = above.stat().st_mode
+        if mode & stat.S_IWOTH and not mode & stat.S_ISVTX:
+            return f"{above}, in which {folder} lies, can be written by others"
+    if info.st_mode & 0o077:
+        if any(not each.name.endswith((SUFFIX, UNFINISHED, CLAIMED)) for each in folder.iterdir()):
+            return f"{folder} holds other files and can be read by others"
+        folder.chmod(0o700)
+    return ""
+
+
+@cache
+def store() -> "Store":
+    """Return the store of this process: the user's folder, or one beside it, or where neither is private or can be
+    written a new temporary one for this run, which is reported."""
+    home = cache_home().absolute()
+    problem = make_private(home)
+    if not problem:
+        return Store(home)
+    beside = home.with_name(f"{home.name}-private")
+    if not make_private(beside):
+        return Store(beside)
+    made = Store(Path(tempfile.mkdtemp(prefix=TEMPORARY)))
+    _remove_at_exit(made.folder)
+    if sys.stderr is not None:
+        sys.stderr.write(f"hitbox: compiled kernels are kept for this run only: {problem}\n")
+    return made
+
+
+def _remove_at_exit(folder):
+    """Remove a temporary folder at exit; a lock on a file in it says until then that it is in use."""
+    lock = _locked(folder / "in-use", wait=False)
+
+    def remove():
+        shutil.rmtree(folder, ignore_errors=True)
+        if lock is not None:
+            lock.close()
+
+    atexit.register(remove)
+
+
+def _locked(path, wait):
+    """Return an open file with an exclusive lock, which ends with the process; None if another process has it.
+
+    Where a system has no such locks, everybody gets one: at worst work is done twice.
+    """
+    file = open(path, "ab")  # noqa: SIM115, closed by whoever holds the lock
+    if fcntl is None:
+        return file
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except BlockingIOError:
+        file.close()
+        return None
+    except OSError:
+        return file  # on a file system without locks
+    return file
+
+
+class Store:
+    """The files in one private folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._said: set[str] = set()
+        self._swept = False
+
+    def read(self, name: str) -> bytes | None:
+        """Return the contents of a file, and note that it was used; None if it is not there or damaged."""
+        path = self.folder / (name + SUFFIX)
+        try:
+            with open(path, "rb", opener=_no_link) as file:
+                info = os.fstat(file.fileno())
+                content = file.read()
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            self._say(f"compiled kernel {path.name} cannot be read ({error.strerror or error}): compiled again")
+            return None
+        foreign = hasattr(os, "getuid") and info.st_uid != os.getuid()
+        if foreign or content[:CHECKSUM] != checksum(content[CHECKSUM:]):
+            self._say(f"compiled kernel {path.name} is damaged: compiled again")
+            with contextlib.suppress(OSError):
+                path.unlink()
+            return None
+        if time.time() - info.st_mtime > DAY:
+            with contextlib.suppress(OSError):
+                os.utime(path)
+        return content[CHECKSUM:]
+
+    def has(self, name: str) -> bool:
+        """Return whether a file of that name is there."""
+        return (self.folder / (name + SUFFIX)).exists()
+
+    def write(self, name: str, content: bytes) -> None:
+        """Keep contents under a name; where that fails, say so once and go on without."""
+        path = self.folder / (name + SUFFIX)
+        beside = self.folder / f"{name}.{os.getpid()}{UNFINISHED}"
+        try:
+            if not self._swept:
+                self.sweep()
+            beside.write_bytes(checksum(content) + content)
+            beside.replace(path)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                beside.unlink(missing_ok=True)
+            self._say(f"compiled kernels cannot be kept in {self.folder} ({error.strerror or error})")
+
+    def _say(self, line):
+        if line not in self._said:
+            self._said.add(line)
+            warnings.warn(line, stacklevel=3)
+
+    def sweep(self) -> None:
+        """Remove what was not used for KEPT, then what was not used for longest until the rest fits into LIMIT, and
+        what killed processes have left behind."""
+        self._swept = True
+        now = time.time()
+        found = []
+        for path in self.folder.iterdir():
+            with contextlib.suppress(OSError):
+                info = path.lstat()
+                age = now - info.st_mtime
+                if path.suffix == SUFFIX and age <= KEPT:
+                    found.append((info.st_mtime, info.st_size, path))
+                elif path.suffix == SUFFIX or (path.suffix in (UNFINISHED, CLAIMED) and age > ABANDONED):
+                    path.unlink()
+        size = sum(each for _, each, _ in found)
+        for _, each, path in sorted(found):
+            if size <= LIMIT:
+                break
+            size -= each
+            with contextlib.suppress(OSError):
+                path.unlink()
+        _sweep_temporary()
+
+    @contextlib.contextmanager
+    def claim(self, name: str) -> Iterator[None]:
+        """Hold the right to make a file: while one process compiles a kernel, others wait for it, up to PATIENCE."""
+        path, lock, until = self.folder / (name + CLAIMED), None, time.monotonic() + PATIENCE
+        with contextlib.suppress(OSError):
+            while (lock := _locked(path, wait=False)) is None and time.monotonic() < until:
+                time.sleep(POLL)
+        try:
+            yield
+        finally:
+            if lock is not None:
+                with contextlib.suppress(OSError):
+                    path.unlink()
+                lock.close()
+
+
+def checksum(content: bytes) -> bytes:
+    """Return the checksum that stands in front of a file's contents."""
+    return hashlib.blake2b(content, digest_size=CHECKSUM).digest()
+
+
+def _no_link(path, flags):
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))
+
+
+def _sweep_temporary():
+    """Remove the temporary folders of runs that were killed: those of this user whose lock nobody holds."""
+    if fcntl is None:
+        return
+    for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):
+        with contextlib.suppress(OSError):
+            if folder.is_symlink() or folder.stat().st_uid != os.getuid():
+                continue
+            if time.time() - folder.stat().st_mtime < 60.0 and not (folder / "in-use").exists():
+                continue  # made a moment ago
+            lock = _locked(folder / "in-use", wait=False)
+            if lock is not None:
+                shutil.rmtree(folder, ignore_errors=True)
+                lock.close()

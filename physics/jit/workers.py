@@ -1,0 +1,189 @@
+"""Worker processes that compile kernels, and the order in which they do.
+
+A worker is told one task at a time, as a line, and answers with a line. It ends with its standard input, so that it
+never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice is given up, and
+its kernel stays plain.
+"""
+
+import atexit
+import base64
+import contextlib
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from physics.jit.store import store
+
+ROOT = Path(__file__).resolve().parents[__package__.count(".") + 1]  # the folder that holds this package
+MOST = 8  # processes: each takes 150 MB
+HUNG = 300.0  # [s] without an answer
+ATTEMPTS = 2
+
+
+def cores_here() -> int:
+    """Return how many cores this program may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return max(1, len(affinity(0)) if affinity else os.cpu_count() or 1)
+
+
+def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
+    """Start `python -m module` with pipes for lines: of low priority where the system starts it so, deaf to Ctrl-C.
+
+    environment: more for its own. It imports this package, whatever the current folder holds. Raises OSError or
+    ValueError where it cannot be started.
+    """
+    path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+    options: dict[str, Any] = {"start_new_session": True}
+    if sys.platform == "win32":
+        options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
+    return subprocess.Popen(
+        [sys.executable, "-P", "-m", module],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, **environment, "PYTHONPATH": path},
+        **options,
+    )
+
+
+def encoded(value: Any) -> str:
+    """Return a value as one line of text."""
+    return base64.b64encode(pickle.dumps(value)).decode()
+
+
+def decoded(line: str) -> Any:
+    """Return the value of such a line. Only for lines of our own processes."""
+    return pickle.loads(base64.b64decode(line))
+
+
+class Task:
+    """Work for one process. urgency(): the largest goes first; done(answer) is called with it in the worker's thread,
+    None where it failed."""
+
+    def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
+        self.order, self.urgency, self.done = order, urgency, done
+        self.attempts = 0
+
+
+class Workers:
+    """A pool of processes of one module. `limit`: how many of them may work now."""
+
+    def __init__(self, module: str, count: int | None = None) -> None:
+        self.module = module
+        self.count = 0 if getattr(sys, "frozen", False) else min(cores_here() if count is None else count, MOST)
+        self._limit = self.count
+        self._tasks: list[Task] = []
+        self._under_way = 0
+        self._processes: dict[int, subprocess.Popen[str]] = {}
+        self._stopped = False
+        self._changed = threading.Condition()
+        self._threads: list[threading.Thread] = []
+        atexit.register(self.stop)
+
+    @property
+    def limit(self) -> int:
+        """How many processes may work now; one that is at a task finishes it."""
+        return self._limit
+
+    @limit.setter
+    def limit(self, value: int) -> None:
+        with self._changed:
+            self._limit = value
+            self._changed.notify_all()
+
+    @property
+    def left(self) -> int:
+        """How many tasks are waiting or under way."""
+        return len(self._tasks) + self._under_way
+
+    @property
+    def alive(self) -> bool:
+        """Whether there are, or can be, processes."""
+        return self.count > 0 and not self._stopped
+
+    def add(self, tasks: list[Task]) -> None:
+        """Give tasks; the first ones start the processes."""
+        with self._changed:
+            self._tasks += tasks
+            while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):
+                number = len(self._threads)
+                self._threads.append(threading.Thread(target=self._serve, args=(number,), daemon=True))
+                self._threads[-1].start()
+            self._changed.notify_all()
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Wait until nothing is left to do; return whether that is so."""
+        with self._changed:
+            return self._changed.wait_for(lambda: not self.left or not self.alive, seconds) and not self.left
+
+    def stop(self) -> None:
+        """End all processes. What they have compiled stays."""
+        with self._changed:
+            self._stopped = True
+            processes = list(self._processes.values())
+            self._changed.notify_all()
+        for process in processes:
+            process.kill()
+        for process in processes:
+            process.wait()
+        atexit.unregister(self.stop)
+
+    def _serve(self, number):
+        """Hand one task after the other to process `number`, in a thread of its own."""
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
+                if self._stopped:
+                    return
+                task = max(self._tasks, key=lambda each: each.urgency())
+                self._tasks.remove(task)
+                self._under_way += 1
+            try:
+                answered, answer = self._ask(number, task.order)
+            except (OSError, ValueError):  # no process can be started, or its pipe broke
+                answered, answer = False, None
+            if not answered and not self._stopped:
+                task.attempts += 1
+                if task.attempts < ATTEMPTS:
+                    with self._changed:
+                        self._tasks.append(task)
+                        self._under_way -= 1
+                    continue
+            task.done(answer)  # may add tasks, so before it counts as done
+            with self._changed:
+                self._under_way -= 1
+                self._changed.notify_all()
+
+    def _ask(self, number, order):
+        """Return (whether it answered, its answer); a process that has died or hangs is ended, and the next one started
+        with the next task."""
+        process = self._processes.get(number)
+        if process is None or process.poll() is not None:
+            process = start_module(self.module, HITBOX_CACHE_DIR=str(store().folder))
+            with self._changed:
+                self._processes[number] = process
+                if self._stopped:
+                    process.kill()
+        assert process.stdin is not None and process.stdout is not None
+        watch = threading.Timer(HUNG, process.kill)
+        watch.daemon = True
+        watch.start()
+        try:
+            process.stdin.write(encoded(order) + "\n")
+            process.stdin.flush()
+            line = process.stdout.readline()
+        finally:
+            watch.cancel()
+        if not line:
+            process.kill()
+            with contextlib.suppress(OSError):
+                process.stdin.close()
+            process.wait()
+            return False, None
+        return True, decoded(line)
