@@ -105,6 +105,8 @@ class App:
                 self._feed(event)
             frame = self.screen.turn(started, self._menu_steps(started), self.arcade.picture)
             self._after_drawing(frame)
+            if self.screen.running_clock is not None:
+                self.screen.running_clock.note(perf_counter() - started)
         except UsageError as error:
             if self.options.is_a_run:
                 raise

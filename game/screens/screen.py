@@ -6,7 +6,6 @@ draws at the window's resolution (SceneScreen).
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
-from time import perf_counter
 from typing import Any
 
 import pygame
@@ -40,6 +39,11 @@ class Screen:
     def __init__(self) -> None:
         self.outcome: Outcome | None = None
         self.cues: list[str] = []
+
+    @property
+    def running_clock(self) -> FixedStep | None:
+        """The clock by which a scene's steps are due; None where none is shown."""
+        return None
 
     @property
     def finished(self) -> bool:
@@ -92,11 +96,6 @@ class SceneScreen(Screen, ABC):
 
     shows_scene = True
 
-    @property
-    @abstractmethod
-    def running_clock(self) -> FixedStep | None:
-        """The clock by which the scene's steps are due; None while there is no scene."""
-
     @abstractmethod
     def advance(self, now: float) -> None:
         """Make the steps that are due at `now` [s]."""
@@ -107,9 +106,5 @@ class SceneScreen(Screen, ABC):
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
         """One turn of the program's loop at `now` [s]. Returns the frame, which the frame time may be written on."""
-        started = perf_counter()
         self.advance(now)
-        frame = self.draw(picture)
-        if self.running_clock is not None:
-            self.running_clock.note(perf_counter() - started)
-        return frame
+        return self.draw(picture)
