@@ -133,11 +133,15 @@ class Background:
             return 1.0 + sum(kernel.seconds for kernel, _ in waiting) if waiting else -index - 0.5
 
         def done(answer):
-            if answer != name:
+            if answer == name:
+                self._arrive(name)
+            elif self.workers.alive:
                 self.failed.append(name)
                 for each in self._waiting.pop(name, []):
                     tiers.wanted.pop(each, None)
-            self._arrive(name)
+            else:  # there are no processes: the thread compiles it
+                self._waiting.pop(name, None)
+                self._wake.set()
 
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 

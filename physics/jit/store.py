@@ -12,6 +12,7 @@ import shutil
 import stat
 import sys
 import tempfile
+import threading
 import time
 import warnings
 from collections.abc import Iterator
@@ -31,7 +32,9 @@ PATIENCE = 120.0  # [s] to wait for another process that compiles the same kerne
 POLL = 0.02  # [s]
 CHECKSUM = 16  # bytes
 SUFFIX, UNFINISHED, CLAIMED = ".kernel", ".part", ".claim"
+
 TEMPORARY = "hitbox-kernels-"  # beginning of the names of folders for one run
+_opening = threading.Lock()
 
 
 def cache_home() -> Path:
@@ -52,9 +55,10 @@ def make_private(folder: Path) -> str:
     An existing folder is never changed, but for the permission of others to read it where it holds nothing else.
     """
     try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with contextlib.suppress(FileExistsError):
-            folder.mkdir(mode=0o700)
+        for each in (*reversed(folder.parents), folder):
+            if not os.path.lexists(each):  # whatever the umask: others write to none of them
+                with contextlib.suppress(FileExistsError):
+                    each.mkdir(mode=0o700)
         if folder.is_symlink():
             return f"{folder} is a link"
         if not folder.is_dir():
@@ -86,10 +90,15 @@ def _exposed(folder):
     return ""
 
 
-@cache
 def store() -> "Store":
     """Return the store of this process: the user's folder, or one beside it, or where neither is private or can be
     written a new temporary one for this run, which is reported."""
+    with _opening:
+        return _open_store()
+
+
+@cache
+def _open_store():
     home = cache_home().absolute()
     problem = make_private(home)
     if not problem:

@@ -1,8 +1,8 @@
 """Worker processes that compile kernels, and the order in which they do.
 
 A worker is told one task at a time, as a line, and answers with a line. It ends with its standard input, so that it
-never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice is given up, and
-its kernel stays plain.
+never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. Where one
+after the other dies without an answer, no more is started, and all tasks fail at once.
 """
 
 import atexit
@@ -23,6 +23,8 @@ ROOT = Path(__file__).resolve().parents[__package__.count(".") + 1]  # the folde
 MOST = 8  # processes: each takes 150 MB
 HUNG = 300.0  # [s] without an answer
 ATTEMPTS = 2
+MARK = "hitbox "  # begins a line that is meant: libraries greet
+DEATHS = 4  # processes that die one after the other without an answer, before no more is started
 
 
 def cores_here() -> int:
@@ -54,12 +56,12 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 def encoded(value: Any) -> str:
     """Return a value as one line of text."""
-    return base64.b64encode(pickle.dumps(value)).decode()
+    return MARK + base64.b64encode(pickle.dumps(value)).decode()
 
 
 def decoded(line: str) -> Any:
     """Return the value of such a line. Only for lines of our own processes."""
-    return pickle.loads(base64.b64decode(line))
+    return pickle.loads(base64.b64decode(line.removeprefix(MARK)))
 
 
 class Task:
@@ -82,6 +84,7 @@ class Workers:
         self._under_way = 0
         self._processes: dict[int, subprocess.Popen[str]] = {}
         self._stopped = False
+        self._deaths = 0  # since the last answer
         self._changed = threading.Condition()
         self._threads: list[threading.Thread] = []
         atexit.register(self.stop)
@@ -105,7 +108,7 @@ class Workers:
     @property
     def alive(self) -> bool:
         """Whether there are, or can be, processes."""
-        return self.count > 0 and not self._stopped
+        return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
         """Give tasks; the first ones start the processes."""
@@ -120,7 +123,7 @@ class Workers:
     def wait(self, seconds: float | None = None) -> bool:
         """Wait until nothing is left to do; return whether that is so."""
         with self._changed:
-            return self._changed.wait_for(lambda: not self.left or not self.alive, seconds) and not self.left
+            return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
     def stop(self) -> None:
         """End all processes. What they have compiled stays."""
@@ -144,13 +147,14 @@ class Workers:
                 task = max(self._tasks, key=lambda each: each.urgency())
                 self._tasks.remove(task)
                 self._under_way += 1
-            try:
-                answered, answer = self._ask(number, task.order)
-            except (OSError, ValueError):  # no process can be started, or its pipe broke
-                answered, answer = False, None
+            answered, answer = False, None
+            if self.alive:
+                with contextlib.suppress(OSError, ValueError):  # no process can be started, or its pipe broke
+                    answered, answer = self._ask(number, task.order)
+                self._deaths = 0 if answered else self._deaths + 1
             if not answered and not self._stopped:
                 task.attempts += 1
-                if task.attempts < ATTEMPTS:
+                if self.alive and task.attempts < ATTEMPTS:
                     with self._changed:
                         self._tasks.append(task)
                         self._under_way -= 1
@@ -177,7 +181,8 @@ class Workers:
         try:
             process.stdin.write(encoded(order) + "\n")
             process.stdin.flush()
-            line = process.stdout.readline()
+            while (line := process.stdout.readline()) and not line.startswith(MARK):
+                pass
         finally:
             watch.cancel()
         if not line:
