@@ -6,7 +6,7 @@ from time import perf_counter
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD
+from game.drawing.colors import GOLD
 from game.drawing.presenter import Frame
 from game.drawing.typical import Typical
 from game.drawing.window import open_window
@@ -21,6 +21,7 @@ from game.run.loop import FixedStep
 from game.run.options import Options
 from game.run.picture import save_png
 from game.screens.arcade import Arcade
+from game.screens.parts.status_line import draw_in_a_corner
 from game.screens.parts.wipe import Wipe
 from game.screens.screen import Outcome
 from game.screens.stack import AnyScreen, Screens
@@ -105,8 +106,7 @@ class App:
                 self._feed(event)
             frame = self.screen.turn(started, self._menu_steps(started), self.arcade.picture)
             self._after_drawing(frame)
-            if self.screen.running_clock is not None:
-                self.screen.running_clock.note(perf_counter() - started)
+            self.screen.note_busy(perf_counter() - started)
         except UsageError as error:
             if self.options.is_a_run:
                 raise
@@ -131,10 +131,9 @@ class App:
 
     def _after_drawing(self, frame: Frame | None) -> None:
         if frame is not None and self.beside is not None and (share := self.beside.share) < 1.0:
-            area = frame.area.clip(frame.rect)
-            text, height = f"getting faster: {share:.0%}", frame.measure("0", SMALL, frame.text_scale)[1]
-            x, y = area.right - 4 * frame.text_scale, area.bottom - height - 4 * frame.text_scale
-            frame.text_if_free(text, x, y, FOG, SMALL, frame.text_scale, "right", True)
+            play = self.screens.played
+            lighter = play.lighter.line if play is not None and play.lighter is not None else ""
+            draw_in_a_corner(frame, f"{lighter or 'getting faster'}: {share:.0%}")
         if frame is not None and self.settings.show_fps:
             text = f"{self.frame_time.value * 1000:.1f} ms a frame"
             x, y = frame.area.right - 4, frame.area.top + 4

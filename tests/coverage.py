@@ -20,10 +20,8 @@ ASKED = 95.0  # percent of all lines
 BLOCKS = "without numba a block is one lane wide: none is left over"
 # What no test without numba runs: where, what the line says (a pattern), and why. The first that fits.
 EXPLAINED = (
-    ("physics/jit/compile_time.py", "", "what numba asks while it compiles: there is nothing to compile here"),
-    ("physics/jit/dispatchers.py", "", "kernels as numba's dispatchers: never imported without it"),
-    ("physics/jit/files.py", "", "files of compiled kernels: never imported without numba"),
-    ("physics/jit/folders.py", "", "folders of compiled kernels: never imported without numba"),
+    ("physics/jit/compiling.py", "", "numba itself: never imported without it"),
+    ("physics/jit/content.py", "", "names of what is compiled: nothing is"),
     ("physics/jit/parts.py", "", "how kernels are linked to one another: never imported without numba"),
     ("physics/jit/words.py", "", "words of 64 bits as numba has them: here they are Python's numbers"),
     ("physics/jit/", "", "where numba is, or is switched off"),

@@ -23,6 +23,7 @@ from game.scene import Scene
 from game.screens.parts.apart import Apart
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
+from game.screens.parts.lighter import Lighter
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
@@ -80,6 +81,7 @@ class Play(SceneScreen):
         self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
         self.why = Why(scene)
+        self.lighter = Lighter(scene, devices) if self.person else None
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
         self.assisted = False
@@ -94,6 +96,12 @@ class Play(SceneScreen):
     def running_clock(self) -> FixedStep:
         """The clock by which the scene's steps are due."""
         return self.clock
+
+    def note_busy(self, seconds: float) -> None:
+        """Take note of how long [s] the steps and the picture of this frame took."""
+        super().note_busy(seconds)
+        if self.lighter is not None:
+            self.lighter.note(seconds)
 
     @property
     def tune(self) -> str | None:

@@ -45,6 +45,11 @@ class Screen:
         """The clock by which a scene's steps are due; None where none is shown."""
         return None
 
+    def note_busy(self, seconds: float) -> None:
+        """Take note of how long [s] the steps and the picture of this frame took."""
+        if self.running_clock is not None:
+            self.running_clock.note(seconds)
+
     @property
     def finished(self) -> bool:
         """True when the run that the command line asked for has made its last step: the program ends."""

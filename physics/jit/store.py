@@ -164,7 +164,7 @@ class Store:
             self._say(f"compiled kernel {path.name} cannot be read ({error.strerror or error}): compiled again")
             return None
         foreign = hasattr(os, "getuid") and info.st_uid != os.getuid()
-        if foreign or content[:CHECKSUM] != checksum(content[CHECKSUM:]):
+        if foreign or content[:CHECKSUM] != checksum(name, content[CHECKSUM:]):
             self._say(f"compiled kernel {path.name} is damaged: compiled again")
             with contextlib.suppress(OSError):
                 path.unlink()
@@ -185,7 +185,7 @@ class Store:
         try:
             if not self._swept:
                 self.sweep()
-            beside.write_bytes(checksum(content) + content)
+            beside.write_bytes(checksum(name, content) + content)
             beside.replace(path)
         except OSError as error:
             with contextlib.suppress(OSError):
@@ -236,9 +236,9 @@ class Store:
                 lock.close()
 
 
-def checksum(content: bytes) -> bytes:
-    """Return the checksum that stands in front of a file's contents."""
-    return hashlib.blake2b(content, digest_size=CHECKSUM).digest()
+def checksum(name: str, content: bytes) -> bytes:
+    """Return the checksum that stands in front of a file's contents; another name has another."""
+    return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 
 def _no_link(path, flags):

@@ -78,3 +78,61 @@ def test_nothing_is_compiled_in_the_middle_of_a_game(name):
     )
     late = json.loads(run.stdout.splitlines()[-1])
     assert not late, f"{name}: its warm-up leaves out {', '.join(late)}"
+
+
+EVERYTHING = """
+import json, sys
+from game.run.headless import start_dummy_display
+start_dummy_display()
+from game.registry import Registry
+from game.run.session import Session
+from game.run.sources import BotSource
+from physics import BROADPHASES
+from physics.jit import totals
+from scenes import SCENES
+
+scene_class = Registry(SCENES).scene_class(sys.argv[1])
+chosen = [{}]
+chosen += [{"solver": name} for name in scene_class.valid_solvers()]
+chosen += [{"broadphase": name} for name in BROADPHASES if scene_class.switches_broadphase]
+chosen += [{"tier": name} for name in scene_class.tiers]
+for settings in chosen:
+    session = Session(scene_class(1, **settings), BotSource())
+    for _ in range(40):
+        session.step()
+print(json.dumps([len(chosen), totals.compiled, totals.loaded]))
+"""
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
+@pytest.mark.parametrize("name", SCENES)
+def test_a_second_process_compiles_nothing(name):
+    """With every solver, tier and broad phase that the scene offers, whatever the order in which sets are hashed."""
+    found = []
+    for seed in ("3", "4"):
+        run = subprocess.run(
+            [sys.executable, "-c", EVERYTHING, name],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONHASHSEED": seed},
+        )
+        found.append(json.loads(run.stdout.splitlines()[-1]))
+    settings, compiled, loaded = found[1]
+    assert settings >= 1 and compiled == 0 and loaded > 0
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
+@pytest.mark.parametrize("command", [["main.py", "--report", "FOLDER", "--quick"], ["-m", "tests.bench", "--quick"]])
+def test_a_second_report_and_a_second_benchmark_compile_nothing(command, tmp_path):
+    """Whichever of their processes would: the folder holds the same kernels afterwards."""
+    from physics.jit.store import store
+
+    kept = []
+    for number in range(2):
+        arguments = [each.replace("FOLDER", str(tmp_path / str(number))) for each in command]
+        subprocess.run([sys.executable, *arguments], capture_output=True, check=True)
+        kept.append({path.name for path in store().folder.glob("*.kernel")})
+    assert kept[0] == kept[1] and kept[0]

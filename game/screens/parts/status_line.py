@@ -3,7 +3,7 @@
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import GOLD, INK, PAPER, Color
+from game.drawing.colors import FOG, GOLD, INK, PAPER, Color
 from game.drawing.presenter import Frame
 from game.input.bindings import help_pairs
 from game.screens.parts.played import Played
@@ -44,6 +44,23 @@ def status_of(play: Played) -> tuple[str, Color]:
         offer = [f"R {scene.offer}"] if scene.offer else []
         return GAP.join([*offer, *parts, "1-9 see", "Tab panel", "M costs", "Esc menu"]), GOLD if offer else PAPER
     return "", PAPER
+
+
+def draw_in_a_corner(frame: Frame, text: str) -> None:
+    """Draw a small line in the first corner that is free; nowhere if none is."""
+    scale = frame.text_scale
+    width, height = frame.measure(text, SMALL, scale)
+    area = frame.area.clip(frame.rect)
+    size = (width + 4 * scale, height + 4 * scale)
+    right, bottom = area.right - size[0] - 2 * scale, area.bottom - size[1] - 2 * scale
+    left, top = area.left + 2 * scale, area.top + 2 * scale
+    rows = [bottom - number * size[1] for number in range(20)]
+    place = frame.free_place(size, [*((right, y) for y in rows), *((left, y) for y in rows), (right, top), (left, top)])
+    if place is not None:
+        shade = pygame.Surface(size, pygame.SRCALPHA)
+        shade.fill(SHADE)
+        frame.surface.blit(shade, place)
+        frame.text(text, place[0] + 2 * scale, place[1] + 2 * scale, FOG, SMALL, scale)
 
 
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
