@@ -17,9 +17,22 @@ from physics.jit.calls import StageKernel
 from physics.jit.compiler import JIT
 from physics.jit.kernels import Part, registry
 from physics.jit.views import view_of
-from physics.jit.words import popcount, word
+from physics.jit.words import Builtin, popcount, put_in, word
 
-__all__ = ["DECORATORS", "JIT", "generic", "inlined", "kernel", "popcount", "registry", "separate", "subkernel", "word"]
+__all__ = [
+    "Builtin",
+    "DECORATORS",
+    "JIT",
+    "generic",
+    "inlined",
+    "kernel",
+    "popcount",
+    "put_in",
+    "registry",
+    "separate",
+    "subkernel",
+    "word",
+]
 
 DECORATORS = ("generic", "inlined", "kernel", "separate", "subkernel")  # by name, for what reads sources
 

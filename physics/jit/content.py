@@ -117,6 +117,8 @@ def _describe(value, names=()):
         for each in value.sources:
             yield f"builtin {each.__qualname__}"
             yield from _describe_code(each.__code__)
+            for cell in each.__closure__ or ():
+                yield from _describe(cell.cell_contents)
     elif isinstance(value, tuple):
         yield f"tuple {len(value)}"
         if kind is not tuple:

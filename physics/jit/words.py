@@ -62,9 +62,10 @@ def _make_popcount():
     return intrinsic(_count_bits)
 
 
-def _make_word():
-    return compiler().njit(inline="always")(_as_word)
+def put_in(function: Callable) -> Callable[[], Any]:
+    """Return what makes the function as numba puts it in wherever it is called."""
+    return lambda: compiler().njit(inline="always")(function)
 
 
 popcount: Any = Builtin(_bits_of, _make_popcount, _count_bits) if JIT else _bits_of
-word: Any = Builtin(_masked, _make_word, _as_word) if JIT else _masked
+word: Any = Builtin(_masked, put_in(_as_word), _as_word) if JIT else _masked

@@ -10,7 +10,7 @@ from physics.jit import kernel, subkernel
 from physics.solver import lanes as at
 from physics.solver.bounce import restore_bounces
 from physics.solver.contacts import ContactSet, make_friction_limit
-from physics.solver.lanes import LANES, SIZE, Blocks, lay_out, pack_row, repack_impulses, unpack_row
+from physics.solver.lanes import LANES, SIZE, Blocks, lanes_of, lay_out, pack_row, repack_impulses, unpack_row
 from physics.solver.motions import Motions
 from physics.solver.pace import Pace
 from physics.solver.rows import BOTH, PREPARE_ROW
@@ -87,7 +87,7 @@ def take_elastic(blocks, count, constraints_out):
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(LANES):
+        for lane in range(lanes_of(blocks.manifold, block)):
             if c[at.RESTITUTION + lane] > 0.0 and c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
                 take_out(blocks, block, lane, found, constraints_out)
                 found += 1
@@ -100,7 +100,7 @@ def take_rubbed(blocks, count, constraints_out):
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(LANES):
+        for lane in range(lanes_of(blocks.manifold, block)):
             limit = c[at.FRICTION + lane]
             if (
                 abs(c[at.TANGENT_TOTAL_1 + lane]) > limit * c[at.TOTAL_1 + lane]

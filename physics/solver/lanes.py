@@ -6,11 +6,11 @@ that joins nothing to nothing. Sums are those of one row after the other, to the
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.jit import JIT, inlined, subkernel
+from physics.jit import JIT, Builtin, inlined, put_in, subkernel
 from physics.settings import COLORS
 from physics.solver.pace import firmness_of
 from physics.tables.lines import zeros_in_lines
@@ -76,6 +76,26 @@ LANES = 8 if JIT else 1
     line * LANES for line in range(16)
 )
 PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears nothing, and is let out of its overlap
+
+
+def _lanes_in_use(manifolds, block):
+    """Return how many lanes of a block hold a row: the first ones. What is not compiled skips the others."""
+    count = 0
+    while count < LANES and manifolds[block, count] >= 0:
+        count += 1
+    return count
+
+
+def _make_all_lanes(count):
+    def all_lanes(manifolds, block):
+        return count
+
+    return all_lanes
+
+
+ALL_LANES = _make_all_lanes(LANES)
+# A compiled pass takes the empty lanes too, where its sums come to nothing: a fixed number makes vector instructions.
+lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else _lanes_in_use
 
 
 @subkernel

@@ -10,7 +10,7 @@ from physics.jit import inlined, separate, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.lane_motions import gather_poses, gather_speeds, levers_of, measure_gaps, scatter_speeds
-from physics.solver.lanes import FREE, LANES, PRESSED, SIZE
+from physics.solver.lanes import FREE, PRESSED, SIZE, lanes_of
 from physics.solver.overlaps import wanted_apart
 from physics.solver.two_points import solve_two
 
@@ -143,14 +143,15 @@ def make_warm_lanes(rotation: bool) -> Callable:
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-            for lane in range(LANES):
+            wide = lanes_of(blocks_inout.manifold, block)
+            for lane in range(wide):
                 gather_speeds(
                     motions_inout[blocks_inout.motion_a[block, lane]],
                     motions_inout[blocks_inout.motion_b[block, lane]],
                     lane,
                     s,
                 )
-            for lane in range(LANES):
+            for lane in range(wide):
                 nx = c[at.NX + lane]
                 ny = c[at.NY + lane]
                 x = c[at.NORMAL_1 + lane] * nx - c[at.TANGENT_1 + lane] * ny
@@ -168,7 +169,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
                 s[at.VY_A + lane] -= c[at.IM_A + lane] * (y + v)
                 s[at.VX_B + lane] += c[at.IM_B + lane] * (x + u)
                 s[at.VY_B + lane] += c[at.IM_B + lane] * (y + v)
-            for lane in range(LANES):
+            for lane in range(wide):
                 scatter_speeds(
                     s,
                     lane,
@@ -190,7 +191,8 @@ def forget_impulses(members, count, motions_inout, blocks_inout):
         m.free_w = m.angular_velocity
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(LANES):
+        wide = lanes_of(blocks_inout.manifold, block)
+        for lane in range(wide):
             c[at.NORMAL_1 + lane] = 0.0
             c[at.TANGENT_1 + lane] = 0.0
             c[at.NORMAL_2 + lane] = 0.0
@@ -219,13 +221,14 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-            for lane in range(LANES):
+            wide = lanes_of(blocks_inout.manifold, block)
+            for lane in range(wide):
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
                 gather_speeds(a, b, lane, s)
                 if last:
                     gather_poses(a, b, lane, s)
-            for lane in range(LANES):
+            for lane in range(wide):
                 nx = c[at.NX + lane]
                 ny = c[at.NY + lane]
                 ii_a = c[at.II_A + lane]
@@ -317,7 +320,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 if rotation:
                     s[at.W_A + lane] = wa
                     s[at.W_B + lane] = wb
-            for lane in range(LANES):
+            for lane in range(wide):
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
                 if biased and s[at.OUTCOME + lane] > 0.0:
