@@ -100,7 +100,14 @@ def take_interrupts(handler: "object") -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def say(line: str) -> None:
-    """Print one line for the person at the terminal; never on standard output."""
+def say(line: str, whole: bool = False) -> None:
+    """Print one line of at most errors.LONGEST letters on standard error, where there is one.
+
+    whole: the line is the program's own, or bounded but for a list of the program's own names, and is not cut.
+    """
     if line and sys.stderr is not None:  # closed, or a start without a terminal
+        if not whole:
+            from game.errors import brief
+
+            line = brief(line)
         sys.stderr.write("hitbox: " + line + "\n")

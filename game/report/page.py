@@ -3,6 +3,9 @@
 import csv
 import io
 import json
+import shlex
+import subprocess
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -80,8 +83,14 @@ def _chart(measured, told, folder, quick):
 
 
 def command(row: Row, folder: str, quick: bool) -> str:
-    """What measures a row again."""
-    return f"python main.py --report {folder}{' --quick' if quick else ''} --only {row['job']}"
+    """Return the line for a shell that measures a row again."""
+    report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
+    return quoted(["python", "main.py", *report, *(["--quick"] if quick else []), "--only", row["job"]])
+
+
+def quoted(arguments: Sequence[str]) -> str:
+    """Return the arguments as one line that the system's shell takes apart into them again."""
+    return subprocess.list2cmdline(arguments) if sys.platform == "win32" else shlex.join(arguments)
 
 
 def _claims(claims: Iterable[Claim]):
