@@ -2,31 +2,43 @@
 
 import contextlib
 import os
+import site
 import subprocess
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[1]  # of the sources: game/, scenes/ and the others lie in it, side by side
+IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the folder that this module's name begins in
 
 
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """`python -m module` with pipes for lines, of low priority where the system starts it so, deaf to Ctrl-C in the
-    terminal; environment: more for its own. Raises OSError, ValueError where none can be started."""
-    path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+    """Start `python -m module` with pipes for lines, of low priority, deaf to Ctrl-C in the terminal.
+
+    module: its full name, as in f"{__package__}.worker". The child imports what this program does, and nothing from the
+    current folder: a `physics.py` or `numpy.py` there is the user's own. environment: more for its own. Raises OSError,
+    ValueError where none can be started.
+    """
     options: dict[str, Any] = {"start_new_session": True}
     if sys.platform == "win32":
         options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
     return subprocess.Popen(
-        [sys.executable, "-m", module],
+        [sys.executable, "-P", "-m", module],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
-        env={**os.environ, **environment, "PYTHONPATH": path},
+        env={**os.environ, **search_path(), **environment},
         **options,
     )
+
+
+def search_path() -> dict[str, str]:
+    """Return PYTHONPATH for a process that is to find this program where this one does; {} where it does by itself."""
+    if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
+        return {}  # named again, site-packages would stand before the standard library
+    return {"PYTHONPATH": os.pathsep.join(filter(None, (str(IMPORTED_FROM), os.environ.get("PYTHONPATH"))))}
 
 
 def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:

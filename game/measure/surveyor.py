@@ -112,7 +112,7 @@ class Surveyor:
         """Start the process where there is none; whether there is one, which is then busy."""
         if self.process is None:
             try:
-                self.process = start_module("game.measure.worker")
+                self.process = start_module(f"{__package__}.worker")
                 self.folder = tempfile.TemporaryDirectory(prefix="hitbox-", ignore_cleanup_errors=True)
             except (OSError, ValueError) as error:
                 self.stop()

@@ -124,7 +124,7 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))
 
-    counting = start_module("game.measure.kernel_counts", HITBOX_LISTING="1")
+    counting = start_module(f"{__package__}.kernel_counts", HITBOX_LISTING="1")
     try:
         assert counting.stdin is not None and counting.stdout is not None
         asked = {"effects": moment.effects.names(), "broadphase": order["broadphase"], "pieces": order["pieces"]}

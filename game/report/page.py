@@ -16,6 +16,7 @@ from game.report.chart import Chart
 from game.report.claim import Claim
 from game.report.job import Row
 from game.report.plots import draw, shown
+from game.startup import START
 
 PAGE = Path(__file__).with_name("page.html")
 
@@ -85,7 +86,7 @@ def _chart(measured, told, folder, quick):
 def command(row: Row, folder: str, quick: bool) -> str:
     """Return the line for a shell that measures a row again."""
     report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
-    return quoted(["python", "main.py", *report, *(["--quick"] if quick else []), "--only", row["job"]])
+    return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
 
 
 def quoted(arguments: Sequence[str]) -> str:
