@@ -14,7 +14,7 @@ def main(argv=None):
     handler = startup.end_quietly_on_interrupt()
     problem = startup.python_problem(sys.version_info, sys.executable) or startup.package_problem()
     if problem:
-        startup.say(problem)
+        startup.say(problem, whole=True)  # an old Python could not read what cuts it
         return 2
     startup.prepare_environment()
 

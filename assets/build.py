@@ -14,27 +14,27 @@ from assets.audio import music, sounds
 from assets.craft import ogg, png
 from assets.craft.ogg import Recording
 
-# name of the product -> (module, function, arguments); imported when built, so a part can be built by itself.
+# name of the product -> (module, of this package if it begins with a dot, function, arguments); imported when built.
 PRODUCTS = {
-    "font/font5x7": ("assets.ui.font", "font_files", ("font5x7",)),
-    "font/font3x5": ("assets.ui.font", "font_files", ("font3x5",)),
+    "font/font5x7": (".ui.font", "font_files", ("font5x7",)),
+    "font/font3x5": (".ui.font", "font_files", ("font3x5",)),
     **sounds.PRODUCTS,
     **music.PRODUCTS,
-    "images/planes": ("assets.shooter.aircraft", "planes_files", ()),
-    "images/effects": ("assets.shooter.effects", "effects_files", ()),
-    "images/hero": ("assets.platformer.hero", "hero_files", ()),
-    "images/things": ("assets.platformer.things", "things_files", ()),
-    "images/lab": ("assets.lab.pieces", "lab_files", ()),
-    "images/backdrops_lab": ("assets.lab.earth", "earth_files", ()),
-    "images/tiles": ("assets.platformer.tiles", "tiles_files", ()),
-    "images/lander": ("assets.lander.sheet", "lander_files", ()),
-    "images/backdrops_lander": ("assets.lander.heavens", "heavens_files", ()),
-    "images/backdrops_lander_ground": ("assets.lander.ground", "ground_files", ()),
-    "images/ui": ("assets.ui.sheet", "ui_files", ()),
-    "images/backdrops_shooter": ("assets.shooter.backdrops", "backdrop_files", ()),
-    "images/backdrops_platformer": ("assets.platformer.backdrops", "backdrop_files", ()),
-    "images/pictures": ("assets.publish.films", "picture_files", ()),
-    "levels/platformer": ("assets.platformer.tiled", "level_files", ()),
+    "images/planes": (".shooter.aircraft", "planes_files", ()),
+    "images/effects": (".shooter.effects", "effects_files", ()),
+    "images/hero": (".platformer.hero", "hero_files", ()),
+    "images/things": (".platformer.things", "things_files", ()),
+    "images/lab": (".lab.pieces", "lab_files", ()),
+    "images/backdrops_lab": (".lab.earth", "earth_files", ()),
+    "images/tiles": (".platformer.tiles", "tiles_files", ()),
+    "images/lander": (".lander.sheet", "lander_files", ()),
+    "images/backdrops_lander": (".lander.heavens", "heavens_files", ()),
+    "images/backdrops_lander_ground": (".lander.ground", "ground_files", ()),
+    "images/ui": (".ui.sheet", "ui_files", ()),
+    "images/backdrops_shooter": (".shooter.backdrops", "backdrop_files", ()),
+    "images/backdrops_platformer": (".platformer.backdrops", "backdrop_files", ()),
+    "images/pictures": (".publish.films", "picture_files", ()),
+    "levels/platformer": (".platformer.tiled", "level_files", ()),
 }
 
 
@@ -46,7 +46,7 @@ def make(name):
     if name not in PRODUCTS:
         raise KeyError(f"no product {name!r}; choose one of {', '.join(PRODUCTS)}")
     module, function, arguments = PRODUCTS[name]
-    return getattr(importlib.import_module(module), function)(*arguments)
+    return getattr(importlib.import_module(module, __package__), function)(*arguments)
 
 
 def differences(name):
@@ -95,7 +95,9 @@ def write(name):
 
 def main(arguments=None):
     """Run the command line. Returns the exit code: 0 fine, 1 a file differs, 2 nothing of that name."""
-    parser = argparse.ArgumentParser(prog="python -m assets.build", description="Write or check the files of assets/.")
+    parser = argparse.ArgumentParser(
+        prog=f"python -m {__package__}.build", description="Write or check the files of assets/."
+    )
     parser.add_argument("part", nargs="?", default="", help="only products whose name contains this")
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a file differs")
     options = parser.parse_args(arguments)

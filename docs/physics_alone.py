@@ -2,7 +2,7 @@
 
 import pygame
 
-from physics import Effects, Filter, PixelMask, World
+from hitbox.physics import Effects, Filter, PixelMask, World
 
 BULLET, ENEMY = 1, 2
 

@@ -12,6 +12,7 @@ from game.drawing.typical import Typical
 from game.drawing.window import open_window
 from game.errors import UsageError
 from game.files.data_folder import data_folder, free_name
+from game.files.leftovers import remove_leftovers
 from game.files.settings import Settings, load_settings
 from game.input.inputs import InputState
 from game.registry import Registry
@@ -33,6 +34,7 @@ QUIET = 0.3  # of the music's volume while nobody plays
 
 def run_app(options: Options, registry: Registry) -> int:
     """Open the window and run until it is closed. Returns the exit code."""
+    remove_leftovers(data_folder())
     settings, message = load_settings()
     say(message)
     beside = Beside(registry)

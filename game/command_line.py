@@ -8,10 +8,12 @@ import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
+from stat import S_ISDIR
 from typing import NoReturn
 
 from game import VERSION, startup
-from game.errors import ReplayDiverged, StrictFailure, UsageError, unknown_name
+from game.errors import ReplayDiverged, StrictFailure, UsageError, brief, unknown_name
+from game.files.data_folder import is_there
 from game.files.own_levels import level_digest
 from game.overlays.layer import LAYER_NAMES
 from game.registry import Registry
@@ -39,7 +41,10 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()  # here it can still be said that it was not written
         return code
-    except (UsageError, ReplayDiverged, StrictFailure) as error:
+    except UsageError as error:
+        startup.say(str(error), whole=True)
+        return error.exit_code
+    except (ReplayDiverged, StrictFailure) as error:
         startup.say(str(error))
         return error.exit_code
     except Warning as warning:  # --strict makes every warning an error
@@ -117,9 +122,7 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
         raise UsageError(f"--seed must be 0 to {LARGEST_SEED} (got {options.seed})")
     for flag in ("record", "screenshot"):
-        name = getattr(options, flag)
-        if name and Path(name).is_dir():  # not only after everything was played
-            raise UsageError(f"--{flag}: {name} is a folder; it takes the name of a file")
+        _check_output(flag, getattr(options, flag))
     if options.replay and (options.bot or options.record):
         raise UsageError("--replay brings its own input: leave out --bot and --record")
     options.recording = load_replay_for(options.replay, registry)[0] if options.replay else None
@@ -137,6 +140,17 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
                 f"valid: {', '.join(valid)}"
             )
     return options
+
+
+def _check_output(flag, name):
+    """What cannot be a file is told at once, not only after everything was played."""
+    try:
+        is_folder = name and is_there(Path(name)) and S_ISDIR(Path(name).stat().st_mode)
+    except (OSError, ValueError) as error:  # ValueError: a name that no system has
+        reason = getattr(error, "strerror", None) or error
+        raise UsageError(f"--{flag}: {brief(name, 150)} cannot be written: {reason}") from error
+    if is_folder:
+        raise UsageError(f"--{flag}: {brief(name, 150)} is a folder; it takes the name of a file")
 
 
 def _check_advice(options):
@@ -197,7 +211,7 @@ def _take_from_recording(options):
     if recording is None:
         return
     if options.scene not in (None, recording.scene):
-        raise UsageError(f"{options.replay} is a recording of {recording.scene}, not of {options.scene}")
+        raise UsageError(f"{brief(options.replay, 150)} is a recording of {recording.scene}, not of {options.scene}")
     options.scene = recording.scene
     options.seed = recording.seed if options.seed is None else options.seed
     options.broadphase = options.broadphase or recording.broadphase
@@ -210,9 +224,9 @@ def _take_from_recording(options):
 def _needs_scene(options, registry):
     needing = [flag for flag in ("headless", "bot", "record", "screenshot", "profile") if getattr(options, flag)]
     if needing and options.scene is None:
-        raise UsageError(f"--{needing[0]} needs --scene; valid: {', '.join(registry.names)}")
+        raise UsageError(f"--{needing[0]} needs --scene", registry.names)
     if options.json and not (options.scene or options.list):
-        raise UsageError(f"--json needs --list or --scene; valid scenes: {', '.join(registry.names)}")
+        raise UsageError("--json needs --list or --scene", registry.names)
 
 
 def _check_tier(options, registry):
@@ -220,7 +234,7 @@ def _check_tier(options, registry):
 
     _known(options.tier, "tier", TIERS)
     if options.scene is None:
-        raise UsageError(f"--tier needs --scene; valid: {', '.join(registry.names)}")
+        raise UsageError("--tier needs --scene", registry.names)
     valid = registry.scene_class(options.scene).tiers
     if not valid:
         raise UsageError(f"--tier: {options.scene} has no sprite bodies to test at another tier")

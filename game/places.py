@@ -2,9 +2,12 @@
 
 from pathlib import Path
 
+from game.startup import IN_CHECKOUT
+
 ASSETS = Path(__file__).resolve().parent.parent / "assets"
 FONTS = ASSETS / "font"
 IMAGES = ASSETS / "images"
 SOUNDS = ASSETS / "sounds"
 MUSIC = ASSETS / "music"
 LEVELS = ASSETS / "levels"
+CURE = f"rebuild it with: python -m {ASSETS.name}.build" if IN_CHECKOUT else "install hitbox again"  # of a damaged one

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 OLDEST_PYTHON = (3, 11)
 INTERRUPTED = 130  # exit code of a program that Ctrl-C has ended
-INSTALL = "python -m pip install -e ."
+IN_CHECKOUT = __package__ == "game"  # or an editable install; a wheel has all of it in the package hitbox
+START = ("python", "main.py") if IN_CHECKOUT else ("hitbox",)  # what starts the program, as a person types it
 
 
 def python_problem(version: tuple, executable: str) -> str:
@@ -32,8 +33,15 @@ def package_problem() -> str:
 
     for module, package in (("numpy", "numpy"), ("pygame", "pygame-ce")):
         if find_spec(module) is None:
-            return "the package " + package + " is not installed; run: " + INSTALL
+            return "the package " + package + " is not installed; run: " + install()
     return ""
+
+
+def install(extra: str = "") -> str:
+    """Return the command that installs the program and what it needs; extra: with what an extra brings."""
+    if IN_CHECKOUT:
+        return "python -m pip install -e " + ('".[' + extra + ']"' if extra else ".")
+    return "python -m pip install " + ('"hitbox[' + extra + ']"' if extra else "hitbox")
 
 
 def installed(package: str) -> bool:
@@ -100,7 +108,14 @@ def take_interrupts(handler: "object") -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def say(line: str) -> None:
-    """Print one line for the person at the terminal; never on standard output."""
+def say(line: str, whole: bool = False) -> None:
+    """Print one line of at most errors.LONGEST letters on standard error, where there is one.
+
+    whole: the line is the program's own, or bounded but for a list of the program's own names, and is not cut.
+    """
     if line and sys.stderr is not None:  # closed, or a start without a terminal
+        if not whole:
+            from game.errors import brief
+
+            line = brief(line)
         sys.stderr.write("hitbox: " + line + "\n")

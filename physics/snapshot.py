@@ -1,9 +1,13 @@
 """Snapshots of a world, in memory and as `.npz` files without pickle."""
 
+import contextlib
 import io
 import json
 import lzma
 import os
+import re
+import stat
+import time
 import tokenize
 import zipfile
 import zlib
@@ -32,6 +36,7 @@ from physics.tables.shape import PART, SHAPE
 from physics.world_state import WorldState
 
 VERSION = 11
+ABANDONED = 3600.0  # [s] without a byte written to it: nobody is at work on such a file
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # come back with a snapshot
 DAMAGE = (
     ValueError,
@@ -96,12 +101,17 @@ class Snapshot:
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched."""
+        """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched.
+
+        It is written beside as <path>.<process>.part; one that a killed program left an hour ago or earlier is removed.
+        """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
         there = os.fspath(path)
         whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written to, not replaced
         beside = f"{there}.{os.getpid()}.part" if whole else there
+        if whole:
+            _remove_abandoned(there)
         try:
             with open(beside, "wb") as file:
                 np.savez_compressed(file, **named)
@@ -129,6 +139,17 @@ class Snapshot:
         except DAMAGE as error:
             raise ValueError(f"{path} is no snapshot of this program: {error!r}") from None
         return cls(arrays, facts, geometry)
+
+
+def _remove_abandoned(path: str) -> None:
+    """Remove what killed programs left of this file: its parts to which nothing was written for an hour."""
+    folder, name = os.path.split(os.path.abspath(path))
+    part = re.compile(re.escape(name) + r"\.[0-9]+\.part")
+    with contextlib.suppress(OSError):
+        for found in [os.path.join(folder, each) for each in os.listdir(folder) if part.fullmatch(each)]:
+            status = os.lstat(found)
+            if stat.S_ISREG(status.st_mode) and time.time() - status.st_mtime > ABANDONED:
+                os.remove(found)
 
 
 def take(world: WorldState) -> Snapshot:

@@ -1,42 +1,44 @@
-"""Every scene in menu order: name -> "module:Class", imported when first asked for.
+"""Every scene in menu order: SCENES is name -> "module:Class", imported when first asked for.
 
 A scene that is not listed here is not in the game; tests/scenes/test_registry.py compares the list with the
 folder, so a forgotten line fails.
 """
 
-SCENES = {
-    "shooter": "scenes.shooter.scene:Shooter",
-    "platformer": "scenes.platformer.scene:Platformer",
-    "lander": "scenes.lander.scene:Lander",
+PLACES = {  # name -> ".module:Class" in this package
+    "shooter": ".shooter.scene:Shooter",
+    "platformer": ".platformer.scene:Platformer",
+    "lander": ".lander.scene:Lander",
     # hard cases of all kinds
-    "lab/gallery": "scenes.lab.gallery.scene:Gallery",
+    "lab/gallery": ".lab.gallery.scene:Gallery",
     # what a scene asks for
-    "lab/effects": "scenes.lab.effects:EffectsLab",
+    "lab/effects": ".lab.effects:EffectsLab",
     # finding what touches
-    "lab/broadphases": "scenes.lab.broadphases:Broadphases",
-    "lab/masks": "scenes.lab.masks:Masks",
-    "lab/ladder": "scenes.lab.ladder:Ladder",
-    "lab/disagreement": "scenes.lab.disagreement:Disagreement",
-    "lab/shapes": "scenes.lab.shapes:Shapes",
-    "lab/queries": "scenes.lab.queries:Queries",
-    "lab/filters": "scenes.lab.filters:Filters",
-    "lab/sensors": "scenes.lab.sensors:Sensors",
+    "lab/broadphases": ".lab.broadphases:Broadphases",
+    "lab/masks": ".lab.masks:Masks",
+    "lab/ladder": ".lab.ladder:Ladder",
+    "lab/disagreement": ".lab.disagreement:Disagreement",
+    "lab/shapes": ".lab.shapes:Shapes",
+    "lab/queries": ".lab.queries:Queries",
+    "lab/filters": ".lab.filters:Filters",
+    "lab/sensors": ".lab.sensors:Sensors",
     # what leans and piles up
-    "lab/stacks": "scenes.lab.stacks:Stacks",
-    "lab/pyramid": "scenes.lab.pyramid:Pyramid",
-    "lab/card_house": "scenes.lab.card_house:CardHouse",
-    "lab/dominoes": "scenes.lab.dominoes:Dominoes",
-    "lab/tumbler": "scenes.lab.tumbler:Tumbler",
-    "lab/sleeping": "scenes.lab.sleeping:Sleeping",
-    "lab/mask_stack": "scenes.lab.mask_stack:MaskStack",
-    "lab/carving": "scenes.lab.carving:Carving",
+    "lab/stacks": ".lab.stacks:Stacks",
+    "lab/pyramid": ".lab.pyramid:Pyramid",
+    "lab/card_house": ".lab.card_house:CardHouse",
+    "lab/dominoes": ".lab.dominoes:Dominoes",
+    "lab/tumbler": ".lab.tumbler:Tumbler",
+    "lab/sleeping": ".lab.sleeping:Sleeping",
+    "lab/mask_stack": ".lab.mask_stack:MaskStack",
+    "lab/carving": ".lab.carving:Carving",
     # what collides and bounces
-    "lab/cradle": "scenes.lab.cradle:Cradle",
-    "lab/billiards": "scenes.lab.billiards:Billiards",
-    "lab/tunnelling": "scenes.lab.tunnelling:Tunnelling",
-    "lab/mask_sweep": "scenes.lab.mask_sweep:MaskSweep",
+    "lab/cradle": ".lab.cradle:Cradle",
+    "lab/billiards": ".lab.billiards:Billiards",
+    "lab/tunnelling": ".lab.tunnelling:Tunnelling",
+    "lab/mask_sweep": ".lab.mask_sweep:MaskSweep",
     # what things stand on
-    "lab/conveyor": "scenes.lab.conveyor:Conveyor",
-    "lab/one_way": "scenes.lab.one_way:OneWay",
-    "lab/ghost_bumps": "scenes.lab.ghost_bumps:GhostBumps",
+    "lab/conveyor": ".lab.conveyor:Conveyor",
+    "lab/one_way": ".lab.one_way:OneWay",
+    "lab/ghost_bumps": ".lab.ghost_bumps:GhostBumps",
 }
+
+SCENES = {name: f"{__name__}{place}" for name, place in PLACES.items()}

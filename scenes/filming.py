@@ -180,7 +180,7 @@ def reel(name, seed, first, last, every, columns=8):
 
 def read_arguments(arguments):
     """The parsed command line; leaves with exit code 2 and the reason where it is wrong."""
-    parser = argparse.ArgumentParser(prog="python -m scenes.filming", description="Film the games.")
+    parser = argparse.ArgumentParser(prog=f"python -m {__package__}.filming", description="Film the games.")
     films = parser.add_subparsers(dest="what", required=True)
     films.add_parser("pictures", help="the menu's pictures").add_argument("folder", type=Path)
     moments = films.add_parser("moments", help="a game's moments")

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.installed_names import as_in_a_checkout, layout_module
+
 ROOT = Path(__file__).resolve().parent.parent
 RECIPES = sorted((ROOT / "docs/cookbook").glob("*.py"))
 PAGE = (ROOT / "docs/cookbook.md").read_text()
@@ -15,11 +17,21 @@ QUIET = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SU
 
 
 @pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
-def test_a_recipe_runs_and_says_what_it_found(path):
+def test_a_recipe_runs_and_says_what_it_found(path, tmp_path):
+    recipe = tmp_path / path.name
+    recipe.write_text(as_in_a_checkout(path.read_text()))
     environment = {**os.environ, **QUIET, "PYTHONPATH": str(ROOT)}
-    run = subprocess.run([sys.executable, path], env=environment, capture_output=True, text=True, timeout=600)
+    run = subprocess.run([sys.executable, recipe], env=environment, capture_output=True, text=True, timeout=600)
     assert run.returncode == 0, run.stderr
     assert run.stdout.strip() and "assert " in path.read_text()
+
+
+@pytest.mark.parametrize("path", [*RECIPES, ROOT / "docs/physics_alone.py"], ids=lambda path: path.stem)
+def test_a_recipe_is_written_for_the_installed_package(path):
+    """What runs here is what a wheel runs: the build turns the one into the other."""
+    source = path.read_text()
+    assert "from hitbox.physics import" in source
+    assert layout_module().converted(as_in_a_checkout(source)) == (source, [])
 
 
 def test_the_page_shows_exactly_the_code_of_each():

@@ -1,7 +1,6 @@
 """What the documents promise: the example runs, its lines stand in the text, the README's commands are there."""
 
 import ast
-import importlib.util
 import math
 import re
 from pathlib import Path
@@ -10,19 +9,28 @@ import pygame
 import pytest
 
 from physics import Effects, PixelMask, World
+from tests.installed_names import as_in_a_checkout
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def load_example():
-    specification = importlib.util.spec_from_file_location("physics_alone", ROOT / "docs/physics_alone.py")
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+def run(source, name):
+    """The names that a piece of code for an installed hitbox defines."""
+    found = {"__name__": name}
+    exec(compile(as_in_a_checkout(source), name, "exec"), found)
+    return found
 
 
 def test_the_example_finds_the_hits_that_groupcollide_finds():
-    assert load_example().main() > 0
+    assert run((ROOT / "docs/physics_alone.py").read_text(), "physics_alone")["main"]() > 0
+
+
+def test_the_ten_lines_of_the_readme_run(capsys):
+    text = (ROOT / "README.md").read_text()
+    (lines,) = re.findall(r"^## A world in ten lines\n.*?```python\n(.*?)```", text, re.S | re.M)
+    assert "from hitbox.physics import" in lines and len(lines.splitlines()) <= 10
+    run(lines, "ten_lines")
+    assert "hit at" in capsys.readouterr().out
 
 
 def test_the_lines_of_the_text_are_lines_of_the_example():

@@ -1,12 +1,25 @@
-"""What is installed: every kind of file that the game reads, one version, a licence; hooks run tools of the extras."""
+"""What is installed: every kind of file that the game reads, one version, a licence; hooks run tools of the extras.
 
+The long ones build a wheel and a source distribution, install the wheel beside a user's own modules of the same names,
+and run it from inside that project: what it finds there is what the checkout finds here.
+"""
+
+import json
+import os
 import re
+import subprocess
+import sys
+import sysconfig
 import tomllib
+import zipfile
 from pathlib import Path
+from tarfile import open as open_tar
+from types import SimpleNamespace
 
 import pytest
 
 from game import VERSION
+from tests.installed_names import as_in_a_checkout, own_modules
 
 ROOT = Path(__file__).resolve().parent.parent
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -63,3 +76,212 @@ def test_each_hook_runs_a_tool_of_an_extra():
     offered = {re.split(r"[<>=]", each)[0] for extra in ("dev", "test") for each in extras[extra]}
     tools = re.findall(r"entry: \.venv/bin/python -m (\w+)", hooks)
     assert len(tools) == hooks.count("entry:") == 4 and set(tools) <= offered
+
+
+BUILD = """
+import backend, sys
+_, folder, *hooks = sys.argv  # setuptools has others in their place
+print(*[getattr(backend, hook)(folder) for hook in hooks])
+"""
+QUIET = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+PLAIN = {"NUMBA_DISABLE_JIT": "1"}  # the same bits as compiled, and nothing to wait for
+
+
+def call(*command, cwd, **environment):
+    """Run a program; returns its standard output. Fails with what it said."""
+    environment = {**{k: v for k, v in os.environ.items() if k != "PYTHONPATH"}, **QUIET, **environment}
+    done = subprocess.run(list(map(str, command)), cwd=cwd, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, f"{command}: {done.stderr[-3000:]}"
+    return done.stdout
+
+
+def build(tools, source, folder, *hooks):
+    """Call hooks of the build's backend in a source tree; returns the paths of what they have made."""
+    folder.mkdir()
+    out = call(
+        sys.executable, "-c", BUILD, folder, *hooks,
+        cwd=source, PYTHONPATH=os.pathsep.join([str(tools), str(source / ".ci/wheel")]),
+    )  # fmt: skip
+    return [folder / name for name in out.split()[-len(hooks) :]]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """`wheel`, `sdist` and `again`, the wheel that is built from the sdist."""
+    folder = tmp_path_factory.mktemp("built")
+    requires = SETTINGS["build-system"]["requires"]
+    call(sys.executable, "-m", "pip", "install", "--quiet", "--target", folder / "tools", *requires, cwd=folder)
+    wheel, sdist = build(folder / "tools", ROOT, folder / "dist", "build_wheel", "build_sdist")
+    with open_tar(sdist) as archive:
+        archive.extractall(folder / "source", filter="data")
+    (source,) = (folder / "source").iterdir()
+    (again,) = build(folder / "tools", source, folder / "again", "build_wheel")
+    return SimpleNamespace(wheel=wheel, sdist=sdist, again=again, source=source, tools=folder / "tools")
+
+
+def environment_beside(folder):
+    """A new environment with the packages of this one, but for what is installed as editable; returns its Python."""
+    call(sys.executable, "-m", "venv", "--without-pip", folder, cwd=folder.parent)
+    bin_folder = folder / ("Scripts" if os.name == "nt" else "bin")
+    python = bin_folder / Path(sys.executable).name
+    site = call(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=folder).strip()
+    (Path(site) / "beside.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    return python, bin_folder / "hitbox", Path(site)
+
+
+@pytest.fixture(scope="module")
+def user(made, tmp_path_factory):
+    """A user with the wheel installed, at work in a project whose modules have the names of the checkout's."""
+    folder = tmp_path_factory.mktemp("user")
+    python, command, site = environment_beside(folder / "environment")
+    pip = (sys.executable, "-m", "pip", "--python", python)
+    call(*pip, "install", "--quiet", "--no-deps", "--no-index", made.wheel, cwd=folder)
+    own_modules(folder / "project")
+    data = {"HITBOX_DATA": str(folder / "data")}
+
+    def run(*arguments, **environment):
+        return call(*arguments, cwd=folder / "project", **data, **environment)
+
+    return SimpleNamespace(run=run, python=python, command=command, site=site, project=folder / "project", data=data)
+
+
+@pytest.mark.deep
+def test_the_wheel_takes_one_name(made, user):
+    with zipfile.ZipFile(made.wheel) as archive:
+        names = archive.namelist()
+        points = archive.read(f"hitbox-{VERSION}.dist-info/entry_points.txt").decode()
+    assert {name.split("/")[0] for name in names} == {"hitbox", f"hitbox-{VERSION}.dist-info"}
+    assert points.split() == ["[console_scripts]", "hitbox", "=", "hitbox.main:main"]
+    for package in PACKAGES:
+        for path in files_of(package):
+            assert f"hitbox/{package}/{path.as_posix()}" in names
+    assert {"hitbox/__init__.py", "hitbox/__main__.py", "hitbox/main.py", "hitbox/py.typed"} <= set(names)
+    assert not {each.name for each in user.site.iterdir()} & {*PACKAGES, "main", "main.py"}
+
+
+@pytest.mark.deep
+def test_the_same_wheel_is_built_of_the_sdist(made):
+    """RECORD holds the hash of every file. The source distribution is a whole checkout, tests and documents too."""
+    records = []
+    for path in (made.wheel, made.again):
+        with zipfile.ZipFile(path) as archive:
+            records.append(sorted(archive.read(f"hitbox-{VERSION}.dist-info/RECORD").splitlines()))
+    assert records[0] == records[1] and len(records[0]) > 500
+    for name in (
+        "PKG-INFO",
+        "README.md",
+        "docs/cookbook.md",
+        "tests/test_packaging.py",
+        ".ci/wheel/layout.py",
+        ".ci/run",
+    ):
+        assert (made.source / name).is_file(), name
+
+
+@pytest.mark.deep
+def test_every_door_says_the_same_version(user):
+    checkout = call(sys.executable, "main.py", "--version", cwd=ROOT)
+    assert user.run(user.command, "--version") == user.run(user.python, "-m", "hitbox", "--version") == checkout
+    assert user.run(user.python, "-c", "import hitbox; print(hitbox.__version__)").strip() == VERSION
+
+
+WORLDS = """
+import numpy as np
+from hitbox.physics import Character, Circle, Effects, PixelMask, Polygon, World
+
+disc = np.hypot(*np.ogrid[-8:9, -8:9]) <= 8
+piles = Effects.rigid_bodies()
+for effects, solver in ((Effects.detection(), None), (piles, None), (piles, "blocking")):
+    world = World(effects, solver=solver, seed=3)
+    world.add_body(Polygon.box(400, 20), position=(200, 300), kind="static")
+    for k in range(6):
+        shape = (Circle(8), Polygon.box(14, 10), PixelMask.from_array(disc))[k % 3]
+        world.add_body(shape, position=(180 + 7 * k, 280 - 19 * k), velocity=(10, 20))
+    for _ in range(40):
+        world.step()
+    print(world.digest(), len(world.contacts))
+"""
+
+
+@pytest.mark.deep
+def test_worlds_step_as_in_the_checkout(user, tmp_path):
+    script = tmp_path / "worlds.py"
+    script.write_text(WORLDS)
+    found = user.run(user.python, script, **PLAIN)
+    script.write_text(as_in_a_checkout(WORLDS))
+    assert found == call(sys.executable, script, cwd=tmp_path, PYTHONPATH=str(ROOT), **PLAIN)
+    assert len(set(found.split())) >= 4
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("scene, frames", [("shooter", 60), ("platformer", 20), ("lander", 20), ("lab/cradle", 60)])
+def test_a_recording_of_the_checkout_is_replayed(user, tmp_path, scene, frames):
+    record = ["--scene", scene, "--headless", "--bot", "--frames", frames, "--json", "--record", tmp_path / "run.json"]
+    first = json.loads(call(sys.executable, "main.py", *record, cwd=ROOT, **PLAIN, **user.data))
+    replayed = user.run(user.command, "--headless", "--replay", tmp_path / "run.json", "--json", **PLAIN)
+    assert json.loads(replayed)["digest"] == first["digest"]
+
+
+@pytest.mark.deep
+def test_a_report_is_measured_by_workers(user):
+    report = ["--report", "my report", "--quick", "--workers", "2", "--only", "broadphases/*-10"]
+    assert "0 failed" in user.run(user.command, *report, **PLAIN)
+    found = [json.loads(path.read_text()) for path in (user.project / "my report/results").glob("*.json")]
+    assert len(found) > 3 and all(each["rows"] for each in found)
+    page = (user.project / "my report/index.html").read_text(encoding="utf-8")
+    assert "hitbox --report &#x27;my report&#x27; --quick --only broadphases/" in page and "main.py" not in page
+
+
+MEASURED = """
+import time
+from hitbox.game.measure.surveyor import Surveyor
+from hitbox.physics import Circle, Effects, World
+
+world, surveyor = World(Effects.detection()), Surveyor()
+for x in (0, 9):
+    world.add_body(Circle(5), position=(x, 0))
+surveyor.measure(world.snapshot(), "brute")
+until = time.monotonic() + 300
+while not surveyor.survey.dots and not surveyor.trouble and time.monotonic() < until:
+    surveyor.turn()
+    time.sleep(0.1)
+print(len(surveyor.survey.dots) > 0, surveyor.trouble)
+surveyor.stop()
+"""
+COMPILED = """
+import time
+from hitbox.game.registry import Registry
+from hitbox.game.run.compilers import Compilers
+
+compilers = Compilers(Registry({}), cores=1)
+job = {"effects": [], "broadphase": "brute", "solver": None, "pieces": ["boxes"]}
+compilers.first([job])
+until = time.monotonic() + 300
+while compilers.share([job]) == 0.0 and time.monotonic() < until:
+    time.sleep(0.1)
+print((compilers.share([job]) or 0.0) > 0.0)
+compilers.stop()
+"""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("code, wanted, environment", [(MEASURED, "True", PLAIN), (COMPILED, "True", {})])
+def test_background_workers_work(user, tmp_path, code, wanted, environment):
+    script = tmp_path / "program.py"
+    script.write_text(code)
+    found = user.run(user.python, script, HITBOX_CACHE_DIR=str(tmp_path / "kernels"), **environment)
+    assert found.strip() == wanted
+
+
+@pytest.mark.deep
+def test_an_editable_install_keeps_the_names_of_the_checkout(made, tmp_path):
+    """Of the source distribution, which is a checkout, so that nothing is written into this one."""
+    python, command, _ = environment_beside(tmp_path / "environment")
+    pip = (sys.executable, "-m", "pip", "--python", python)
+    install = (*pip, "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation", "-e", made.source)
+    call(*install, cwd=tmp_path, PYTHONPATH=str(made.tools))
+    own_modules(tmp_path / "project")
+    project = tmp_path / "project"
+    assert call(command, "--version", cwd=project) == call(sys.executable, "main.py", "--version", cwd=ROOT)
+    where = call(python, "-P", "-c", "import game, physics; print(physics.__file__)", cwd=project).strip()
+    assert Path(where) == made.source / "physics/__init__.py"

@@ -31,7 +31,7 @@ ECHO_CORNER, LAST_ECHO = 2400.0, 0.05  # [Hz] above which repeats are duller; so
 ECHO_PLACE = 0.6  # of every second repeat, the others are as far on the other side
 TAKES = 3  # strokes of each drum that differ a little, in turn
 DRUM_PLACES = {"k": 0.0, "s": 0.0, "h": 0.3, "o": 0.3, "c": -0.3, "t": -0.35}  # a tom's takes go over to the right
-PRODUCTS = {f"music/{name}": ("assets.audio.music", "music_files", (name,)) for name in (*TUNES, *JINGLES)}
+PRODUCTS = {f"music/{name}": (__name__, "music_files", (name,)) for name in (*TUNES, *JINGLES)}
 
 
 def tune_of(name):

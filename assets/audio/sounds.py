@@ -249,7 +249,7 @@ SOUNDS = (
 )
 
 
-PRODUCTS = {f"sounds/{name}": ("assets.audio.sounds", "sound_files", (name,)) for name in SOUNDS}
+PRODUCTS = {f"sounds/{name}": (__name__, "sound_files", (name,)) for name in SOUNDS}
 
 
 def sound_files(name):

@@ -28,7 +28,7 @@ def is_available():
 
 def _needed():
     if soundfile is None:
-        raise RuntimeError('Ogg files are made and decoded by soundfile; install it with: pip install -e ".[assets]"')
+        raise RuntimeError("Ogg files are made and decoded by soundfile; install it with: pip install soundfile")
     return soundfile
 
 

@@ -3,12 +3,17 @@
 Art knows nothing of the games: the program scenes/filming.py films them, and is run here.
 """
 
+import os
 import subprocess
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from assets import FOLDER
+
+ABOVE = __name__.split(".")[:-3]  # the package that holds this one, [] in a checkout
+PROGRAM = ".".join([*ABOVE, "scenes", "filming"])
+ROOT = FOLDER.parents[len(ABOVE)]  # what the names are looked up in
 
 
 def filmed(what, *names):
@@ -17,8 +22,9 @@ def filmed(what, *names):
     Raises RuntimeError with what the program said when it fails.
     """
     with TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "scenes.filming", what, *names, folder]
-        ran = subprocess.run(command, cwd=FOLDER.parent, capture_output=True, text=True)
+        command = [sys.executable, "-P", "-m", PROGRAM, what, *names, folder]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        ran = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
         if ran.returncode:
             raise RuntimeError(f"{' '.join(command[1:-1])} failed: {ran.stderr.strip()}")
         return {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}

@@ -1,6 +1,6 @@
 import numpy as np
 
-from physics import Character, Polygon, TileGrid, World
+from hitbox.physics import Character, Polygon, TileGrid, World
 
 JUMP, GRAVITY, RUN = -5.0, 0.3, 2.0  # [px a frame]
 

@@ -1,4 +1,4 @@
-from physics import Material, Polygon, World
+from hitbox.physics import Material, Polygon, World
 
 world = World()
 wood = Material(density=0.5, friction=0.6, restitution=0.1)

@@ -1,4 +1,4 @@
-from physics import Circle, Polygon, World
+from hitbox.physics import Circle, Polygon, World
 
 PIXELS = 32  # of the screen for a metre
 

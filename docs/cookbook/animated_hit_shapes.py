@@ -1,6 +1,6 @@
 import pygame
 
-from physics import PixelMask, Polygon, World
+from hitbox.physics import PixelMask, Polygon, World
 
 frames = []
 for lean in (-6, -3, 0, 3, 6, 3, 0, -3):

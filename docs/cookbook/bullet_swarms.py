@@ -1,6 +1,6 @@
 import numpy as np
 
-from physics import Circle, Effects, Filter, World
+from hitbox.physics import Circle, Effects, Filter, World
 
 BULLET, ENEMY = 1, 2
 

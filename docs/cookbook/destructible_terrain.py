@@ -1,6 +1,6 @@
 import numpy as np
 
-from physics import Circle, Effects, PixelMask, Polygon, World
+from hitbox.physics import Circle, Effects, PixelMask, Polygon, World
 
 x, y = np.arange(1024), np.arange(256)[:, None]
 solid = y > 120 + 40 * np.sin(x / 90)

@@ -1,6 +1,6 @@
 import pygame
 
-from physics import Effects, PixelMask, World
+from hitbox.physics import Effects, PixelMask, World
 
 
 class Thing(pygame.sprite.Sprite):

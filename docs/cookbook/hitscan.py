@@ -1,4 +1,4 @@
-from physics import Circle, Filter, Polygon, World
+from hitbox.physics import Circle, Filter, Polygon, World
 
 WALL, ENEMY, FRIEND = 1, 2, 4
 

@@ -1,4 +1,4 @@
-from physics import Polygon, World
+from hitbox.physics import Polygon, World
 
 STEEPEST = 0.7  # of the normal's y: 45 degrees
 

@@ -1,6 +1,6 @@
 import math
 
-from physics import Polygon, World
+from hitbox.physics import Polygon, World
 
 world = World()
 lift = world.add_body(Polygon.box(80, 10), position=(0, 100), kind="kinematic")

@@ -1,6 +1,6 @@
 import numpy as np
 
-from physics import Character, Effects, Polygon, TileGrid, World
+from hitbox.physics import Character, Effects, Polygon, TileGrid, World
 
 solid, plank = np.zeros((8, 10), bool), np.zeros((8, 10), bool)
 solid[7], plank[4] = True, True  # ground at the bottom, a floor open from below above it

@@ -1,6 +1,6 @@
 import pygame
 
-from physics import Character, Circle, Effects, PixelMask, Polygon, World
+from hitbox.physics import Character, Circle, Effects, PixelMask, Polygon, World
 
 bridge = pygame.Surface((128, 24), pygame.SRCALPHA)  # a rope bridge that sags: any sprite will do
 pygame.draw.lines(bridge, "white", False, [(0, 4), (32, 14), (64, 18), (96, 14), (127, 4)], 5)

@@ -1,6 +1,6 @@
 import pygame
 
-from physics import Circle, Polygon, World, debug
+from hitbox.physics import Circle, Polygon, World, debug
 
 pygame.init()
 screen = pygame.display.set_mode((320, 240))

@@ -1,6 +1,6 @@
 import random
 
-from physics import Circle, Polygon, World
+from hitbox.physics import Circle, Polygon, World
 
 
 def play(inputs):

@@ -1,7 +1,7 @@
 import tempfile
 from pathlib import Path
 
-from physics import Circle, Polygon, Snapshot, World
+from hitbox.physics import Circle, Polygon, Snapshot, World
 
 
 def run(world, frames):

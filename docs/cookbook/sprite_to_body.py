@@ -1,6 +1,6 @@
 import pygame
 
-from physics import Circle, PixelMask, World, measure
+from hitbox.physics import Circle, PixelMask, World, measure
 
 image = pygame.Surface((34, 34), pygame.SRCALPHA)
 pygame.draw.circle(image, "white", (17, 17), 16)

@@ -1,6 +1,6 @@
 import pygame
 
-from physics import PixelMask, collide
+from hitbox.physics import PixelMask, collide
 
 image = pygame.Surface((40, 32), pygame.SRCALPHA)
 pygame.draw.circle(image, "white", (20, 16), 14)

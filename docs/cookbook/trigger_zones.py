@@ -1,4 +1,4 @@
-from physics import Circle, Polygon, World
+from hitbox.physics import Circle, Polygon, World
 
 world = World(gravity=(0, 0))
 door = world.add_body(Polygon.box(40, 40), position=(100, 0), kind="static", sensor=True, user="door")

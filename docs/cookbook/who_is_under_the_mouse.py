@@ -1,4 +1,4 @@
-from physics import Circle, Polygon, World
+from hitbox.physics import Circle, Polygon, World
 
 world = World(gravity=(0, 0))
 world.add_body(Polygon.box(60, 60), position=(100, 100), user="box")

@@ -12,7 +12,7 @@ import pygame
 from game.drawing.blit import blit_many
 from game.drawing.colors import INK, Color
 from game.errors import FileError
-from game.places import FONTS
+from game.places import CURE, FONTS
 
 MEASURED = 4096  # lines of text whose size is remembered
 KEPT = 1024  # lines of text whose picture is kept
@@ -102,4 +102,4 @@ def load_font(name: str) -> Font:
         plain.blit(sheet, (0, 0))
         return Font(plain, table["height"], table["glyphs"])
     except (OSError, pygame.error, ValueError, KeyError) as error:
-        raise FileError(path, "font", f"{error}; rebuild it with: python -m assets.build") from error
+        raise FileError(path, "font", f"{error}; {CURE}") from error

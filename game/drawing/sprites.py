@@ -13,7 +13,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.errors import FileError
-from game.places import IMAGES
+from game.places import CURE, IMAGES
 from physics import PixelMask
 
 
@@ -71,7 +71,7 @@ def load_image(path: Path) -> pygame.Surface:
     try:
         image = pygame.image.load(str(path))
     except (OSError, pygame.error) as error:
-        raise FileError(path, "picture", f"{error}; rebuild it with: python -m assets.build") from error
+        raise FileError(path, "picture", f"{error}; {CURE}") from error
     return image.convert_alpha() if pygame.display.get_surface() else image
 
 
@@ -97,7 +97,7 @@ def load_atlas(name: str) -> Atlas:
             for title, entry in table["animations"].items()
         }
     except (OSError, ValueError, KeyError) as error:
-        raise FileError(path, "atlas", f"{error!r}; rebuild it with: python -m assets.build") from error
+        raise FileError(path, "atlas", f"{error!r}; {CURE}") from error
     return Atlas(path, images, animations)
 
 

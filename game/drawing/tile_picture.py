@@ -5,8 +5,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.drawing.sprites import load_image
-from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y, TileMap
-from game.errors import FileError
+from game.drawing.tilemap import FLIP_DIAGONAL, FLIP_X, FLIP_Y, TileMap, map_picture
 
 CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are on the screen
 
@@ -63,10 +62,4 @@ class TilePicture:
 
 def _sheet(tilemap):
     """The tileset's picture, which must hold every tile of the map."""
-    sheet = load_image(tilemap.path.parent / tilemap.image)
-    most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
-    size = tilemap.tile_size
-    rows = sheet.get_height() // size
-    if most >= rows * tilemap.image_columns or tilemap.image_columns * size > sheet.get_width():
-        raise FileError(tilemap.path, "tilesets[0].image", f"{tilemap.image} is too small for tile {most}")
-    return sheet
+    return load_image(map_picture(tilemap))

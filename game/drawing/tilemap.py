@@ -1,11 +1,11 @@
 """Levels made with Tiled (.tmj): tile layers, tile properties, objects. Damage is named by file, place, reason.
 
 Read: orthogonal maps of one embedded tileset, finite, layer data as CSV or as base64 (plain, zlib, gzip).
-Refused with the cure: infinite maps, tilesets in files of their own, other encodings.
+Refused with the cure: infinite maps, tilesets in files of their own, other encodings. What is packed is unpacked up to
+the bytes that the map can hold.
 """
 
 import base64
-import gzip
 import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,11 +14,16 @@ import numpy as np
 
 from game.errors import FileError
 from game.files.json_file import read_json
+from game.files.pictures import picture_of, png_size
+from game.places import IMAGES
 from physics import TileGrid
 
 FLIPS = 0xF0000000  # the top bits of a tile number say how it is mirrored
 FLIP_X, FLIP_Y, FLIP_DIAGONAL = 0x80000000, 0x40000000, 0x20000000
 LARGEST = 10_000  # tiles along a side; a larger number is damage, not a level
+MOST_TILES = 2**22  # in all layers together: each takes 40 bytes while it is read, 16 from then on
+LARGEST_PICTURE = 4096  # [px] of a tileset's picture each way: 64 MB
+PACKINGS = {"zlib": zlib.MAX_WBITS, "gzip": zlib.MAX_WBITS | 16}  # compression -> how zlib is told of the header
 KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 
@@ -115,18 +120,41 @@ class TileMap:
         return self.layers[name]
 
 
-def load_tilemap(path: Path) -> TileMap:
-    """Read a .tmj file. Raises FileError naming file, place and reason."""
+def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> TileMap:
+    """Read a .tmj file of at most `largest` (columns, rows). Raises FileError naming file, place and reason."""
     data = read_json(path)
-    reader = _Reader(path)
+    reader = _Reader(path, largest)
     return reader.read(data)
+
+
+def map_picture(tilemap: TileMap) -> Path:
+    """Return the path of the tileset's picture, beside the map or the game's own of that name. Raises FileError."""
+    path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
+    width, height = png_size(path, LARGEST_PICTURE)
+    most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
+    columns, size = tilemap.image_columns, tilemap.tile_size
+    if most >= height // size * columns or columns * size > width:
+        raise FileError(tilemap.path, "tilesets[0].image", f"{tilemap.image} is too small for tile {most}")
+    return path
+
+
+def unpacked(packed: bytes, packing: int, most: int) -> bytes:
+    """Return what was packed, `most` bytes of it and one more where there are more. Raises zlib.error, ValueError.
+
+    packing: one of PACKINGS. Bytes behind the packed ones count as more.
+    """
+    reader = zlib.decompressobj(packing)
+    content = reader.decompress(packed, most + 1)
+    if len(content) <= most and not reader.eof:
+        raise ValueError("it is cut off")
+    return content + reader.unused_data[:1] if len(content) == most else content
 
 
 class _Reader:
     """Checks while it reads; `fail` names the place."""
 
-    def __init__(self, path):
-        self.path = path
+    def __init__(self, path, largest):
+        self.path, self.largest = Path(path), largest
 
     def fail(self, place, reason):
         raise FileError(self.path, place, reason)
@@ -138,19 +166,22 @@ class _Reader:
             self.fail("infinite", "infinite maps are not read; untick Map > Infinite in Tiled")
         if data.get("orientation", "orthogonal") != "orthogonal":
             self.fail("orientation", f"must be orthogonal (got {data['orientation']!r:.60})")
-        columns = self.whole(data, "map", "width", LARGEST)
-        rows = self.whole(data, "map", "height", LARGEST)
+        columns = self.whole(data, "map", "width", self.largest[0])
+        rows = self.whole(data, "map", "height", self.largest[1])
         size = self.whole(data, "map", "tilewidth", 1024)
         if self.whole(data, "map", "tileheight", 1024) != size:
             self.fail("tileheight", "tiles must be square")
         first, count, tileset = self.tileset(data)
-        layers, flips, things = {}, {}, []
+        layers, flips, things, held = {}, {}, [], 0
         for index, layer in enumerate(self.listing(data, "map", "layers")):
             place = f"layers[{index}]"
             if not isinstance(layer, dict):
                 self.fail(place, "is not an object")
             name = str(layer.get("name", index))
             if layer.get("type") == "tilelayer":
+                held += columns * rows
+                if held > MOST_TILES:
+                    self.fail(place, f"the layers up to this one hold {held} tiles; at most {MOST_TILES} are read")
                 layers[name], flips[name] = self.tiles(layer, place, (rows, columns), first, count)
             elif layer.get("type") == "objectgroup":
                 things += self.things(layer, place)
@@ -196,9 +227,7 @@ class _Reader:
         return first, self.whole(tilesets[0], "tilesets[0]", "tilecount", LARGEST), tilesets[0]
 
     def tiles(self, layer, place, shape, first, count):
-        raw = self.layer_numbers(layer, place)
-        if len(raw) != shape[0] * shape[1]:
-            self.fail(f"{place}.data", f"must hold {shape[0] * shape[1]} tiles, holds {len(raw)}")
+        raw = self.layer_numbers(layer, place, shape[0] * shape[1])
         numbers, flip = raw & ~FLIPS & 0xFFFFFFFF, raw & FLIPS
         bad = np.flatnonzero((numbers != 0) & ((numbers < first) | (numbers >= first + count)))
         if len(bad):
@@ -211,11 +240,13 @@ class _Reader:
         tiles = np.where(numbers == 0, -1, numbers - first)
         return tiles.reshape(shape), flip.reshape(shape)
 
-    def layer_numbers(self, layer, place):
+    def layer_numbers(self, layer, place, wanted):
         data, encoding = layer.get("data"), layer.get("encoding", "csv")
         if encoding == "csv":
             if not isinstance(data, list):
                 self.fail(f"{place}.data", "is missing or not a list")
+            if len(data) != wanted:
+                self.fail(f"{place}.data", f"must hold {wanted} tiles, holds {len(data)}")
             for at, value in enumerate(data):
                 if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= 0xFFFFFFFF:
                     self.fail(f"{place}.data[{at}]", f"must be a tile number (got {value!r:.60})")
@@ -223,14 +254,19 @@ class _Reader:
         if encoding != "base64":
             self.fail(f"{place}.encoding", f"must be csv or base64 (got {encoding!r:.60})")
         compression = layer.get("compression", "")
-        if compression not in ("", "zlib", "gzip"):
-            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {compression!r:.60})")
-        unpack = {"": bytes, "zlib": zlib.decompress, "gzip": gzip.decompress}[compression]
+        if compression not in ("", *PACKINGS):
+            cure = "choose it in Tiled: Map > Map Properties > Tile Layer Format"
+            self.fail(f"{place}.compression", f"must be zlib, gzip or none (got {compression!r:.60}); {cure}")
+        size = 4 * wanted
         try:
-            packed = unpack(base64.b64decode(data, validate=True))
-            return np.frombuffer(packed, dtype="<u4").astype(np.int64)
-        except (TypeError, ValueError, zlib.error, OSError, EOFError) as error:
+            packed = base64.b64decode(data, validate=True)
+            content = unpacked(packed, PACKINGS[compression], size) if compression else packed
+        except (TypeError, ValueError, zlib.error) as error:
             self.fail(f"{place}.data", f"cannot be unpacked: {error}")
+        if len(content) != size:
+            holds = f"{len(content)} bytes" if len(content) < size or not compression else "more"
+            self.fail(f"{place}.data", f"must hold {wanted} tiles ({size} bytes), holds {holds}")
+        return np.frombuffer(content, dtype="<u4").astype(np.int64)
 
     def properties(self, data, place):
         found = {}

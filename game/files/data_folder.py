@@ -4,12 +4,15 @@ import errno
 import os
 import sys
 from collections.abc import Mapping
+from hashlib import blake2b
 from itertools import count
 from pathlib import Path
 from time import strftime
 
-from game.errors import UsageError
+from game.errors import LONGEST, UsageError, share
+from game.files.leftovers import remove_parts_of
 
+LONGEST_NAME = 200  # bytes of a file name that leave room for more behind it; most systems take 255
 OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player who keeps the game on a stick
 
 
@@ -58,8 +61,9 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. Raises OSError
-    when the folder cannot be written; the old file is then untouched.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. What an earlier
+    program left half-written of this file is removed. Raises OSError when the folder cannot be written; the old file
+    is then untouched.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -69,7 +73,8 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
         return
     if makes_folder:
         path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f"{path.name}.{os.getpid()}.part")
+    beside = part_of(path, os.getpid())
+    remove_parts_of(beside)
     try:
         with open(beside, "wb") as file:
             file.write(content)
@@ -78,6 +83,14 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
         os.replace(beside, path)
     finally:
         beside.unlink(missing_ok=True)
+
+
+def part_of(path: Path, process: int) -> Path:
+    """Return where a process writes a file that is to replace `path`; a long name is named by its digest there."""
+    name = (
+        path.name if len(os.fsencode(path.name)) <= LONGEST_NAME else blake2b(os.fsencode(path.name)).hexdigest()[:32]
+    )
+    return path.with_name(f"{name}.{process}.part")
 
 
 def keep_beside(path: str | Path, why: str = "damaged") -> Path:
@@ -107,9 +120,10 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a file that cannot be used, and say in one line what is wrong, what is used instead and where it is kept."""
+    """Keep a file that cannot be used; return a line of what is wrong, what is used instead and where it is kept."""
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"
     except OSError as error:
-        kept = f"the old file could not be put aside ({error})"
-    return f"{path}: {place}: {reason}; {instead}, {kept}"
+        kept = f"the old file could not be put aside ({error.strerror or error})"
+    file, where, what, rest = share((path, place, reason, f"{instead}, {kept}"), LONGEST - 6)
+    return f"{file}: {where}: {what}; {rest}"

@@ -12,7 +12,7 @@ CHUNK = 2**20  # bytes that are looked at before more is read
 
 
 def read_json(path: str | Path) -> Any:
-    """The content of a JSON file. Raises FileError naming file, place and reason, also for nesting without end."""
+    """Return the content of a JSON file, with or without a byte order mark. Raises FileError."""
     try:
         return json.loads("".join(_texts(path)))
     except OSError as error:
@@ -28,10 +28,12 @@ def read_json(path: str | Path) -> Any:
 
 
 def _texts(path):
-    """The text of a file, piece by piece: a device that is all zeros, or noise, is known by its first piece."""
+    """Yield the text of a file, piece by piece: a device that is all zeros, or noise, is known by its first piece."""
     decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
     with open(path, "rb") as file:
         while chunk := file.read(CHUNK):
+            if read == 0 and chunk.startswith(codecs.BOM_UTF8):
+                chunk, read = chunk[len(codecs.BOM_UTF8) :], len(codecs.BOM_UTF8)
             if b"\0" in chunk:
                 raise FileError(path, f"byte {read + chunk.index(0)}", "a zero: this is no text")
             try:

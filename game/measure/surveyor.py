@@ -24,9 +24,9 @@ from game.measure.setting import Setting
 from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
-from game.processes import end_all, start_module
 from game.wishes import Lane, Lanes
 from physics import Fit, PixelMask, Snapshot
+from physics.jit.processes import end_all, start_module
 
 
 class Surveyor:
@@ -112,7 +112,7 @@ class Surveyor:
         """Start the process where there is none; whether there is one, which is then busy."""
         if self.process is None:
             try:
-                self.process = start_module("game.measure.worker")
+                self.process = start_module(f"{__package__}.worker")
                 self.folder = tempfile.TemporaryDirectory(prefix="hitbox-", ignore_cleanup_errors=True)
             except (OSError, ValueError) as error:
                 self.stop()

@@ -24,9 +24,9 @@ from game.measure.moment import Moment
 from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
-from game.processes import end_all, start_module
 from game.wishes import STEPS, Act, Lane, Recipe
 from physics import PixelMask, Snapshot
+from physics.jit.processes import end_all, start_module
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
 
@@ -124,7 +124,7 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))
 
-    counting = start_module("game.measure.kernel_counts")
+    counting = start_module(f"{__package__}.kernel_counts")
     try:
         assert counting.stdin is not None and counting.stdout is not None
         asked = {"effects": moment.effects.names(), "broadphase": order["broadphase"], "pieces": order["pieces"]}

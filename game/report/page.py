@@ -3,6 +3,9 @@
 import csv
 import io
 import json
+import shlex
+import subprocess
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -13,6 +16,7 @@ from game.report.chart import Chart
 from game.report.claim import Claim
 from game.report.job import Row
 from game.report.plots import draw, shown
+from game.startup import START
 
 PAGE = Path(__file__).with_name("page.html")
 
@@ -80,8 +84,14 @@ def _chart(measured, told, folder, quick):
 
 
 def command(row: Row, folder: str, quick: bool) -> str:
-    """What measures a row again."""
-    return f"python main.py --report {folder}{' --quick' if quick else ''} --only {row['job']}"
+    """Return the line for a shell that measures a row again."""
+    report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
+    return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
+
+
+def quoted(arguments: Sequence[str]) -> str:
+    """Return the arguments as one line that the system's shell takes apart into them again."""
+    return subprocess.list2cmdline(arguments) if sys.platform == "win32" else shlex.join(arguments)
 
 
 def _claims(claims: Iterable[Claim]):

@@ -11,6 +11,7 @@ from math import ceil, floor, isfinite, log10
 from statistics import median
 from typing import Any, NamedTuple
 
+from game import startup
 from game.errors import UsageError
 from game.measure.front import pareto
 from game.report.chart import Axis, Interval, Panel
@@ -41,7 +42,7 @@ def library() -> Any:
         import matplotlib
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise UsageError('--report needs matplotlib; it comes with: pip install -e ".[bench]"') from error
+        raise UsageError(f"--report needs matplotlib; it comes with: {startup.install('bench')}") from error
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "hitbox", "font.family": "sans-serif"})
     return Figure
 

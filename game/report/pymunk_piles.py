@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from game import startup
 from game.report.piles import BOX, FRICTION, GRAVITY, Pile
 
 SLOP = 0.1  # [px] its default, which it lets bodies overlap by
@@ -13,7 +14,7 @@ def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
     try:
         import pymunk
     except ModuleNotFoundError as error:
-        raise ModuleNotFoundError('pymunk is not installed; it comes with: pip install -e ".[bench]"') from error
+        raise ModuleNotFoundError(f"pymunk is not installed; it comes with: {startup.install('bench')}") from error
     space = pymunk.Space()
     space.gravity, space.iterations, space.collision_slop = (0.0, GRAVITY), iterations, SLOP
     width = max(abs(x) for x, _ in pile.places) + 20.0 * BOX

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import perf_counter
 
 from game import startup
-from game.errors import UsageError
+from game.errors import UsageError, brief
 from game.files.data_folder import write_atomically
 from game.registry import Registry
 from game.report.charts import CHARTS
@@ -19,7 +19,7 @@ from game.report.job import Job, Plan
 from game.report.page import Measured, as_csv, write_page
 from game.report.plots import library
 from game.report.runners import connect, run_here, run_in_processes, run_on_dask
-from game.report.store import Store
+from game.report.store import DATA, Store
 from game.run.headless import start_dummy_display
 from game.run.options import Options
 
@@ -49,7 +49,7 @@ def run_report(options: Options, registry: Registry) -> int:
             failed += "failed" in found
             progress(found)
     except KeyboardInterrupt:
-        startup.say(f"what is measured is kept in {options.report}; the same command goes on")
+        startup.say(f"what is measured is kept in {brief(options.report, 200)}; the same command goes on")
         raise
     finally:
         write(store, jobs, options)
@@ -69,7 +69,9 @@ def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
     found = [job for job in jobs if fnmatchcase(job.name, only) or job.name.startswith(f"{only}/")]
     if not found:
         names = ", ".join(dict.fromkeys(job.name.split("/")[0] for job in jobs))
-        raise UsageError(f"--only: no job is named {only}; charts: {names}; a job is chart/name, * stands for anything")
+        raise UsageError(
+            f"--only: no job is named {brief(only, 60)}; charts: {names}; a job is chart/name, * stands for anything"
+        )
     return found
 
 
@@ -104,8 +106,8 @@ def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
     page = write_page(measured, store.manifest, str(options.report), spent)
     write_atomically(store.folder / "index.html", page)
     for each in measured:
-        write_atomically(store.folder / "data" / f"{each.chart.key}.json", json.dumps(each.rows, indent=1))
-        write_atomically(store.folder / "data" / f"{each.chart.key}.csv", as_csv(each.rows))
+        write_atomically(store.folder / DATA / f"{each.chart.key}.json", json.dumps(each.rows, indent=1))
+        write_atomically(store.folder / DATA / f"{each.chart.key}.csv", as_csv(each.rows))
 
 
 class Progress:
@@ -120,7 +122,7 @@ class Progress:
         self.count += 1
         self.done += self.weights[found["name"]]
         left = (perf_counter() - self.started) * (self.total - self.done) / self.done
-        word = f"failed: {found['failed']}" if "failed" in found else f"{found['spent']:.1f} s"
+        word = f"failed: {brief(found['failed'])}" if "failed" in found else f"{found['spent']:.1f} s"
         print(
             f"{self.count} of {len(self.weights)} jobs, about {left:.0f} s more; {found['name']} {word}",
             file=sys.stderr, flush=True,

@@ -9,9 +9,10 @@ import threading
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from game import startup
 from game.errors import UsageError
-from game.processes import end_all, start_module
 from game.report.job import Job, Row, run_job
+from physics.jit.processes import end_all, start_module
 
 TRIES = 2
 PATIENCE = "10s"  # until a scheduler answers
@@ -62,7 +63,7 @@ def _serve(waiting, found, running, stopped):
         line = ""
         try:
             if process is None:
-                process = start_module("game.report.worker")
+                process = start_module(f"{__package__}.worker")
                 running.append(process)
                 if stopped.is_set():
                     end_all([process])
@@ -90,7 +91,7 @@ def connect(address: str) -> Any:
         from dask.distributed import Client  # pyright: ignore[reportMissingImports]
         from distributed.comm.addressing import get_address_host_port  # pyright: ignore[reportMissingImports]
     except ImportError as error:
-        raise UsageError('--dask needs Dask; it comes with: pip install -e ".[cluster]"') from error
+        raise UsageError(f"--dask needs Dask; it comes with: {startup.install('cluster')}") from error
     try:
         get_address_host_port(address)  # a client that cannot even try waits for itself when it is thrown away
     except ValueError as error:

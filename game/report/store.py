@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from game import VERSION
-from game.errors import UsageError
+from game.errors import FileError, UsageError, brief
 from game.files.data_folder import write_atomically
+from game.files.json_file import read_json
+from game.files.leftovers import remove_leftovers
 from game.measure.machine import machine
 
-MANIFEST, RESULTS = "manifest.json", "results"
+MANIFEST, RESULTS, DATA = "manifest.json", "results", "data"
 FORMAT = 2  # of the rows: one higher whenever a chart asks something else of them
 
 
@@ -23,37 +25,43 @@ class Store:
     def __init__(self, folder: Path, quick: bool) -> None:
         self.folder, self.quick = folder, quick
         wanted = {"format": FORMAT, "version": VERSION, "quick": quick}
-        if folder.exists() and not folder.is_dir():
-            raise UsageError(f"--report: {folder} is a file; it takes the name of a folder")
+        shown = brief(folder, 120)
         try:
+            if folder.exists() and not folder.is_dir():
+                raise UsageError(f"--report: {shown} is a file; it takes the name of a folder")
             names = sorted(each.name for each in folder.iterdir()) if folder.exists() else []
             if names and MANIFEST not in names:
-                raise UsageError(f"--report: {folder} holds something else ({names[0]}); name a new or an empty folder")
+                other = brief(names[0], 80)
+                raise UsageError(f"--report: {shown} holds something else ({other}); name a new or an empty folder")
             if not names:
                 (folder / RESULTS).mkdir(parents=True, exist_ok=True)
                 write_atomically(folder / MANIFEST, json.dumps({**wanted, "machine": machine()}, indent=1))
             self.manifest = self._manifest()
             self._check_writable()
         except OSError as error:
-            raise UsageError(f"--report: {folder} cannot be written: {error.strerror or error}") from error
+            raise UsageError(f"--report: {shown} cannot be written: {error.strerror or error}") from error
+        except ValueError as error:  # a name that no system has
+            raise UsageError(f"--report: {shown} cannot be written: {error}") from error
+        remove_leftovers(folder, ("", RESULTS, DATA))
         for name, word in (("format", "format"), ("version", "version")):
-            if self.manifest.get(name) != wanted[name]:
+            found = self.manifest.get(name)
+            if found != wanted[name]:
                 raise UsageError(
-                    f"--report: {folder} holds a report of {word} {self.manifest.get(name)}, this is {wanted[name]}; "
+                    f"--report: {shown} holds a report of {word} {found!s:.40}, this is {wanted[name]}; "
                     "name another folder"
                 )
         if self.manifest.get("quick") is not quick:
             kind, flag = ("quick", "with") if self.manifest.get("quick") else ("full", "without")
-            raise UsageError(f"--report: {folder} holds a {kind} report; go on {flag} --quick, or name another folder")
+            raise UsageError(f"--report: {shown} holds a {kind} report; go on {flag} --quick, or name another folder")
 
     def _manifest(self) -> dict[str, Any]:
         path = self.folder / MANIFEST
         try:
-            found = json.loads(path.read_text(encoding="utf-8"))
-        except ValueError as error:
-            raise UsageError(f"--report: {path} is damaged: {error}") from error
+            found = read_json(path)
+        except FileError as error:
+            raise UsageError(f"--report: {brief(path, 120)} is damaged: {error.place}: {error.reason}") from error
         if not isinstance(found, dict):
-            raise UsageError(f"--report: {path} is damaged: no object")
+            raise UsageError(f"--report: {brief(path, 120)} is damaged: no object")
         return found
 
     def _check_writable(self):
@@ -66,8 +74,8 @@ class Store:
     def result(self, name: str) -> dict[str, Any] | None:
         """What is kept of a job; None where it is not done, or where its file is damaged: it is then done again."""
         try:
-            found = json.loads(self._path(name).read_text(encoding="utf-8"))
-        except (FileNotFoundError, ValueError):
+            found = read_json(self._path(name))
+        except FileError:
             return None
         return found if isinstance(found, dict) and found.get("name") == name else None
 

@@ -8,7 +8,7 @@ from time import perf_counter
 
 import pygame
 
-from game.errors import StrictFailure, UsageError
+from game.errors import StrictFailure, UsageError, brief
 from game.measure.knowing import know
 from game.overlays.stack import Overlays
 from game.registry import Registry
@@ -64,7 +64,7 @@ def run_headless(options: Options, registry: Registry) -> int:
         if recorder is not None and options.record:
             save_or_fail(recorder.save, options.record)
     if recording is not None and recording.outdated:
-        same = f"{recording.path}: {recording.outdated}, and went the same way"
+        same = f"{brief(recording.path, 150)}: {recording.outdated}, and went the same way"
         print(recording.parted or same, file=sys.stderr)
     if options.screenshot:
         save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)
@@ -76,7 +76,7 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
     try:
         save(path)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise UsageError(f"{brief(path, 200)}: cannot be written: {error.strerror or error}") from error
 
 
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import strftime
 from typing import Any
 
-from game.errors import FileError, ReplayDiverged
+from game.errors import FileError, ReplayDiverged, brief
 from game.files.data_folder import write_atomically
 from game.files.json_file import read_json
 from game.files.own_levels import level_digest
@@ -132,7 +132,9 @@ class Replay:
         found = level_digest(path)
         if found != self.level["digest"]:
             raise FileError(
-                self.path, "level", f"{path} has changed since: digest {found}, recorded {self.level['digest']}"
+                self.path,
+                "level",
+                f"{brief(path, 100)} has changed since: digest {found}, recorded {self.level['digest']:.20}",
             )
         return path
 
@@ -149,7 +151,7 @@ class Replay:
         expected, found = self.digests[frame // self.every - 1], scene_digest(scene)[:DIGITS]
         if found != expected:
             since = "" if self.every == 1 else f" (since frame {frame - self.every})"
-            text = f"{self.path}: diverged at frame {frame}{since}: digest {found}, recorded {expected}"
+            text = f"{brief(self.path, 120)}: diverged at frame {frame}{since}: digest {found}, recorded {expected}"
             if not self.outdated:
                 raise ReplayDiverged(text)
             self.parted = self.parted or f"{text}; {self.outdated}"

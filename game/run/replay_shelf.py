@@ -7,7 +7,7 @@ from itertools import chain, count
 from pathlib import Path
 from stat import S_ISREG
 
-from game.errors import FileError
+from game.errors import FileError, brief
 from game.files.data_folder import data_folder, free_name, write_atomically
 from game.registry import Registry
 from game.run.replay import Recorder, Replay
@@ -86,4 +86,4 @@ def read_shelf_entry(path: Path, registry: Registry) -> tuple[Replay | None, str
     try:
         return load_replay_for(path, registry)[0], ""
     except FileError as error:
-        return None, f"{error.place}: {error.reason}"
+        return None, brief(f"{error.place}: {error.reason}")

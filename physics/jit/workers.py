@@ -14,12 +14,11 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
+from physics.jit.processes import end_all, start_module
 from physics.jit.store import store
 
-ROOT = Path(__file__).resolve().parents[__package__.count(".") + 1]  # the folder that holds this package
 MOST = 8  # processes: each takes 150 MB
 HUNG = 300.0  # [s] without an answer
 ATTEMPTS = 2
@@ -31,27 +30,6 @@ def cores_here() -> int:
     """Return how many cores this program may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return max(1, len(affinity(0)) if affinity else os.cpu_count() or 1)
-
-
-def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """Start `python -m module` with pipes for lines: of low priority where the system starts it so, deaf to Ctrl-C.
-
-    environment: more for its own. It imports this package, whatever the current folder holds. Raises OSError or
-    ValueError where it cannot be started.
-    """
-    path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
-    options: dict[str, Any] = {"start_new_session": True}
-    if sys.platform == "win32":
-        options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
-    return subprocess.Popen(
-        [sys.executable, "-P", "-m", module],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, **environment, "PYTHONPATH": path},
-        **options,
-    )
 
 
 def encoded(value: Any) -> str:
@@ -131,10 +109,7 @@ class Workers:
             self._stopped = True
             processes = list(self._processes.values())
             self._changed.notify_all()
-        for process in processes:
-            process.kill()
-        for process in processes:
-            process.wait()
+        end_all(processes)
         atexit.unregister(self.stop)
 
     def _serve(self, number):

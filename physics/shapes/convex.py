@@ -17,6 +17,7 @@ from physics.vec2 import Vec2
 
 STRAIGHT = 1e-12  # [rad] a smaller turn is none
 CORNER_OF = partial(tuple.__new__, Vec2)  # of two numbers; Vec2._make counts them first
+PHYSICS = __name__.removesuffix(".shapes.convex")  # what a user imports
 SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
 
 
@@ -120,7 +121,7 @@ class Polygon(EqualByValue):
         around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
         if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
             raise ValueError(
-                f"points must be convex (got {checks.shown(points.tolist())}); physics.decompose splits a concave "
+                f"points must be convex (got {checks.shown(points.tolist())}); {PHYSICS}.decompose splits a concave "
                 "outline into convex parts"
             )
         if turns[0] < 0:

@@ -182,7 +182,7 @@ class Carving(Scene):
         square = (2 * self.tool.radius) ** 2
         if solid < FEWEST * square:
             return None
-        act = Act("scenes.lab.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))
+        act = Act(f"{__package__}.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))
         steps = max(FEWEST, min(STEPS, solid // (2 * square)))
         return Lanes([self._lane()], lambda name: Lane([self.world.snapshot()], self.broadphase, steps, act=act))
 

@@ -22,6 +22,7 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, FOG, GOLD, NIGHT, PAPER, RED, SLATE
 from game.drawing.sprites import load_atlas
 from game.errors import FileError
+from game.files.pictures import png_size
 from game.input.inputs import InputFrame
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
@@ -259,14 +260,11 @@ def _times(hit, miss):
 @cache
 def own_picture(path):
     """(image, mask) of a PNG. Raises FileError for what is none, is too large, or has no solid pixel."""
+    png_size(path, MOST)  # asked before it is decoded
     try:
         image = pygame.image.load(path)
     except (pygame.error, OSError) as error:
         raise FileError(path, "picture", f"is no picture that can be read ({error})") from error
-    if max(image.get_size()) > MOST:
-        raise FileError(
-            path, "picture", f"is {image.get_width()} x {image.get_height()} px, at most {MOST} go each way"
-        )
     image = image.convert_alpha()
     mask = PixelMask.from_surface(image)
     if not mask.area:

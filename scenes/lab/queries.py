@@ -200,7 +200,7 @@ class Queries(Scene):
             if not made:
                 made.append(self.worlds[0].snapshot())
             query, size, _, strategy = name
-            act = Act("scenes.lab.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
+            act = Act(f"{__package__}.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
             return Lane(made, strategy, PLACES, act=act)
 
         return Lanes([self._lane(strategy) for strategy in STRATEGIES], make)

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from game.drawing.tilemap import load_tilemap
+from game.drawing.tilemap import load_tilemap, map_picture
 from game.places import LEVELS
 from physics import Filter
-from scenes.platformer.level_rules import check_level, tileset_picture
+from scenes.platformer.level_rules import LARGEST, check_level
 
 # Who is who. Two shapes meet if each one's membership is in the other's mask.
 TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS, BOMB = 1, 2, 4, 8, 16, 32, 64, 128
@@ -153,9 +153,9 @@ class Level:
 @lru_cache(maxsize=4)
 def load_level(path=None, stamp=None):
     """A level that can be played, read once per path and stamp (its time of change). Raises FileError."""
-    tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path)
+    tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path, LARGEST)
     check_level(tilemap)
-    return Level(tilemap, tileset_picture(tilemap))
+    return Level(tilemap, map_picture(tilemap))
 
 
 def level_of(path=None):
@@ -163,4 +163,8 @@ def level_of(path=None):
     if path is None:
         return load_level()
     path = Path(path)
-    return load_level(path, path.stat().st_mtime_ns if path.is_file() else None)
+    try:
+        stamp = path.stat().st_mtime_ns
+    except (OSError, ValueError):  # reading it says why
+        stamp = None
+    return load_level(path, stamp)

@@ -1,10 +1,8 @@
 """What a map must hold to be played: each mistake is told by file, place and reason."""
 
-import struct
 from dataclasses import dataclass
 
 from game.errors import FileError
-from game.places import IMAGES
 
 TILE_SIZE = 16
 SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; what is checked and painted in a moment
@@ -125,23 +123,3 @@ def _check_value(path, place, value, wanted, least, most):
         return
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
         raise FileError(path, place, f"must be a number {least:g}..{most:g} (got {value!r:.60})")
-
-
-def tileset_picture(tilemap):
-    """Path of the tileset's picture: beside the map, or the game's own of that name. Raises FileError."""
-    for path in (tilemap.path.parent / tilemap.image, IMAGES / tilemap.image.replace("\\", "/").rpartition("/")[2]):
-        if tilemap.image and path.is_file():
-            break
-    else:
-        raise FileError(tilemap.path, "tilesets[0].image", f"there is no picture {tilemap.image!r:.60} beside the map")
-    try:
-        with open(path, "rb") as file:
-            signature, width, height = struct.unpack(">8s8x2I", file.read(24))
-    except (OSError, struct.error) as error:
-        raise FileError(path, "picture", f"cannot be read: {error}") from error
-    if signature != b"\x89PNG\r\n\x1a\n":
-        raise FileError(path, "picture", "is not a PNG file")
-    most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
-    if most >= height // TILE_SIZE * tilemap.image_columns or tilemap.image_columns * TILE_SIZE > width:
-        raise FileError(tilemap.path, "tilesets[0].image", f"{tilemap.image} is too small for tile {most}")
-    return path

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from game.drawing.tilemap import map_picture
 from game.errors import FileError
 from scenes.platformer.level import EMPTY, level_of
-from scenes.platformer.level_rules import tileset_picture
 from tests.scenes.test_platformer_maps import OWN, save, small
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -53,7 +53,7 @@ def test_a_tile_beyond_the_tileset_is_named(tmp_path, beyond):
 
 def test_the_program_says_so_too(tmp_path):
     path = save(tmp_path, with_tile(40, ALL - {40}))
-    tileset_picture(level_of(path).map)  # the level's picture has that tile
+    map_picture(level_of(path).map)  # the level's picture has that tile
     arguments = ["--scene", "platformer", "--level", str(path), "--headless", "--frames", "2", "--json"]
     run = subprocess.run([sys.executable, "main.py", *arguments], cwd=ROOT, capture_output=True, text=True, timeout=600)
     assert run.returncode == 0, run.stderr[-500:]

@@ -85,7 +85,7 @@ def test_a_picture_of_ones_own_is_at_every_tier(tmp_path):
 @pytest.mark.parametrize(
     "content, reason",
     [
-        (b"no picture at all", "is no picture that can be read"),
+        (b"no picture at all", "is no PNG file"),
         (pygame.Surface((8, 8), pygame.SRCALPHA), "has no solid pixel"),
         (pygame.Surface((300, 4)), "at most 256 go each way"),
     ],

@@ -141,7 +141,7 @@ def _jobs(plan: Plan) -> list[Job]:
                     continue
                 params = {"layout": layout, "n": n, "moving": moving}
                 name = f"broadphases/{layout}-{moving}-{n}".replace(" ", "-")
-                found.append(Job(name, "game.report.charts.broadphases:measure", params, 0.1 + n / 700))
+                found.append(Job(name, f"{__name__}:measure", params, 0.1 + n / 700))
     return found
 
 

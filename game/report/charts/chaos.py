@@ -61,7 +61,7 @@ def _way(world):
 
 def _jobs(plan: Plan) -> list[Job]:
     seeds = 6 if plan.quick else 30
-    return [Job("chaos/pyramid", "game.report.charts.chaos:measure", {"seeds": seeds}, seeds * 0.6)]
+    return [Job("chaos/pyramid", f"{__name__}:measure", {"seeds": seeds}, seeds * 0.6)]
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

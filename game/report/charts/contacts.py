@@ -113,12 +113,7 @@ def _row(body, name, batch, normals, depths):
 def _jobs(plan: Plan) -> list[Job]:
     count = POSES_QUICK if plan.quick else POSES
     return [
-        Job(
-            f"contacts/{body}".replace(" ", "-"),
-            "game.report.charts.contacts:measure",
-            {"body": body, "count": count},
-            2.0,
-        )
+        Job(f"contacts/{body}".replace(" ", "-"), f"{__name__}:measure", {"body": body, "count": count}, 2.0)
         for body in BODIES
     ]
 

@@ -150,7 +150,7 @@ def _jobs(plan: Plan) -> list[Job]:
     lanes = 200 if plan.quick else 1000
     ratios = RATIOS[::2] if plan.quick else RATIOS
     counts = COUNTS[1:3] if plan.quick else COUNTS
-    work = "game.report.charts.continuous"
+    work = __name__
     return [
         *(Job(f"continuous/miss-{r:g}", f"{work}:measure", {"ratio": r, "lanes": lanes}, lanes / 200) for r in ratios),
         *(Job(f"continuous/time-{n}", f"{work}:measure_times", {"count": n}, 2.0 + n / 50) for n in counts),

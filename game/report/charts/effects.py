@@ -50,7 +50,7 @@ def _jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"effects/{name}".replace("lab/", "lab-"),
-            "game.report.charts.effects:measure",
+            f"{__name__}:measure",
             {"scene": name, "where": plan.scenes[name], "frames": min(frames, LONGEST.get(name, frames))},
             6.0 if plan.quick else 25.0,
         )

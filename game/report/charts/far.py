@@ -63,7 +63,7 @@ def measure(solver: str) -> list[Row]:
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    return [Job(f"far/{solver}", "game.report.charts.far:measure", {"solver": solver}, 2.5) for solver in SOLVERS]
+    return [Job(f"far/{solver}", f"{__name__}:measure", {"solver": solver}, 2.5) for solver in SOLVERS]
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

@@ -115,10 +115,7 @@ def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    return [
-        Job(f"integration/{case}".replace(" ", "-"), "game.report.charts.integration:measure", {"case": case}, 4.0)
-        for case in CASES
-    ]
+    return [Job(f"integration/{case}".replace(" ", "-"), f"{__name__}:measure", {"case": case}, 4.0) for case in CASES]
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

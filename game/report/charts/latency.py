@@ -83,7 +83,7 @@ def _jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"latency/{name}".replace("lab/", "lab-"),
-            "game.report.charts.latency:measure",
+            f"{__name__}:measure",
             {"scene": name, "where": plan.scenes[name], "frames": frames},
             3.0 if plan.quick else 12.0,
         )

@@ -101,7 +101,7 @@ def measure_events() -> list[Row]:
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    work = "game.report.charts.papers"
+    work = __name__
     return [
         Job(f"papers/{name}", f"{work}:measure_{name}", {}, seconds)
         for name, seconds in (("corners", 1.5), ("iterations", 1.0), ("events", 2.0))

@@ -174,7 +174,7 @@ def measure_piles(rows: int) -> list[Row]:
 
 
 def _jobs(plan: Plan) -> list[Job]:
-    work = "game.report.charts.peers"
+    work = __name__
     counts, rows = ((300,), (10,)) if plan.quick else ((100, 500, 1500), (10, 20, 45))
     return [
         *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, n / 150) for n in counts),

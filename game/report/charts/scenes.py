@@ -55,7 +55,7 @@ def _jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"scenes/{name}".replace("lab/", "lab-"),
-            "game.report.charts.scenes:measure",
+            f"{__name__}:measure",
             {"scene": name, "where": plan.scenes[name]},
             15.0,
         )

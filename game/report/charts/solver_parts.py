@@ -100,7 +100,7 @@ def jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),
-            "game.report.charts.solver_parts:measure",
+            f"{__name__}:measure",
             {"pile": pile},
             60.0 if "pyramid" in pile else 9.0,
         )

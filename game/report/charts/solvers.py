@@ -55,7 +55,7 @@ def _jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"solvers/{pile}".replace(" ", "-").replace(":", "-to-"),
-            "game.report.charts.solvers:measure",
+            f"{__name__}:measure",
             {"pile": pile, "quick": plan.quick},
             6.0 if "pyramid" in pile else 1.5,
         )

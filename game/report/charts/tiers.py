@@ -73,7 +73,7 @@ def _jobs(plan: Plan) -> list[Job]:
     return [
         Job(
             f"tiers/{name}",
-            "game.report.charts.tiers:measure",
+            f"{__name__}:measure",
             {"atlas": atlas, "name": name, "tried": tried},
             4.0 if plan.quick else 15.0,
         )

@@ -248,6 +248,37 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             "refused or whole",
             "tests/physics/test_snapshot.py::test_cut_and_flipped_files_are_refused_or_whole",
         ),
+        Fault(
+            "a level whose packed layer holds more than its map",
+            "unpacked up to the map's bytes; FileError with layer and bytes",
+            "tests/regress/test_packed_layers_without_end.py::test_it_takes_no_more_memory_than_the_map",
+        ),
+        Fault(
+            "a PNG larger than allowed, or another kind of file under its name",
+            "FileError with its size and what is allowed, before a pixel is decoded",
+            "tests/regress/test_pictures_larger_than_memory.py"
+            "::test_a_huge_picture_is_refused_with_its_size_and_what_is_allowed",
+        ),
+        Fault(
+            "a level that names a picture outside its folder",
+            "FileError, also through a link; only the game's own pictures are found by their names",
+            "tests/regress/test_pictures_outside_the_level.py::test_a_path_out_of_the_folder_is_refused",
+        ),
+        Fault(
+            "a byte order mark before any JSON file",
+            "read over",
+            "tests/regress/test_byte_order_marks.py::test_a_file_with_a_mark_says_the_same",
+        ),
+        Fault(
+            "a file name that the system does not take, or thousands of letters in a file",
+            "one line of at most 300 letters",
+            "tests/regress/test_names_that_are_too_long.py::test_a_file_to_read",
+        ),
+        Fault(
+            "a program killed while it saves",
+            "the old file is whole; what was half-written is removed by a start an hour later",
+            "tests/regress/test_leftovers.py::test_an_old_one_of_ours_is_removed",
+        ),
     ),
 }
 
