@@ -112,7 +112,7 @@ def test_the_arcade_s_start_cleans_the_data_folder(tmp_path, monkeypatch):
     def stop(registry):
         raise Stopped
 
-    monkeypatch.setattr(app, "start_compilers", stop)
+    monkeypatch.setattr(app, "Beside", stop)
     with pytest.raises(Stopped):
         app.run_app(None, None)
     assert not path.exists()
