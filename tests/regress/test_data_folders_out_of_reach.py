@@ -36,10 +36,11 @@ def out_of_reach(request, monkeypatch, tmp_path):
 
 
 def test_everything_starts_empty(out_of_reach):
+    named = str(data_folder())[:40]  # a message of 300 letters has no room for all of it
     settings, message = load_settings()
-    assert settings == Settings() and str(data_folder()) in message
+    assert settings == Settings() and named in message and "settings.json" in message
     records, message = load_records()
-    assert records.tables == {} and str(data_folder()) in message
+    assert records.tables == {} and named in message and "records.json" in message
     assert load_ghost("race")[0] is None and own_levels(Race.level_suffixes()) == () and shelf() == []
 
 
