@@ -250,22 +250,22 @@ surveyor.stop()
 """
 COMPILED = """
 import time
-from hitbox.game.registry import Registry
-from hitbox.game.run.compilers import Compilers
+from hitbox import physics
 
-compilers = Compilers(Registry({}), cores=1)
-job = {"effects": [], "broadphase": "brute", "solver": None, "pieces": ["boxes"]}
-compilers.first([job])
+background = physics.compile_in_background(1)
+world = physics.World(physics.Effects())
+world.add_body(physics.Circle(4))
+world.step()
 until = time.monotonic() + 300
-while compilers.share([job]) == 0.0 and time.monotonic() < until:
+while background.share == 0.0 and time.monotonic() < until:
     time.sleep(0.1)
-print((compilers.share([job]) or 0.0) > 0.0)
-compilers.stop()
+    world.step()
+print(background.share > 0.0, background.failed)
 """
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("code, wanted, environment", [(MEASURED, "True", PLAIN), (COMPILED, "True", {})])
+@pytest.mark.parametrize("code, wanted, environment", [(MEASURED, "True", PLAIN), (COMPILED, "True []", {})])
 def test_background_workers_work(user, tmp_path, code, wanted, environment):
     script = tmp_path / "program.py"
     script.write_text(code)

@@ -22,6 +22,8 @@ from game.report.runners import connect, run_here, run_in_processes, run_on_dask
 from game.report.store import DATA, Store
 from game.run.headless import start_dummy_display
 from game.run.options import Options
+from physics import SOLVERS, Effects
+from physics.background import StderrProgress, compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
@@ -41,6 +43,8 @@ def run_report(options: Options, registry: Registry) -> int:
         results = run_in_processes(due, options.workers)
     else:
         results = run_here(due)
+    if due and client is None:
+        compile_kernels()
     progress = Progress(due)
     failed = 0
     try:
@@ -55,6 +59,19 @@ def run_report(options: Options, registry: Registry) -> int:
         write(store, jobs, options)
     print(f"{Path(options.report) / 'index.html'}: {len(jobs)} jobs, {failed} failed")
     return 1 if failed else 0
+
+
+def compile_kernels() -> None:
+    """Compile with all cores what most jobs call, so that none waits for the compiler; the rest at its first call."""
+    worlds = [(effects, solver) for effects in (Effects.rigid_bodies(), Effects.detection()) for solver in SOLVERS]
+    kernels = [
+        {"effects": effects.names(), "broadphase": "all", "solver": solver, "pieces": None}
+        for effects, solver in worlds
+        if effects.stacking or solver in ("blocking", "projection")
+    ]
+    progress = StderrProgress()
+    compile_jobs(kernels, progress)
+    progress.end()
 
 
 def all_jobs(plan: Plan) -> list[Job]:
