@@ -10,4 +10,5 @@ IMAGES = ASSETS / "images"
 SOUNDS = ASSETS / "sounds"
 MUSIC = ASSETS / "music"
 LEVELS = ASSETS / "levels"
+OUTLINES = ASSETS / "outlines.npz"  # of the masks that scenes begin with: python -m scenes.outlines
 CURE = f"rebuild it with: python -m {ASSETS.name}.build" if IN_CHECKOUT else "install hitbox again"  # of a damaged one

@@ -23,9 +23,12 @@ from game.input.drag import Drag
 from game.input.inputs import CHANGES, InputFrame, InputState
 from game.invariants.lights import Lights
 from game.invariants.watch import WatchedWorld
+from game.places import OUTLINES
 from game.wishes import Lanes, Sprites
 from physics import BROADPHASES, SOLVERS, Effects
+from physics.fitting import kept
 
+kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0
 SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # that a player may choose from
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input

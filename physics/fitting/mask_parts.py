@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.fitting.few_parts import few_parts
+from physics.fitting.kept import Parts, fitted
 from physics.fitting.outline import pieces_of, smoothed_piece
 from physics.fitting.rounding import rounded_core
 
@@ -24,6 +25,26 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
     radius 0 (fitting.few_parts), each from its topmost, then leftmost corner on. smooth [px] as in fitting.outline,
     whose contract holds for the parts together. A full rectangle is one part: its four corners from the upper left on.
     """
+    parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
+    ends = np.cumsum(parts.counts)[:-1]
+    corners, inner = np.split(parts.corners, ends), np.split(parts.inner, ends)
+    if not len(parts.counts):
+        return []
+    return [Part(*each) for each in zip(corners, inner, parts.radii.tolist(), strict=True)]
+
+
+def _joined(parts):
+    if not parts:
+        return Parts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64), np.zeros(0))
+    return Parts(
+        np.concatenate([each.corners for each in parts]),
+        np.concatenate([each.inner for each in parts]),
+        np.array([len(each.corners) for each in parts], np.int64),
+        np.array([each.radius for each in parts], float),
+    )
+
+
+def _fit(solid, smooth):
     found = []
     for piece in pieces_of(solid, smooth):
         outer, holes = smoothed_piece(piece, smooth)

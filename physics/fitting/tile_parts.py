@@ -13,6 +13,7 @@ import numpy as np
 from physics.fitting.cracks import Window
 from physics.fitting.crossings import SEEN
 from physics.fitting.few_cuts import bridge, cut_large, cut_reflex, merge
+from physics.fitting.kept import Parts, fitted
 from physics.fitting.outline import JOINING, LARGEST_REACH, SHARP
 from physics.fitting.rings import SIDE, turn_at
 from physics.fitting.tile_paths import find_paths, room_for_paths
@@ -54,6 +55,11 @@ def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) 
     if solid == near.size:
         square = np.array([(0, 0), (size, 0), (size, size), (0, size)], float)
         return TileParts(square + at, np.ones(4, bool), np.array([4]))
+    found = fitted("tile_parts", window, smooth, lambda: _fit(window, size, smooth))
+    return TileParts(found.corners + at, found.inner.copy(), found.counts.copy())
+
+
+def _fit(window, size, smooth):
     pixels = np.ascontiguousarray(window, dtype=np.uint8)
     paths, sides, corners, inner, counts = _room(size)
     found = convex_tile(
@@ -68,7 +74,7 @@ def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) 
     if found < 0:
         raise RuntimeError("the outline of a tile is no polygon: a defect of fitting.tile_paths")
     n = sum(counts[:found].tolist())
-    return TileParts(corners[:n] + at, inner[:n].copy(), counts[:found].copy())
+    return Parts(corners[:n].copy(), inner[:n].copy(), counts[:found].copy(), np.zeros(found))
 
 
 def _is_cornered(near):

@@ -93,13 +93,10 @@ def take_over() -> None:
 
 def share_taken_over() -> float:
     """Return how many of the kernels that were called run compiled, 0..1; 1 before any was called."""
-    total = totals_called()
-    return 1.0 - len(wanted) / total if total else 1.0
-
-
-def totals_called() -> int:
-    """Return how many (kernel, types) were called so far in this program."""
-    return len(wanted) + sum(len(each.forms) for each in registry)
+    if not wanted:
+        return 1.0
+    compiled = sum(len(each.forms) for each in registry)
+    return compiled / (compiled + len(wanted))
 
 
 def forget() -> None:
