@@ -1,8 +1,8 @@
 """`python -m scenes.outlines [--check]`: fit the outlines of the masks that the scenes begin with, and keep them.
 
 They lie beside the art (assets/outlines.npz), so that a start without compiled kernels does not fit them again. Every
-scene is built with each of its tiers, and the games are played for some seconds by their bots: what meets nothing at the
-start is fitted when it comes. --check compares the file with outlines that are fitted anew. Exit 1: it differs.
+scene is built with each of its tiers, and the games are played for some seconds by their bots, for what comes later.
+--check compares the file with outlines that are fitted anew. Exit 1: it differs.
 """
 
 import sys

@@ -6,6 +6,7 @@ there is fitted as ever; what other code or other pixels made has another key.
 
 import hashlib
 import zipfile
+import zlib
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -68,12 +69,8 @@ def _key(name, pixels, smooth):
 def code_stamp() -> bytes:
     """Return a hash of the sources that the parts follow from."""
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
-    paths = [
-        home / "settings.py",
-        home / "math2d.py",
-        *(path for each in FOLDERS for path in (home / each).glob("*.py")),
-    ]
-    for path in sorted(paths):
+    paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
+    for path in sorted((home / "settings.py", home / "math2d.py", *paths)):
         digest.update(path.name.encode() + path.read_bytes())
     return digest.digest()
 
@@ -102,7 +99,7 @@ def _read(path):
         with np.load(path, allow_pickle=False) as file:
             held = {name: file[name] for name in ("keys", "parts", "counts", "radii", "corners", "inner")}
         return _split(**held)
-    except (OSError, ValueError, KeyError, IndexError, EOFError, zipfile.BadZipFile):
+    except (OSError, ValueError, KeyError, IndexError, EOFError, zipfile.BadZipFile, zlib.error):
         return {}
 
 

@@ -139,10 +139,12 @@ def test_the_shipped_outlines_are_found(alone, monkeypatch):
     """The masks of the platformer's start, without any fit."""
     code = (
         "from game.run.headless import start_dummy_display; start_dummy_display()\n"
-        "from game.registry import Registry\nfrom scenes import SCENES\nfrom physics.fitting import mask_parts, tile_parts\n"
+        "from game.registry import Registry\nfrom scenes import SCENES\n"
+        "from physics.fitting import mask_parts, tile_parts\n"
         "def fail(*given):\n    raise AssertionError('fitted anew: run python -m scenes.outlines')\n"
         "mask_parts._fit = tile_parts._fit = fail\n"
-        "for name in ('shooter', 'platformer', 'lander', 'lab/mask_stack'):\n    Registry(SCENES).scene_class(name)(0)\n"
+        "for name in ('shooter', 'platformer', 'lander', 'lab/mask_stack'):\n"
+        "    Registry(SCENES).scene_class(name)(0)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
