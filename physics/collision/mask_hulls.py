@@ -14,8 +14,13 @@ from physics.raster.bits import is_set
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """First and last + 1 of the pixels whose squares meet the open interval low..high, within the solid bounds."""
-    return max(set_low, math.floor(low - start)), min(set_high, math.floor(high - start) + 1)
+    """First and last + 1 of the pixels whose squares meet the open interval low..high, within the solid bounds.
+
+    Taken into the bounds before they are rounded: an end may be infinite, and only a finite one can be rounded.
+    """
+    first = math.floor(min(float(set_high), max(float(set_low), low - start)))
+    last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
+    return first, last
 
 
 @subkernel

@@ -119,11 +119,14 @@ def put_center(u, v, body_inout):
 
 @subkernel
 def refresh_center(body_inout):
-    """Write the world centre of mass [px] of a BODY row at its present pose."""
+    """Write the world centre of mass [px] of a BODY row at its present pose; NaN at an angle that is not finite."""
     b = body_inout
     u = b.local_center_x
     v = b.local_center_y
-    if b.angle != 0.0:
+    if not abs(b.angle) < math.inf:  # a cosine of it is NaN when compiled, and an error when plain
+        u = math.nan
+        v = math.nan
+    elif b.angle != 0.0:
         u, v = turned(u, v, *heading(b.angle))
     put_center(u, v, b)
 

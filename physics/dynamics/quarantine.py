@@ -16,7 +16,7 @@ from physics.tables.contact import QUARANTINE
 from physics.tables.shape import TILES
 from physics.tables.step_state import StepState, stage
 
-NOT_FINITE = "a number of the body is not finite or beyond what a double resolves"
+NOT_FINITE = "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be"
 BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 where it may not be"
 BAD_WALK = "a number of its character is not finite"
 TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
@@ -106,8 +106,8 @@ def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
         and abs(b.local_center_y) < POSITION_LIMIT
         and abs(b.center_x) < 2.0 * POSITION_LIMIT
         and abs(b.center_y) < 2.0 * POSITION_LIMIT
-        and b.inverse_mass < LARGEST
-        and b.inverse_inertia < LARGEST
+        and 0.0 <= b.inverse_mass < LARGEST
+        and 0.0 <= b.inverse_inertia < LARGEST
         and 0.0 <= b.extent < POSITION_LIMIT
         and sizes - sizes == 0.0
     )

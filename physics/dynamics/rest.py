@@ -20,6 +20,8 @@ from physics.tables.contact import EVENT
 from physics.tables.counters import ISLANDS
 from physics.tables.step_state import StepState, stage
 
+COUNTED = 2.0**62  # times that patience may have passed: more are no whole number of a kernel
+
 
 @kernel
 def list_edges(
@@ -104,7 +106,8 @@ def fall_asleep(
         far = length_of(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
         b.sleep_time = 0.0 if far else before + dt
         # What creeps along, slower than this, stays near a pose that follows it.
-        if far or math.floor(b.sleep_time / patience) > math.floor(before / patience):
+        times = b.sleep_time / patience
+        if far or (abs(times) < COUNTED and math.floor(times) > math.floor(before / patience)):
             b.still_x = b.x
             b.still_y = b.y
             b.still_angle = b.angle

@@ -17,7 +17,7 @@ from physics.proximity.gjk import AX, AY, BX, BY, new_gap_workspace
 from physics.proximity.witness import separate_parts
 from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_parts, cast_ray_at_rows, nearest_hull
 from physics.queries.index import AskedWorld
-from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
+from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
 from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.filter import Filter
@@ -222,7 +222,9 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
     while True:
         around = reach + beyond
         rows = index.rows_in(world, (x - around, y - around), (x + around, y + around))
-        everything = len(rows) == np.count_nonzero(~world.bodies["quarantined"][world.shapes["body_row"]])
+        everything = around == math.inf or len(rows) == np.count_nonzero(
+            ~world.bodies["quarantined"][world.shapes["body_row"]]
+        )
         found = _nearest(world, _allowed(world, rows, filter, False), x, y)
         if everything or (found and found[1] <= reach):
             break
@@ -352,7 +354,8 @@ def _beyond_drawn(world):
     """How far [px] a mask's outline at the exact pose may reach out of the box that its pixels are drawn in."""
     if not world.library.masks or not len(world.bodies):
         return 0.0
-    return DRAWN + float(world.bodies["extent"].max()) * math.pi / MASK_ANGLE_BUCKETS
+    extent = world.bodies["extent"]
+    return DRAWN + float(extent[extent < POSITION_LIMIT].max(initial=0.0)) * math.pi / MASK_ANGLE_BUCKETS
 
 
 def _hit(world, row, fraction, nx, ny, point):

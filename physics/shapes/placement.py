@@ -8,13 +8,18 @@ from physics.shapes.mask_pose import exact_aabb
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 TAU = math.tau
+WHOLE = 2.0**62  # numbers below are whole numbers of a kernel; of others compiled forms make any, plain ones raise
+NOWHERE = -(1 << 62)  # [px] the pixel column or row of what is at no number
 
 
 @subkernel
 def bucket_at(angle, buckets):
     """The angle bucket nearest to an angle [rad]."""
+    turn = angle * buckets / TAU + 0.5
+    if not abs(turn) < WHOLE:
+        return 0
     # Buckets are a power of two: the mask is the remainder, also of negative numbers, without a division.
-    return math.floor(angle * buckets / TAU + 0.5) & (buckets - 1)
+    return math.floor(turn) & (buckets - 1)
 
 
 @subkernel
@@ -25,8 +30,12 @@ def raster_at(geometry, mask, angle):
 
 @subkernel
 def snapped(coordinate, origin):
-    """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up."""
-    return math.floor(coordinate - origin + 0.5)
+    """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up.
+
+    NOWHERE for a coordinate without pixels: beyond, or not finite.
+    """
+    at = coordinate - origin + 0.5
+    return math.floor(at) if abs(at) < WHOLE else NOWHERE
 
 
 @subkernel

@@ -1,0 +1,148 @@
+"""Every call of a stage's kernel made twice: the plain twin on copies of its arguments, the compiled form on them.
+
+A player runs both forms, so both must return the same and leave the same bytes in every array. Equal means: the same
+bits, of numbers too; but any NaN equals any NaN, as a sign or payload of NaN depends on the order of operands, which
+the compiler is free to choose, and nothing in the physics reads it.
+"""
+
+import ctypes
+import math
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from physics.jit import compiling
+from physics.jit.calls import StageKernel
+from physics.jit.signatures import key_of
+from physics.jit.views import view_of
+
+
+class FormsDiffer(AssertionError):
+    """The two forms of a kernel are not the same; says which kernel, and in what."""
+
+
+class Seen:
+    """What was compared: `calls` made, the names of the `kernels`, and `differences` as {text: how often}."""
+
+    def __init__(self):
+        self.calls, self.kernels, self.differences = 0, set(), {}
+
+    def note(self, difference):
+        self.differences[difference] = self.differences.get(difference, 0) + 1
+
+
+@contextmanager
+def compared(stop: bool = True) -> Iterator[Seen]:
+    """Compare the two forms of every stage's kernel that is called. Raises FormsDiffer at the end, naming all found.
+
+    stop: raise at once, where a difference is found.
+    """
+    seen = Seen()
+
+    def call(kernel, *arguments):
+        keys = tuple(map(key_of, arguments))
+        form = kernel.forms.get(keys)
+        if form is None:
+            form = compiling.load_or_compile(kernel, keys)
+            kernel.install(keys, form)
+        copies = Copies()
+        others = tuple(copies.of(each) for each in arguments)
+        try:
+            plain, error = kernel.plain(*map(view_of, others)), None
+        except Exception as raised:  # whatever it is, the compiled form does not raise it
+            plain, error = None, raised
+        result = form(*arguments)
+        seen.calls += 1
+        seen.kernels.add(kernel.name)
+        difference = _raised(error) if error is not None else _difference(plain, result, copies)
+        if difference:
+            difference = f"{kernel.name} {difference}"
+            seen.note(difference)
+            if stop:
+                raise FormsDiffer(difference) from error
+        return result
+
+    before = StageKernel.__dict__.get("__call__")
+    assert before is None, "an inner comparison would compare what the outer one does"
+    StageKernel.__call__ = call
+    try:
+        yield seen
+    finally:
+        del StageKernel.__call__
+    if seen.differences:
+        raise FormsDiffer("\n".join(f"{text} ({times} times)" for text, times in seen.differences.items()))
+
+
+class Copies:
+    """Copies of arrays that overlap as the arrays do: two views of one buffer are copied as two views of one buffer."""
+
+    def __init__(self):
+        self.buffers = {}  # address of a buffer -> (the array that owns it, its copy)
+        self.arrays = []  # (array, copy)
+
+    def of(self, value):
+        """A copy of an argument."""
+        if isinstance(value, tuple):
+            copies = [self.of(each) for each in value]
+            return type(value)(*copies) if hasattr(value, "_fields") else tuple(copies)
+        if not isinstance(value, np.ndarray):
+            return value
+        owner = value
+        while isinstance(owner.base, np.ndarray):
+            owner = owner.base
+        address = owner.ctypes.data
+        key = address, owner.nbytes
+        if key not in self.buffers:
+            self.buffers[key] = owner, bytearray(ctypes.string_at(address, owner.nbytes))
+        owner, buffer = self.buffers[key]
+        offset = value.ctypes.data - address if value.size else 0
+        copy = np.ndarray(value.shape, value.dtype, buffer if value.size else None, offset, value.strides)
+        copy.flags.writeable = value.flags.writeable
+        self.arrays.append((value, copy))
+        return copy
+
+
+def _raised(error):
+    """What a plain twin raised, and where."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"raises {error!r} in {last.name} when plain: {last.line}"
+
+
+def _difference(plain, result, copies):
+    """What differs between what both forms returned and wrote, "" if nothing does."""
+    if not same_value(plain, result):
+        return f"returns {plain!r} when plain, {result!r} when compiled"
+    if all(bytes(copy) == ctypes.string_at(owner.ctypes.data, owner.nbytes) for owner, copy in copies.buffers.values()):
+        return ""
+    for array, copy in copies.arrays:
+        for name, one, two in columns(array, copy):
+            unlike = ~same_elements(one, two)
+            if unlike.any():
+                first = tuple(int(place) for place in np.argwhere(unlike)[0])
+                return f"writes {two[first].item()!r} when plain, {one[first].item()!r} when compiled, into {name}"
+    return ""
+
+
+def columns(array, copy):
+    """(name, array, copy) of every column of a table, or of the array itself."""
+    if array.dtype.names:
+        return [(name, array[name], copy[name]) for name in array.dtype.names]
+    return [(f"an array of {array.dtype}", array, copy)]
+
+
+def same_elements(one, two):
+    """Element by element: the same bits, or both NaN."""
+    if one.dtype.kind != "f":
+        return one == two
+    return ((one == two) & (np.signbit(one) == np.signbit(two))) | (np.isnan(one) & np.isnan(two))
+
+
+def same_value(one, two):
+    """Whether two results are the same: numbers by their bits, or both NaN; a bool is a whole number."""
+    if isinstance(one, tuple) and isinstance(two, tuple):
+        return len(one) == len(two) and all(map(same_value, one, two))
+    if isinstance(one, float) and isinstance(two, float):
+        return (one == two and math.copysign(1.0, one) == math.copysign(1.0, two)) or (one != one and two != two)
+    return isinstance(one, float) == isinstance(two, float) and one == two
