@@ -17,6 +17,7 @@ from physics.jit import compiling
 from physics.jit.calls import StageKernel
 from physics.jit.signatures import key_of
 from physics.jit.views import view_of
+from physics.solver.lanes import LANES, SIZE, Blocks
 
 
 class FormsDiffer(AssertionError):
@@ -54,6 +55,7 @@ def compared(stop: bool = True) -> Iterator[Seen]:
         except Exception as raised:  # whatever it is, the compiled form does not raise it
             plain, error = None, raised
         result = form(*arguments)
+        copies.take_over_empty_lanes()
         seen.calls += 1
         seen.kernels.add(kernel.name)
         difference = _raised(error) if error is not None else _difference(plain, result, copies)
@@ -81,12 +83,16 @@ class Copies:
     def __init__(self):
         self.buffers = {}  # address of a buffer -> (the array that owns it, its copy)
         self.arrays = []  # (array, copy)
+        self.blocks = []  # (Blocks, copy)
 
     def of(self, value):
         """A copy of an argument."""
         if isinstance(value, tuple):
             copies = [self.of(each) for each in value]
-            return type(value)(*copies) if hasattr(value, "_fields") else tuple(copies)
+            made = type(value)(*copies) if hasattr(value, "_fields") else tuple(copies)
+            if isinstance(value, Blocks):
+                self.blocks.append((value, made))
+            return made
         if not isinstance(value, np.ndarray):
             return value
         owner = value
@@ -102,6 +108,15 @@ class Copies:
         copy.flags.writeable = value.flags.writeable
         self.arrays.append((value, copy))
         return copy
+
+
+    def take_over_empty_lanes(self):
+        """Leave out what only a compiled pass works on: lanes that hold no row, and what is gathered within a pass."""
+        for blocks, copy in self.blocks:
+            copy.gathered[:] = blocks.gathered
+            empty = np.broadcast_to((blocks.manifold < 0)[:, None, :], (len(blocks.manifold), SIZE // LANES, LANES))
+            lines, others = (each.lines.reshape(empty.shape) for each in (blocks, copy))
+            others[empty] = lines[empty]
 
 
 def _raised(error):
