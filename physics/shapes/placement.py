@@ -4,10 +4,12 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, turned
+from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.shapes.mask_pose import exact_aabb
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 TAU = math.tau
+BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] between an angle and that of its bucket, at most
 
 
 @subkernel
@@ -27,6 +29,18 @@ def raster_at(geometry, mask, angle):
 def snapped(coordinate, origin):
     """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up."""
     return math.floor(coordinate - origin + 0.5)
+
+
+@subkernel
+def is_drawn_when_asked(shape):
+    """Whether a SHAPE row is tested as drawn, and drawn only for a test: its AABB is that of its exact pose."""
+    return shape.snap and shape.role == PIXELS
+
+
+@subkernel
+def drawn_beyond(body, shape):
+    """How far [px] the pixels of a SHAPE row may be drawn beyond its AABB: 0 where the AABB is that of the drawing."""
+    return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
