@@ -9,7 +9,7 @@ from physics.tables.shape import MASK
 from physics.world_state import WorldState
 
 # Goes up with every change by which some world takes other digests: recordings of before play, and part.
-PHYSICS_VERSION = 4
+PHYSICS_VERSION = 5
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
 ASKED = ("substeps", "eased")  # where the number of substeps follows from the loads

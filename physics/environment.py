@@ -101,11 +101,14 @@ class Environment(WorldState):
             rebuild_masks(self)
 
     def _plan(self):
-        self.workspace, self._plans = Workspace(self._effects, self._solver), plans(self._effects, self._solver)
-        if (self.sensed is not None) != self.stacks:
+        before, self.workspace = self.workspace, Workspace(self._effects, self._solver)
+        self._plans = plans(self._effects, self._solver)
+        if before is None or before.stacks != self.stacks:
             # The two kinds of worlds keep other facts of their contacts.
             self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
-            self.sensed = self.manifolds if self.stacks else None
+            self.sensed = None
+        if (self.sensed is not None) != self._effects.response:
+            self.sensed = np.zeros(0, MANIFOLD) if self._effects.response else None
         if self.awake.sleeping != self.sleeps:
             self._let_sleep(self.sleeps)
         self.profile = Profile(self._plan_now.names)

@@ -108,6 +108,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (carry_characters, e.response and characters),
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
+            (sense, e.response and e.sensors),
             (events.tell, True),
         )
     called = tuple(each for each, wanted in stages if wanted)
@@ -123,12 +124,12 @@ class Workspace:
     """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
 
     def __init__(self, effects: Effects, solver: str) -> None:
-        stacks = solver in STACKING
+        self.stacks = stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(False, one_way, boxes_only)
         # When somebody looks at contacts of masks: where they push, their outlines have told all.
         self.telling = NarrowPhase(True, one_way, boxes_only) if not effects.response else None
-        self.sensing = NarrowPhase(False, one_way, boxes_only) if stacks and effects.sensors else None
+        self.sensing = NarrowPhase(False, one_way, boxes_only) if effects.response and effects.sensors else None
         self.sweep = Sweeper() if effects.continuous or effects.response else None
         self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None

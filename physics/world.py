@@ -88,7 +88,7 @@ class World(Environment, Questions):
         # What is remembered from step to step.
         self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
         self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
-        self.sensed = self.ghosts = None
+        self.sensed = self.ghosts = self.workspace = None
         self.touching, self.sensing = Pairs(), Pairs()
         # What the last step told.
         self.tell_contacts(self.manifolds)

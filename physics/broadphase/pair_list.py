@@ -43,6 +43,7 @@ class PairList:
         self.known_ids = self.owners = self.candidates[:0]  # None until somebody asks; owners as SHAPE has them
         self.everything = False  # the strategy is new: tell it about all proxies
         self.again = []  # slots whose pairs are to be found again, besides those whose rectangles changed
+        self.sensors = 0  # how many proxies are those of sensors
         self.moved = False  # shape rows have moved since the last update
         self.resting = False  # pairs may have lost their last side that is awake
         self._make_room()
@@ -99,6 +100,8 @@ class PairList:
     def free_proxies(self, slots: np.ndarray) -> None:
         """Take shapes out of the broad phase."""
         slots = slots[slots >= 0]
+        self.sensors -= int(np.count_nonzero(self.proxies["plane"][slots] == SENSED))
+        self.proxies["plane"][slots] = NOWHERE
         self.proxies["row"][slots] = -1
         self.proxies["changed"][slots] = True
         self.freed += slots.tolist()
@@ -136,8 +139,9 @@ class PairList:
         tell_rows(shapes, self.proxies)
         self.moved = True
 
-    def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed. Returns how many."""
+    def widen(self, shapes: np.ndarray, margin: float | np.ndarray) -> int:
+        """Let the rectangles of SHAPE rows hold their present AABBs too, grown by a margin [px], one for all or one
+        each, and list them as changed. Returns how many."""
         shapes = shapes[shapes["proxy"] >= 0]  # what is quarantined has none
         slots = shapes["proxy"]
         for low, high, axis in (
@@ -168,6 +172,8 @@ class PairList:
         """Who asks for pixels meets masks themselves; what is pushed meets their parts."""
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
+        before = self.proxies["plane"][slots]
+        self.sensors += int(np.count_nonzero(plane == SENSED)) - int(np.count_nonzero(before == SENSED))
         self.proxies["plane"][slots], self.proxies["avoids"][slots] = plane, AVOIDS[plane]
 
     def set_still(self, slots: np.ndarray, still: bool) -> None:

@@ -6,15 +6,14 @@ looked for once in some steps. More candidates, the same contacts: the narrow ph
 Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes that reach ahead along the velocity).
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from physics.jit import kernel
 from physics.math2d import length_of
-from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, DRAWN, MASK_ANGLE_BUCKETS, STEPS_AHEAD
-from physics.shapes.placement import refresh_boxes, snapped
+from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, DRAWN, STEPS_AHEAD
+from physics.shapes.placement import BUCKET_TURN, drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PIXELS
@@ -31,8 +30,6 @@ class Reach(NamedTuple):
     margin: float  # [px] contacts up to it are candidates
     spare: float  # [px] how far a rectangle outgrows its need, at most …
     share: float  # … that share of the box
-    drawn: float  # [px] how far the pixels of a mask may be drawn from its exact pose, and …
-    turned: float  # … that share of its size
     ahead: float  # of how many steps it holds the motion besides this one
 
 
@@ -76,9 +73,8 @@ def update_rectangles(
         fat = 0.0
         ahead_x = 0.0
         ahead_y = 0.0
-        if s.role == PIXELS and s.snap:
-            # Its box is that of the exact pose: what is drawn may lie a little beyond.
-            beyond = reach.drawn + reach.turned * b.extent
+        if is_drawn_when_asked(s):
+            beyond = drawn_beyond(b, s)
             lower_x -= beyond
             lower_y -= beyond
             upper_x += beyond
@@ -131,6 +127,52 @@ def update_rectangles(
     return found
 
 
+@kernel
+def list_outside(
+    # read
+    rows,
+    bodies,
+    shapes,
+    proxies,
+    # write
+    rows_out,
+):
+    """List those of the shape rows that reach, as they are drawn, out of their motion rectangle. Returns their number.
+
+    O(rows).
+    """
+    found = 0
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if s.proxy < 0:
+            continue
+        p = proxies[s.proxy]
+        beyond = drawn_beyond(bodies[s.body_row], s)
+        if (
+            s.min_x - beyond < p.lower_x
+            or s.max_x + beyond > p.upper_x
+            or s.min_y - beyond < p.lower_y
+            or s.max_y + beyond > p.upper_y
+        ):
+            rows_out[found] = rows[k]
+            found += 1
+    return found
+
+
+def cover_final_poses(state: StepState) -> None:
+    """Widen the motion rectangles of shapes that were pushed out of them, and find the pairs of these shapes: the
+    candidates then hold all that overlaps at the final poses."""
+    pairs, shapes = state.pairs, state.shapes
+    rows = state.workspace.rows_for(len(state.awake.shapes))
+    found = list_outside(state.awake.shapes, state.bodies, shapes, pairs.proxies, rows)
+    if found:
+        left = shapes[rows[:found]]
+        drawn = (left["role"] == PIXELS) & left["snap"]
+        beyond = np.where(drawn, DRAWN + BUCKET_TURN * state.bodies["extent"][left["body_row"]], 0.0)
+        pairs.widen(left, state.tolerances.slop + beyond)
+        pairs.update(state.broadphase, shapes, found, state.work)
+
+
 @stage(
     "motion_rectangles",
     reads=("effects", "tolerances", "gravity", "dt", "awake", "bodies", "shapes", "library", "pairs"),
@@ -164,8 +206,6 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
         tolerances.speculative if piles else tolerances.slop,
         AABB_MARGIN * tolerances.pixels_per_meter if piles else 0.0,
         AABB_MARGIN_FRACTION if piles else 0.0,
-        DRAWN,
-        math.pi / MASK_ANGLE_BUCKETS,
         0.0 if piles else STEPS_AHEAD,
     )
     changed = pairs.room_for(len(rows))

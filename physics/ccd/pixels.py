@@ -17,12 +17,13 @@ from physics.ccd.linear import write_impact
 from physics.ccd.parts import gap_at_start
 from physics.ccd.paths import cut_path, outruns
 from physics.ccd.rotational import depth_at_start, place_mover, sweep_part, write_local, write_motion
-from physics.ccd.rotational_ground import sweep_chain, sweep_tiles
+from physics.ccd.rotational_ground import sweep_chain_seen_from, sweep_tiles
 from physics.ccd.rotational_pairs import shrink_to_middle
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
 from physics.proximity.gjk import AX, AY, NX, NY
 from physics.shapes.library import Library
+from physics.shapes.mask_pose import exact_aabb
 from physics.shapes.placement import rounding
 from physics.tables.body import DYNAMIC, RAY
 from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
@@ -147,8 +148,21 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
 
 
 @subkernel
-def sweep_on_ground(geometry, other, body, count, radius, one_way, workspace, best_out):
-    """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (row `other` of SHAPE)."""
+def middle_of_mask(geometry, shape, body, angle):
+    """The middle [px] of the AABB that a MASK row has at an angle [rad], which is what decides on which side of a link
+    it is: from its body's centre of mass, at angle 0."""
+    raster = geometry.raster_of[shape.geometry, 0]
+    left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
+    u, v = turned(0.5 * (left + right), 0.5 * (top + bottom), math.cos(angle), -math.sin(angle))
+    return u - body.local_center_x, v - body.local_center_y
+
+
+@subkernel
+def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, workspace, best_out):
+    """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (SHAPE row `other`).
+
+    middle: the mover's; it lies in front of a link, or behind, as a whole.
+    """
     if other.kind == TILES:
         fraction, nx, ny, _ = sweep_tiles(
             geometry,
@@ -164,8 +178,18 @@ def sweep_on_ground(geometry, other, body, count, radius, one_way, workspace, be
             workspace,
         )
     else:
-        fraction, nx, ny, _ = sweep_chain(
-            geometry, other.geometry, body.local_center_x, body.local_center_y, count, radius, 0.0, 0.0, -1, workspace
+        fraction, nx, ny, _ = sweep_chain_seen_from(
+            geometry,
+            other.geometry,
+            body.local_center_x,
+            body.local_center_y,
+            middle,
+            count,
+            radius,
+            0.0,
+            0.0,
+            -1,
+            workspace,
         )
     if fraction < best_out[0]:
         best_out[0] = fraction
@@ -207,6 +231,7 @@ def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, square
     if not on_ground and o.kind != MASK:
         n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
         radius_b = rounding(shapes, other)
+    middle = middle_of_mask(geometry, s, p, r.motion_a[ANGLE]) if are_squares else (0.0, 0.0)
     depth = 0.0
     for asked in range(2):
         for k in range(first, first + pieces):
@@ -218,7 +243,7 @@ def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, square
                 )
                 depth = max(depth, found)
             elif asked == 1:
-                sweep_on_ground(geometry, o, q, count, radius, one_way, workspace, best_out)
+                sweep_on_ground(geometry, o, q, middle, count, radius, one_way, workspace, best_out)
     work_inout[GJK_ITERATIONS] += int(r.totals[0])
     work_inout[CAP_HITS] += int(r.totals[1])
 

@@ -113,19 +113,28 @@ def ahead_of(ax, ay, bx, by, u, v):
 
 
 @subkernel
-def is_before(link, local_x, local_y, count, fraction, core, workspace):
-    """Whether the middle of the mover's corners, or its centre of mass, is in front of a link at a fraction of both
-    motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well."""
+def middle_of(count, corners):
+    """The middle of so many corners [px]."""
+    x = 0.0
+    y = 0.0
+    for k in range(count):
+        x += corners[k, 0] / count
+        y += corners[k, 1] / count
+    return x, y
+
+
+@subkernel
+def is_before(link, local_x, local_y, middle, fraction, core, workspace):
+    """Whether the mover's middle [px from its centre of mass], or its centre of mass, is in front of a link at a
+    fraction of both motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well.
+    """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     middle_x = 0.0
     middle_y = 0.0
     if not core:
-        for k in range(count):
-            middle_x += workspace.mover[k, 0] / count
-            middle_y += workspace.mover[k, 1] / count
         angle = motion[ANGLE] + fraction * motion[TURN]
-        middle_x, middle_y = turned(middle_x, middle_y, math.cos(angle), math.sin(angle))
+        middle_x, middle_y = turned(middle[0], middle[1], math.cos(angle), math.sin(angle))
     angle = other[ANGLE] + fraction * other[TURN]
     x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
     y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
@@ -157,8 +166,8 @@ def misses_block(box, local_x, local_y, left, top, right, bottom):
 
 
 @subkernel
-def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
-    """How deep [px] the mover stands in the links that it is in front of, before it moves."""
+def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace):
+    """How deep [px] the mover stands in the links that its middle is in front of, before it moves."""
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -178,7 +187,7 @@ def depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace):
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
-            if is_before(link, local_x, local_y, count, 0.0, False, workspace):
+            if is_before(link, local_x, local_y, middle, 0.0, False, workspace):
                 depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
     return depth
 
@@ -208,12 +217,20 @@ def starts_across(geometry, chain, local_x, local_y, count, radius, slack, works
 def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, but, workspace):
     """(fraction or MISS, normal from the chain, feature) of the mover against the links of a chain within reach, from
     their front. half, slack: see sweep_part; but: the feature that does not count, or -1. O(links near the way)."""
+    middle = middle_of(count, workspace.mover)
+    return sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace)
+
+
+@subkernel
+def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace):
+    """As sweep_chain, of a mover that is a piece of something: the middle of the whole, (x, y) [px] from its centre of
+    mass at angle 0, decides which links it is in front of."""
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
     reach = reach_of(workspace.mover, count) + radius
     turns = other[ANGLE] != 0.0 or other[TURN] != 0.0
     left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, other)
-    depth = depth_in_chain(geometry, chain, local_x, local_y, count, radius, workspace)
+    depth = depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace)
     best = MISS
     best_x = 0.0
     best_y = -1.0
@@ -232,7 +249,7 @@ def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, b
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
             # The point of a ray is on the link when it meets it: what counts is where it comes from.
             when = 0.0 if count == 1 and radius == 0.0 else fraction
-            if fraction < best and is_before(link, local_x, local_y, count, when, core, workspace):
+            if fraction < best and is_before(link, local_x, local_y, middle, when, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]

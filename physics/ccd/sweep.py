@@ -151,9 +151,10 @@ def foresee_impacts(state: StepState) -> None:
 
 @stage(
     "narrow_phase",
-    reads=(*FORESEEN, "impacts", "manifolds"),
+    reads=(*FORESEEN, "impacts", "manifolds", "swept_sensors"),
     writes=(
         "manifolds",
+        "swept_sensors",
         "library",
         "work",
         "workspace",
@@ -172,6 +173,8 @@ def detect_moved(state: StepState) -> None:
         state.manifolds = manifolds
         return
     met = _written(state, state.impacts, int(state.effects.response))
+    if state.effects.response:
+        state.swept_sensors, met = met[met["sensor"]], met[~met["sensor"]]
     # Where a side went on after the impact, as a kinematic one does, the final poses may show it from behind.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]

@@ -171,7 +171,7 @@ def _told_in_full(tables, manifolds):
     if not masks.any():
         return manifolds
     pairs = np.stack([row_a, row_b], axis=1)[masks].astype(np.int64)
-    full = tables.workspace.telling.collide(tables.library.tables, tables.bodies, shapes, pairs, 0.0, no_work())
+    full = tables.workspace.telling.collide(tables.library, tables.bodies, shapes, pairs, 0.0, no_work())
     found = manifolds.copy()
     put_back(full, np.flatnonzero(masks), found)
     return found

@@ -5,7 +5,9 @@ from physics.dynamics.awake import is_active, wakes
 from physics.jit import inlined, kernel, subkernel
 from physics.tables.counters import SENSOR_TESTS
 
-ALL, SOLIDS, SENSORS = 0, 1, 2  # which candidates a narrow phase looks at
+# The candidates that a narrow phase looks at: ALL; those without a sensor; of these, SOLIDS, those that a step can
+# change; those with a sensor.
+ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 
 @inlined
@@ -14,14 +16,18 @@ def may_change(a, b):
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
+@inlined
+def is_wanted(which, a, b):
+    """Whether two SHAPE rows are among those looked at, by which of them are sensors."""
+    return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
+
+
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Whether two SHAPE rows are looked at: ALL, or those of the SOLIDS that something can change, or the SENSORS."""
-    if which == ALL:
-        return True
-    if (a.sensor or b.sensor) != (which == SENSORS):
+    """Whether two SHAPE rows are looked at, see ALL, and of the SOLIDS whether something can change them."""
+    if not is_wanted(which, a, b):
         return False
-    return which == SENSORS or may_change(bodies[a.body_row], bodies[b.body_row])
+    return which != SOLIDS or may_change(bodies[a.body_row], bodies[b.body_row])
 
 
 @kernel

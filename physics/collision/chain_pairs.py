@@ -11,6 +11,7 @@ from physics.collision.mask_hulls import thick_line
 from physics.collision.upright import upright_corners
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
+from physics.shapes.mask_pose import box_as_tested
 from physics.shapes.placement import hull_at, polygon_at, rounding
 from physics.tables.counters import MASK_TESTS
 from physics.tables.geometry import BLOCK_LINKS
@@ -77,6 +78,8 @@ def collide_chain_pairs(
         min_y = o.min_y
         max_x = o.max_x
         max_y = o.max_y
+        if o.kind == MASK:
+            min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
         n = 0
         if o.kind == POLYGON:
             n = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b)
@@ -84,6 +87,8 @@ def collide_chain_pairs(
             n = upright_corners(o, workspace.b)
         elif o.kind != MASK:
             n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
+        middle_x = 0.5 * (min_x + max_x)
+        middle_y = 0.5 * (min_y + max_y)
         # Some digits more than the margin: turning the box must not lose what touches.
         rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
         min_x, min_y, max_x, max_y = box_in_body(
@@ -111,7 +116,7 @@ def collide_chain_pairs(
                         continue
                     link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
                     if o.kind == MASK:
-                        if in_front(points, 0, 1, 0.5 * (o.min_x + o.max_x), 0.5 * (o.min_y + o.max_y)) < 0.0:
+                        if in_front(points, 0, 1, middle_x, middle_y) < 0.0:
                             continue
                         thick_line(points, 0.0, BACKING, workspace.b)
                         area, nx, ny, x, y, separation, which = meet_polygon(

@@ -2,7 +2,7 @@
 
 from physics.collision.ahead import reach_of
 from physics.collision.approach import most_nearing, nearing
-from physics.collision.box_pairs import ALL, SENSORS, SOLIDS, may_change
+from physics.collision.box_pairs import NO_SENSORS, SENSORS, SOLIDS, is_wanted, may_change
 from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
@@ -18,10 +18,12 @@ from physics.collision.manifold import (
     SURFACE_ANY,
 )
 from physics.jit import inlined, kernel
+from physics.shapes.placement import drawn_beyond, is_drawn_when_asked
 from physics.tables.counters import NARROW_TESTS, SENSOR_TESTS
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
 
-PARTED = NOTHING + 1  # behind the kinds of pairs: where it is counted how many are of parts
+# Behind the kinds of pairs: where it is counted how many are of parts, and of masks that are drawn for the test.
+PARTED, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 
 @inlined
@@ -70,11 +72,13 @@ def boxes_apart(a, b, margin):
 @inlined
 def kind_asked(bodies, a, b, margin, ahead, which):
     """The kind of a candidate pair of SHAPE rows, NOTHING if this pass does not look at it. which: see classify."""
-    if which != ALL and (a.sensor or b.sensor) != (which == SENSORS):
+    if not is_wanted(which, a, b):
         return NOTHING
     kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
-    if kind == NOTHING or which == ALL:
+    if kind == NOTHING or which <= NO_SENSORS:
         return kind
+    if which == SENSORS:
+        margin += drawn_beyond(bodies[a.body_row], a) + drawn_beyond(bodies[b.body_row], b)
     if boxes_apart(a, b, margin):
         if ahead <= 0.0 or kind > POLYGONS:
             return NOTHING
@@ -111,11 +115,11 @@ def classify(
     counts_out,
     work_inout,
 ):
-    """Write the kind of every candidate pair, how many there are of each, and in how many, counts_out[PARTED], a side
-    is a part of another shape. O(candidates).
+    """Write the kind of every candidate pair and how many there are of each. O(candidates).
 
-    which: ALL, or only the SOLIDS of pairs that something can change and whose boxes are within `margin` [px], or meet
-    within `ahead` [s], or only the SENSORS. The others are NOTHING.
+    counts_out[PARTED]: in how many a side is a part of another shape; counts_out[DRAWN_PAIRS]: in how many a side is
+    drawn for the test. which: ALL, or what has NO_SENSORS, or only the SOLIDS of pairs that something can change and
+    whose boxes are within `margin` [px], or meet within `ahead` [s], or only the SENSORS. The others are NOTHING.
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
@@ -128,6 +132,7 @@ def classify(
         counts_out[kind] += 1
         if kind != NOTHING:
             counts_out[PARTED] += int(is_of_part(a, b))
+            counts_out[DRAWN_PAIRS] += int(is_drawn_when_asked(a) or is_drawn_when_asked(b))
             sensors += int(a.sensor or b.sensor)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
     work_inout[SENSOR_TESTS] += sensors

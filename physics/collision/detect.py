@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from physics.broadphase.rectangles import cover_final_poses
 from physics.collision.approach import measure_approach
-from physics.collision.box_pairs import SENSORS
+from physics.collision.box_pairs import ALL, NO_SENSORS, SENSORS
 from physics.collision.carry_over import carry_over, take_places
 from physics.dynamics.sleepers import in_order
 from physics.jit import kernel
-from physics.shapes.rasters import draw_masks
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.rows import joined
 from physics.tables.step_state import StepState, stage
@@ -19,16 +19,20 @@ GRAZE = 1.5  # slops that who slides by a side may overlap it: what rests on the
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Manifolds at the present poses, with how fast their sides approach; state.manifolds: those before."""
+    """Manifolds at the present poses, with how fast their sides approach; state.manifolds: those before.
+
+    Where bodies are pushed sensors are left to `sense`, which sees them where they end.
+    """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
     manifolds = narrow.collide(
-        state.library.tables,
+        state.library,
         state.bodies,
         state.shapes,
         state.pairs.rows,
         slop,
         state.work,
+        which=NO_SENSORS if state.effects.response else ALL,
         bias=BIAS * slop,
         previous=state.manifolds,
     )
@@ -39,7 +43,7 @@ def detect(state: StepState) -> np.ndarray:
 def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
     """Write points, normals and separations to manifolds that a sweep found, where it has put their bodies."""
     found = state.workspace.narrow.collide(
-        state.library.tables,
+        state.library,
         state.bodies,
         state.shapes,
         state.pairs.rows[met["candidate"]],
@@ -59,7 +63,7 @@ def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
 
 @stage(
     "narrow_phase",
-    reads=("tolerances", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
+    reads=("effects", "tolerances", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
     writes=("manifolds", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
@@ -80,7 +84,9 @@ def detect_piles(state: StepState) -> None:
         return
     places = state.library.tables, state.bodies, state.shapes
     news = state.workspace.narrow.update(
-        *places,
+        state.library,
+        state.bodies,
+        state.shapes,
         state.pairs.rows,
         tolerances.speculative,
         state.work,
@@ -119,10 +125,23 @@ def is_any_sensor(
 
 @stage(
     "sensors",
-    reads=("awake", "bodies", "shapes", "library", "pairs", "swept_sensors", "workspace"),
+    reads=(
+        "awake",
+        "bodies",
+        "shapes",
+        "library",
+        "pairs",
+        "broadphase",
+        "tolerances",
+        "manifolds",
+        "swept_sensors",
+        "workspace",
+    ),
     writes=(
         "sensed",
         "swept_sensors",
+        "pairs",
+        "broadphase",
         "work",
         "workspace",
         "library",
@@ -131,18 +150,16 @@ def is_any_sensor(
 )
 def sense(state: StepState) -> None:
     """Sensors see the final poses, and what a sweep met on the way."""
-    bodies, shapes = state.bodies, state.shapes
-    narrow = state.workspace.sensing
-    pairs, swept = state.pairs.rows, state.swept_sensors
-    if not len(swept) and not is_any_sensor(pairs, shapes):
+    if not state.pairs.sensors:
         state.sensed = NOTHING  # most worlds at most times: a twelfth of a step of 55 boxes
         return
-    if state.library.masks and len(pairs):
-        asked = pairs[shapes["sensor"][pairs].any(axis=1)]
-        if len(asked):
-            draw_masks(state.library, np.unique(asked), bodies, shapes)
-    tables = state.library.tables
-    sensed = narrow.collide(tables, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
+    cover_final_poses(state)
+    bodies, shapes = state.bodies, state.shapes
+    pairs, swept = state.pairs.rows, state.swept_sensors
+    if not len(swept) and not is_any_sensor(pairs, shapes):
+        state.sensed = NOTHING
+        return
+    sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
     if len(swept):
         known = sensed["shape_a"] << 32 | sensed["shape_b"]
         swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]

@@ -7,7 +7,7 @@ import numpy as np
 from physics.collision.box_pairs import ALL, SOLIDS, collide_boxes
 from physics.collision.carry_over import copy_kept
 from physics.collision.chain_pairs import collide_chain_pairs
-from physics.collision.classify import PARTED, classify
+from physics.collision.classify import DRAWN_PAIRS, PARTED, classify
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.left_over import drop_opposed, settle_left
 from physics.collision.manifold import (
@@ -36,8 +36,9 @@ from physics.collision.mask_pairs import collide_mask_pairs_full, collide_mask_p
 from physics.collision.persist import recycle_manifolds, remember_ground
 from physics.collision.surfaces import admit_to_surfaces
 from physics.collision.tile_pairs import collide_grid_pairs_closed, collide_grid_pairs_one_way
+from physics.shapes.library import Library
+from physics.shapes.rasters import draw_masks
 from physics.tables.counters import COUNTERS
-from physics.tables.geometry import Geometry
 from physics.tables.lines import zeros_in_lines
 from physics.tables.manifold import MANIFOLD
 
@@ -74,13 +75,13 @@ class NarrowPhase:
         )
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
-        self.counts, self.deep = np.zeros(PARTED + 1, np.int64), np.zeros(64, bool)
+        self.counts, self.deep = np.zeros(DRAWN_PAIRS + 1, np.int64), np.zeros(64, bool)
         self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, MANIFOLD) for _ in range(4))
         self.stale = np.zeros(64, np.int32)
 
     def collide(
         self,
-        geometry: Geometry,
+        library: Library,
         bodies: np.ndarray,
         shapes: np.ndarray,
         candidates: np.ndarray,
@@ -94,24 +95,28 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
 
-        candidates (n, 2) int64 shape rows; margin [px]: pairs apart by at most that are found too; work: counters;
-        which: see classify; bias [px]: see hulls.collide_hulls. previous: manifolds of the step before, which tell who
-        stood on what is open from below. graze [px], ahead [s]: see Batch.
+        The masks among them are drawn at the poses of their bodies, see rasters.py. candidates (n, 2) int64 shape rows;
+        margin [px]: pairs apart by at most that are found too; work: counters; which: see classify; bias [px]: see
+        hulls.collide_hulls. previous: manifolds of the step before, which tell who stood on what is open from below.
+        graze [px], ahead [s]: see Batch.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         count = len(candidates)
         self._make_room_for_pairs(count)
         margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
-        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
         if self.boxes_only:
             return self._boxes(batch, which, work)
         classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
+        if self.counts[DRAWN_PAIRS]:
+            draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
+            batch = batch._replace(geometry=library.tables)
         return self._complete(batch, previous, 0, work)
 
     def update(
         self,
-        geometry: Geometry,
+        library: Library,
         bodies: np.ndarray,
         shapes: np.ndarray,
         candidates: np.ndarray,
@@ -130,7 +135,7 @@ class NarrowPhase:
         """
         count = len(candidates)
         self._make_room_for_pairs(count)
-        batch = Batch(geometry, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
         if self.boxes_only:

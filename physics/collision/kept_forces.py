@@ -50,7 +50,7 @@ class KeptForces:
         pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
         slop, speculative = tables.tolerances.slop, tables.tolerances.speculative
         found = tables.workspace.narrow.collide(
-            tables.library.tables,
+            tables.library,
             tables.bodies,
             shapes,
             pairs,

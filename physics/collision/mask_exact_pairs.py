@@ -11,16 +11,18 @@ from physics.jit import kernel, subkernel
 from physics.math2d import cosine_and_sine
 from physics.raster.exact import first_squares
 from physics.raster.shared_squares import shared_squares
-from physics.shapes.mask_pose import out_of_raster, raster_in_raster, raster_of_shape
+from physics.shapes.mask_pose import box_as_tested, out_of_raster, raster_in_raster, raster_of_shape
 from physics.shapes.placement import rounding
 from physics.tables.counters import MASK_TESTS
 from physics.tables.shape import MASK
 
 
 @subkernel
-def share_no_area(a, b):
-    """Whether the AABBs of two SHAPE rows at most touch."""
-    return a.min_x >= b.max_x or b.min_x >= a.max_x or a.min_y >= b.max_y or b.min_y >= a.max_y
+def share_no_area(geometry, a, b):
+    """Whether the boxes of two MASK rows, as they are tested, at most touch."""
+    left, top, right, bottom = box_as_tested(geometry, a)
+    min_x, min_y, max_x, max_y = box_as_tested(geometry, b)
+    return left >= max_x or min_x >= right or top >= max_y or min_y >= bottom
 
 
 @subkernel
@@ -35,7 +37,7 @@ def is_first_the_frame(geometry, a, b):
 @subkernel
 def exact_mask_area(geometry, bodies, a, b):
     """The area [px2] that two MASK rows share, not both of them snapped."""
-    if share_no_area(a, b):
+    if share_no_area(geometry, a, b):
         return 0.0
     first = is_first_the_frame(geometry, a, b)
     f = a if first else b
@@ -77,7 +79,7 @@ def make_exact_mask_pass(full: bool) -> Callable:
             work_inout[MASK_TESTS] += 1
             a = shapes[candidates[i, 0]]
             b = shapes[candidates[i, 1]]
-            if share_no_area(a, b):
+            if share_no_area(geometry, a, b):
                 continue
             first = is_first_the_frame(geometry, a, b)
             f = a if first else b

@@ -10,6 +10,7 @@ from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_a
 from physics.collision.mask_exact import meet_polygon
 from physics.collision.tiles import edges_facing, run_at, tile_at
 from physics.jit import kernel, subkernel
+from physics.shapes.mask_pose import box_as_tested
 from physics.shapes.placement import polygon_at, rounding
 from physics.tables.counters import MASK_TESTS
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE
@@ -70,6 +71,8 @@ def make_grid_pass(one_way: bool) -> Callable:
             min_y = o.min_y
             max_x = o.max_x
             max_y = o.max_y
+            if o.kind == MASK:
+                min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
             first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
             last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
             first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)

@@ -73,6 +73,7 @@ def ray_cast_all(
         rows = _allowed(world, index.rows_in(world, *_box_around(start, end, beyond)), filter, sensors, leave)
         rows = np.setdiff1d(rows, asked, assume_unique=True)
         asked = np.concatenate([asked, rows])
+        draw_masks(world.library, rows, world.bodies, world.shapes)
         masks = (world.shapes["kind"][rows] == MASK) & (leave == PIXELS)
         by_parts, others = _beside(world, rows[masks], x, y, dx, dy, beyond), rows[~masks]
         workspace = np.zeros((len(others), 4))
@@ -291,7 +292,7 @@ def _contacts(world, bodies, shapes, rows):
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
     narrow = narrow_phase_for_queries()
-    return narrow.collide(world.library.tables, all_bodies, all_shapes, pairs, 0.0, world.queries.work)
+    return narrow.collide(world.library, all_bodies, all_shapes, pairs, 0.0, world.queries.work)
 
 
 def _first_contact(world, bodies, shapes, rows):
@@ -338,9 +339,7 @@ def _allowed(world, rows, filter, sensors, leave=PIXELS):
     s = world.shapes
     rows = rows[s["role"][rows] != leave]
     keep = (s["membership"][rows] & filter.mask != 0) & (s["mask"][rows] & filter.membership != 0)
-    rows = rows[keep if sensors else keep & ~s["sensor"][rows]]
-    draw_masks(world.library, rows, world.bodies, s)
-    return rows
+    return rows[keep if sensors else keep & ~s["sensor"][rows]]
 
 
 def _box_around(start, end, beyond):

@@ -82,8 +82,8 @@ class PairBatch:
 
     def test(self) -> int:
         """Test all pairs; the number of manifolds. What took the time is the narrow phase and nothing else."""
-        tables, work = self.library.tables, no_work()
-        self.found = self.narrow_phase.collide(tables, self.bodies, self.shapes, self.candidates, 0.0, work)
+        candidates, work = self.candidates, no_work()
+        self.found = self.narrow_phase.collide(self.library, self.bodies, self.shapes, candidates, 0.0, work)
         return len(self.found)
 
     def met(self) -> np.ndarray:

@@ -90,11 +90,11 @@ def _collide_hulls(rows, margin, swapped) -> Manifold:
 
 
 def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
-    _, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
+    library, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
     narrow = exact_narrow_phase()
 
     def points_of(swapped):
-        return contacts_of(narrow.collide(rows.geometry, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))
+        return contacts_of(narrow.collide(library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))
 
     contacts = points_of(swapped)
     if not len(contacts):

@@ -54,6 +54,18 @@ def raster_of_shape(geometry, shape):
 
 
 @subkernel
+def box_as_tested(geometry, shape):
+    """AABB (min_x, min_y, max_x, max_y) [px] of the solid pixels that a MASK row is tested by: as it is drawn, or at
+    its exact pose where it is not snapped."""
+    r = geometry.rasters[shape.raster]
+    if not shape.snap or r.area == 0:
+        return shape.min_x, shape.min_y, shape.max_x, shape.max_y
+    left = float(shape.left)
+    top = float(shape.top)
+    return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
+
+
+@subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
     """Where the raster of another mask, snapped or not, stands in that of a mask that is not snapped.
 

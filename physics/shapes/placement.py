@@ -4,12 +4,14 @@ import math
 
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, turned
+from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.shapes.mask_pose import exact_aabb
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 TAU = math.tau
 WHOLE = 2.0**62  # numbers below are whole numbers of a kernel; of others compiled forms make any, plain ones raise
 NOWHERE = -(1 << 62)  # [px] the pixel column or row of what is at no number
+BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] between an angle and that of its bucket, at most
 
 
 @subkernel
@@ -36,6 +38,18 @@ def snapped(coordinate, origin):
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
+
+
+@subkernel
+def is_drawn_when_asked(shape):
+    """Whether a SHAPE row is tested as drawn, and drawn only for a test: its AABB is that of its exact pose."""
+    return shape.snap and shape.role == PIXELS
+
+
+@subkernel
+def drawn_beyond(body, shape):
+    """How far [px] the pixels of a SHAPE row may be drawn beyond its AABB: 0 where the AABB is that of the drawing."""
+    return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel

@@ -76,7 +76,7 @@ def verdicts(a, pose_a, b, poses, full=False):
     refresh_aabbs(np.arange(len(shapes)), library.tables, bodies, shapes)
     rows = np.arange(1, len(shapes))
     pairs = np.stack([0 * rows, rows], axis=1)
-    found = NarrowPhase(full, False, False).collide(library.tables, bodies, shapes, pairs, 0.0, no_work())
+    found = NarrowPhase(full, False, False).collide(library, bodies, shapes, pairs, 0.0, no_work())
     hits, areas = np.zeros(len(poses), bool), np.zeros(len(poses))
     hits[found["candidate"]], areas[found["candidate"]] = True, found["area_1"]
     return hits, areas
