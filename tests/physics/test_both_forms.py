@@ -19,13 +19,13 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 
 WAYS = [(kind, solver) for kind, (_, solvers) in KINDS.items() for solver in solvers]
 SEEDS, MANY_SEEDS = 2, 40
-SLOW = (2.0**20, 2.0**56)  # between these a character is carried by so many pixels, one by one
+FAR = 2.0**20  # [px] a character is carried by so many pixels one by one: more would take minutes
 
 
 def write_wrong(world, rng, walkers):
     """Some numbers of some columns into some bodies, most of which are touched."""
     columns = rng.sample(COLUMNS, rng.choice((1, 3)))
-    numbers = [each for each in NUMBERS if not walkers or not SLOW[0] < abs(each) < SLOW[1]]
+    numbers = [each for each in NUMBERS if not (walkers and FAR < abs(each) < math.inf)]
     share = rng.choice((0.1, 0.5))
     for row in range(len(world)):
         if rng.random() < share and not world.bodies["quarantined"][row]:
@@ -58,6 +58,7 @@ def test_forms_are_the_same_where_numbers_are_wrong(kind, solver, strategy):
 
 
 @pytest.mark.nightly
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, in both forms alike: what is compared are the kernels
 @pytest.mark.parametrize("strategy", STRATEGIES)
 @pytest.mark.parametrize("kind, solver", WAYS)
 def test_forms_are_the_same_where_many_numbers_are_wrong(kind, solver, strategy):
