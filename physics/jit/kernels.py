@@ -1,5 +1,6 @@
 """Kernels as objects: a function, its plain twin, and its compiled forms; numba is not imported for them."""
 
+import math
 from collections.abc import Callable
 from operator import attrgetter
 from types import FunctionType
@@ -8,7 +9,7 @@ from typing import Any
 from physics.jit.signatures import Key
 from physics.jit.twins import rebound
 from physics.jit.views import view_of
-from physics.jit.words import Builtin
+from physics.jit.words import Builtin, plain_math
 
 Keys = tuple[Key, ...]  # types of the arguments of one call
 Form = Callable[..., Any]
@@ -89,4 +90,6 @@ class Part(Kernel):
 
 def plain_form_of(value: Any) -> Any:
     """Return what stands for a global or closed-over value in a plain twin."""
+    if value is math:
+        return plain_math
     return value.plain if isinstance(value, (Kernel, Builtin)) else value

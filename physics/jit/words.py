@@ -1,6 +1,8 @@
 """Words of 64 bits in kernels: the count of their bits, and values as words, compiled and plain."""
 
+import math
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -54,6 +56,19 @@ def _count_bits(typing_context, word):
 def _as_word(value):
     """Return the value as an unsigned 64-bit word."""
     return np.uint64(value)
+
+
+def _total(function):
+    """Return a function of one number that gives NaN where math's raises: at infinity, as the compiled one does."""
+
+    def total(x):
+        return function(x) if abs(x) < math.inf else math.nan
+
+    return total
+
+
+# What plain twins find under the name math.
+plain_math = SimpleNamespace(**{**vars(math), "cos": _total(math.cos), "sin": _total(math.sin)})
 
 
 def _make_popcount():

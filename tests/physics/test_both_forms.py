@@ -86,8 +86,6 @@ def test_forms_are_the_same_in_sound_worlds(kind, solver, strategy):
 @pytest.mark.parametrize("touched", [True, False])
 def test_one_wrong_number_of_a_turned_mask(column, value, kind, touched):
     """On which a box lies: its pixels have no column, its angle no bucket, its time asleep no whole number."""
-    if kind == "static" and not touched and column == "angle" and math.isinf(value):
-        pytest.xfail("a cosine of it raises when plain; touch() has it put aside before")
     effects, _ = KINDS["stacked"]
     with compared():
         world = World(effects, gravity=(0.0, 300.0))
