@@ -282,7 +282,6 @@ print("MISSES", sum(sum(each.stats.cache_misses.values()) for each in registry))
 
 
 @jitted
-@pytest.mark.deep
 def test_two_processes_leave_nothing_to_compile(tmp_path):
     """What they list without compiling is exactly what the game then asks for."""
     environment = {**os.environ, "HITBOX_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(ROOT)}
