@@ -109,7 +109,6 @@ class Copies:
         self.arrays.append((value, copy))
         return copy
 
-
     def take_over_empty_lanes(self):
         """Leave out what only a compiled pass works on: lanes that hold no row, and what is gathered within a pass."""
         for blocks, copy in self.blocks:

@@ -2,8 +2,8 @@
 
 In an environment without numba, where kernels are the Python that they are written in:
 
-    python -m slipcover --source physics --json --out A.json -m pytest tests/physics      # and B.json of other tests
-    python -m tests.coverage A.json B.json                                                 # writes docs/coverage.*
+    python -m slipcover --source physics --json --out A.json -m pytest -m "not nightly" tests/physics
+    python -m tests.coverage A.json B.json        # B.json of other tests; writes docs/coverage.*
 
 Source of the counting: Altmayer Pizzorno and Berger, SlipCover: Near Zero-Overhead Code Coverage for Python, 2023.
 """

@@ -1,7 +1,8 @@
 """Variants of one scene stepped side by side, their digests compared after every frame.
 
 Twice, drawn, under each broad phase, with the broad phase switched, compiled and plain: none of it may change what
-happens, and where it does the first frame that differs is named, and the part of the scene.
+happens, and where it does the first frame that differs is named, and the part of the scene. Every change is tested with
+one run that asks all broad phases in each step (tests/all_broadphases.py); a run under each takes its turn at night.
 
 `python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line: that is how a
 process without compiled kernels takes part, and how two versions of the sources are compared (with `diff`).
@@ -26,10 +27,11 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from physics import BROADPHASES
 from scenes import SCENES
+from tests.all_broadphases import scene_asking_all
 
 ROOT = Path(__file__).resolve().parent.parent
 FEW = 100  # bodies of a world without compiled kernels, where its scene lets one choose
-DRAWN_EVERY = 3  # frames; drawing everything costs ten steps, and every kind of frame has its turn
+DRAWN_EVERY = 7  # frames; drawing everything costs ten steps, and every kind of frame has its turn
 SWITCHES = {
     frame: (("broadphase", name),) for frame, name in zip(range(10, 4000, 20), cycle(BROADPHASES), strict=False)
 }
@@ -39,9 +41,10 @@ class Diverged(AssertionError):
     """Two runs that should be the same are not; says which, from which frame on, and in what."""
 
 
-def make_scene(name, few=False, seed=1, **chosen):
-    """A scene of the game, with few bodies where it lets one choose."""
-    scene = Registry(SCENES).scene_class(name)(seed, **chosen)
+def make_scene(name, few=False, seed=1, asks_all=False, **chosen):
+    """A scene of the game, with few bodies where it lets one choose. asks_all: its worlds ask all four broad phases."""
+    scene_class = Registry(SCENES).scene_class(name)
+    scene = (scene_asking_all(scene_class) if asks_all else scene_class)(seed, **chosen)
     if few and "bodies" in scene.values:
         scene.change("slider:bodies", FEW)
     return scene
@@ -50,9 +53,9 @@ def make_scene(name, few=False, seed=1, **chosen):
 class Run:
     """A scene being played, by its bot unless told. step() returns the digest after the step."""
 
-    def __init__(self, label, scene, source=None, recorder=None):
+    def __init__(self, label, scene, source=None, recorder=None, replay=None):
         self.label, self.scene = label, scene
-        self.session = Session(scene, source or BotSource(), recorder)
+        self.session = Session(scene, source or BotSource(), recorder, replay)
 
     def step(self):
         """Make one step."""
@@ -63,8 +66,8 @@ class Run:
 class DrawnRun(Run):
     """The whole picture is drawn with every overlay, now and then between two steps."""
 
-    def __init__(self, label, scene):
-        super().__init__(label, scene)
+    def __init__(self, label, scene, source=None, replay=None):
+        super().__init__(label, scene, source, replay=replay)
         self.picture, self.overlays = Picture(), Overlays(LAYER_NAMES)
 
     def step(self):
@@ -76,16 +79,15 @@ class DrawnRun(Run):
         return scene_digest(self.scene)
 
 
-class ChangingBot(BotSource):
-    """The scene's bot, while somebody else changes settings: {frame: ((name, value), ...)}, frames counted from 0."""
+class Changing:
+    """A source, the scene's bot unless told, while settings change: {frame: ((name, value), ...)}, frames from 0."""
 
-    def __init__(self, changes):
-        super().__init__()
-        self.changes = changes
+    def __init__(self, changes, source=None):
+        self.changes, self.source = changes, source or BotSource()
 
     def next(self, scene):
         """The input of the next step."""
-        frame = super().next(scene)
+        frame = self.source.next(scene)
         more = self.changes.get(scene.frame, ())
         return InputFrame(frame.actions, frame.pointer, frame.pointer_down, frame.wheel, (*frame.changes, *more))
 
@@ -127,7 +129,7 @@ def ways_to_run(name, recorder=None, few=False, seed=1):
     first = make_scene(name, few, seed)
     yield Run("the scene", first, recorder=recorder and recorder(first))
     yield DrawnRun("drawn with every overlay", make_scene(name, few, seed))
-    yield Run("with the broad phase switched mid-game", make_scene(name, few, seed), ChangingBot(SWITCHES))
+    yield Run("with the broad phase switched mid-game", make_scene(name, few, seed), Changing(SWITCHES))
     for strategy in BROADPHASES:
         yield Run(f"under broad phase {strategy}", make_scene(name, few, seed, broadphase=strategy))
 

@@ -8,7 +8,7 @@ import pytest
 from game.errors import ReplayDiverged
 from tests import lockstep as module
 from tests.game.arena import Arena
-from tests.lockstep import ChangingBot, Diverged, DrawnRun, PlainRun, Run, failures_of, first_difference, lockstep
+from tests.lockstep import Changing, Diverged, DrawnRun, PlainRun, Run, failures_of, first_difference, lockstep
 
 
 class Pushed(Arena):
@@ -67,7 +67,7 @@ def test_other_seeds_differ_at_once():
 
 
 def test_a_change_comes_in_the_frame_that_was_told():
-    run = Run("", Arena(seed=1), ChangingBot({3: (("broadphase", "tree"),)}))
+    run = Run("", Arena(seed=1), Changing({3: (("broadphase", "tree"),)}))
     seen = []
     for _ in range(5):
         run.step()

@@ -145,7 +145,6 @@ def user(made, tmp_path_factory):
     return SimpleNamespace(run=run, python=python, command=command, site=site, project=folder / "project", data=data)
 
 
-@pytest.mark.deep
 def test_the_wheel_takes_one_name(made, user):
     with zipfile.ZipFile(made.wheel) as archive:
         names = archive.namelist()
@@ -159,7 +158,6 @@ def test_the_wheel_takes_one_name(made, user):
     assert not {each.name for each in user.site.iterdir()} & {*PACKAGES, "main", "main.py"}
 
 
-@pytest.mark.deep
 def test_the_same_wheel_is_built_of_the_sdist(made):
     """RECORD holds the hash of every file. The source distribution is a whole checkout, tests and documents too."""
     records = []
@@ -178,7 +176,6 @@ def test_the_same_wheel_is_built_of_the_sdist(made):
         assert (made.source / name).is_file(), name
 
 
-@pytest.mark.deep
 def test_every_door_says_the_same_version(user):
     checkout = call(sys.executable, "main.py", "--version", cwd=ROOT)
     assert user.run(user.command, "--version") == user.run(user.python, "-m", "hitbox", "--version") == checkout
@@ -203,7 +200,6 @@ for effects, solver in ((Effects.detection(), None), (piles, None), (piles, "blo
 """
 
 
-@pytest.mark.deep
 def test_worlds_step_as_in_the_checkout(user, tmp_path):
     script = tmp_path / "worlds.py"
     script.write_text(WORLDS)
@@ -213,7 +209,6 @@ def test_worlds_step_as_in_the_checkout(user, tmp_path):
     assert len(set(found.split())) >= 4
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("scene, frames", [("shooter", 60), ("platformer", 20), ("lander", 20), ("lab/cradle", 60)])
 def test_a_recording_of_the_checkout_is_replayed(user, tmp_path, scene, frames):
     record = ["--scene", scene, "--headless", "--bot", "--frames", frames, "--json", "--record", tmp_path / "run.json"]
@@ -222,7 +217,6 @@ def test_a_recording_of_the_checkout_is_replayed(user, tmp_path, scene, frames):
     assert json.loads(replayed)["digest"] == first["digest"]
 
 
-@pytest.mark.deep
 def test_a_report_is_measured_by_workers(user):
     report = ["--report", "my report", "--quick", "--workers", "2", "--only", "broadphases/*-10"]
     assert "0 failed" in user.run(user.command, *report, **PLAIN)
@@ -264,7 +258,6 @@ print(background.share > 0.0, background.failed)
 """
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("code, wanted, environment", [(MEASURED, "True", PLAIN), (COMPILED, "True []", {})])
 def test_background_workers_work(user, tmp_path, code, wanted, environment):
     script = tmp_path / "program.py"
@@ -273,7 +266,6 @@ def test_background_workers_work(user, tmp_path, code, wanted, environment):
     assert found.strip() == wanted
 
 
-@pytest.mark.deep
 def test_an_editable_install_keeps_the_names_of_the_checkout(made, tmp_path):
     """Of the source distribution, which is a checkout, so that nothing is written into this one."""
     python, command, _ = environment_beside(tmp_path / "environment")

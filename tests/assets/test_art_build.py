@@ -25,7 +25,6 @@ def test_product_regenerates_bit_identical(name):
     assert build.differences(name) == [], f"run: python -m assets.build {name}"
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("name", [name for name in build.PRODUCTS if name not in FAST])
 def test_every_other_product_regenerates_bit_identical(name):
     assert build.differences(name) == [], f"run: python -m assets.build {name}"

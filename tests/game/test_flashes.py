@@ -115,12 +115,11 @@ def test_games_stay_within_three_flashes_a_second(name, flashing):
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     "name, steps, flashing",
     [
-        pytest.param("shooter", 15000, True, marks=pytest.mark.nightly),
-        ("shooter", 4000, True),
+        ("shooter", 15000, True),
         ("platformer", 2400, True),
         ("lander", 5600, True),
         ("shooter", 4000, False),
@@ -133,7 +132,6 @@ def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("name", [name for name in SCENES if "/" in name])
 def test_labs_stay_within_three_flashes_a_second(name):
     assert lights_of(name, 600, Accessibility()).most_in_a_second() <= 3

@@ -14,14 +14,30 @@ from game.run.sources import BotSource
 from game.screens.play import Play
 from scenes import SCENES
 from tests.game.reading import Reader, assert_text_is_apart
+from tests.pairwise import pairwise, the_others
 
+pytestmark = pytest.mark.usefixtures("nothing_is_measured")
 SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900)]
+PANEL = [False, True]
+LAYERS = {"none": lambda scene: (), "all": lambda scene: LAYER_NAMES, "its own": lambda scene: scene.overlays}
 
 
-@pytest.fixture(scope="module", params=SCENES)
-def play(request):
-    """Each scene after a second and a half of its bot."""
-    scene = Registry(SCENES).scene_class(request.param)(seed=1)
+@pytest.fixture(scope="module")
+def plays():
+    """name -> that scene after a second and a half of its bot; one at a time, made when a test first asks."""
+    kept = {}
+
+    def play_of(name):
+        if name not in kept:
+            kept.clear()
+            kept[name] = made(name)
+        return kept[name]
+
+    return play_of
+
+
+def made(name):
+    scene = Registry(SCENES).scene_class(name)(seed=1)
     for slider in scene.sliders:
         if slider.name == "bodies":
             scene.change("slider:bodies", 100)
@@ -32,15 +48,29 @@ def play(request):
     return screen
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("panel", [False, True])
-@pytest.mark.parametrize("layers", [(), LAYER_NAMES, None])
-def test_play_with_overlays_and_panel(play, size, panel, layers):
-    play.overlays = Overlays(play.scene.overlays if layers is None else layers)
+def assert_text_is_apart_with(play, size, panel, layers):
+    play.overlays = Overlays(LAYERS[layers](play.scene))
     play.overlays.note(play.scene)
     play.panel_open = panel
-    frame = play.draw(Picture(pygame.Surface(size)))
+    assert_text_of_is_apart(play, Picture(pygame.Surface(size)))
+
+
+def assert_text_of_is_apart(play, picture):
+    frame = play.draw(picture)
     assert_text_is_apart(frame.boxes, frame.rect)
+
+
+@pytest.mark.parametrize("name, size, panel, layers", pairwise(SCENES, SIZES, PANEL, LAYERS))
+def test_play_with_overlays_and_panel(plays, name, size, panel, layers):
+    assert_text_is_apart_with(plays(name), size, panel, layers)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", SCENES)
+def test_play_with_overlays_and_panel_in_every_case(plays, name):
+    for other, *case in the_others(SCENES, SIZES, PANEL, LAYERS):
+        if other == name:
+            assert_text_is_apart_with(plays(name), *case)
 
 
 @pytest.mark.skipif(not physics.JIT, reason="12 million pairs a step need compiled kernels")
@@ -50,32 +80,25 @@ def test_the_largest_numbers_fit():
     screen = Play(scene, DeviceSource(), Sounds(silent=True))
     for _ in range(3):
         screen.step()
-    frame = screen.draw(Picture())
-    assert_text_is_apart(frame.boxes, frame.rect)
+    assert_text_of_is_apart(screen, Picture())
 
 
-@pytest.mark.parametrize("paused, speed", [(True, 1.0), (False, 0.25)])
-def test_play_while_paused_or_slow(play, paused, speed):
-    play.clock.paused, play.clock.speed = paused, speed
-    frame = play.draw(Picture())
+@pytest.mark.parametrize("name", SCENES)
+def test_text_is_apart_and_readable_while_it_goes_on(plays, name):
+    """Paused, slow, and at several moments: with its own overlays and the panel, and readable without."""
+    play = plays(name)
+    own = Overlays(play.scene.overlays)
+    play.overlays, play.panel_open = own, True
+    for paused, speed in ((True, 1.0), (False, 0.25)):
+        play.clock.paused, play.clock.speed = paused, speed
+        assert_text_of_is_apart(play, Picture())
     play.clock.paused, play.clock.speed = False, 1.0
-    assert_text_is_apart(frame.boxes, frame.rect)
-
-
-@pytest.mark.parametrize("frames", [1, 200, 500])
-def test_scenes_at_other_moments(play, frames):
-    while play.session.report.steps < frames:
-        play.step()
-    frame = play.draw(Picture())
-    assert_text_is_apart(frame.boxes, frame.rect)
-
-
-@pytest.mark.parametrize("frames", [1, 90, 200, 400, 600])
-def test_scenes_are_readable(play, frames):
-    while play.session.report.steps < frames:
-        play.step()
-    with Reader() as reader:
-        play.overlays.on = set()
-        play.panel_open = False
-        play.draw(Picture())
-        reader.assert_readable()
+    for frames in (90, 200, 400, 500, 600):
+        while play.session.report.steps < frames:
+            play.step()
+        play.overlays, play.panel_open = own, True
+        assert_text_of_is_apart(play, Picture())
+        play.overlays, play.panel_open = Overlays(()), False
+        with Reader() as reader:
+            play.draw(Picture())
+            reader.assert_readable()

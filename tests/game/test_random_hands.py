@@ -122,7 +122,6 @@ def try_out(driver, scene, seed, deeds):
             driver.screen.close()
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("scene", SCENES)
 def test_nothing_that_hands_do_ends_a_scene(scene, drive, monkeypatch):
     ended = watched(monkeypatch)

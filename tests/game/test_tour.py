@@ -53,7 +53,6 @@ def look(tour, size):
     return tour.draw(Picture(pygame.Surface(size)))
 
 
-@pytest.mark.deep
 @pytest.mark.skipif(not physics.JIT, reason="800 steps of the shooter")
 def test_every_stop_is_on_a_step_where_its_subject_is_there_ringed_and_not_under_the_card():
     """One walk through all: five scenes are played to where it gets interesting, and that takes its time."""

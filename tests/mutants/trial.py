@@ -33,9 +33,13 @@ def ids_of(names):
 
 
 def run_tests(folder, names):
-    """(exit code of pytest, its output) for the named tests in a copy. Raises subprocess.TimeoutExpired."""
+    """Return (exit code of pytest, its output) for the named tests in a copy, slow ones too.
+
+    Raises subprocess.TimeoutExpired.
+    """
+    options = ["-x", "-q", "-m", "not nightly", "-p", "no:cacheprovider", "-p", "no:xdist"]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *ids_of(names)],
+        [sys.executable, "-m", "pytest", *options, *ids_of(names)],
         cwd=folder,
         env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(folder)},
         capture_output=True,

@@ -142,7 +142,6 @@ def test_giant_among_small_floods_nothing(make):
         assert counters(world)["pairs_tested"] + counters(world)["nodes_visited"] <= 2 * n + 200
 
 
-@pytest.mark.deep
 def test_tree_stays_low_through_ten_thousand_changes():
     changes = 10_000 if JIT else 1_500
     rng = np.random.default_rng(4)

@@ -42,7 +42,6 @@ def test_random_boxes_pair_as_the_double_loop_says(strategy, n):
 
 
 @every_strategy
-@pytest.mark.deep
 def test_two_thousand_boxes_pair_as_the_double_loop_says(strategy):
     lower, upper = random_boxes(5, 2000 if JIT else 400, 900.0, 15.0)
     assert found(strategy, lower, upper) == touching_pairs(lower.tolist(), upper.tolist())

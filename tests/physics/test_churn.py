@@ -156,7 +156,6 @@ def test_random_churn_agrees_with_brute_force_after_every_step(seed):
     churn(seed, 120 if JIT else 25, most=30)
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_ten_thousand_random_churns_agree_with_brute_force_after_every_step(seed):
     assert churn(seed, 700 if JIT else 60, most=45) >= (950 if JIT else 60)

@@ -72,7 +72,6 @@ def test_random_hulls_keep_their_certificates_and_few_rounds():
     assert np.percentile(rounds, 99) <= 10 and max(rounds) <= 20
 
 
-@pytest.mark.deep
 def test_a_hundred_thousand_random_hulls_keep_their_certificates():
     share, rounds = fuzz(2, 100_000 if JIT else 5000, 4)
     assert 0.3 < share < 0.7

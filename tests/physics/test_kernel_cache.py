@@ -203,7 +203,6 @@ def test_a_second_process_compiles_nothing(tmp_path, solver):
         assert digest == first and compiled == 0 and loaded > 10
 
 
-@pytest.mark.deep
 def test_a_copy_elsewhere_finds_what_was_compiled_and_other_sources_of_jit_do_not(tmp_path):
     first, second, cache = tmp_path / "first", tmp_path / "second", tmp_path / "cache"
     for folder in (first, second):

@@ -266,7 +266,6 @@ print(json.dumps([totals.compiled, totals.loaded, len(world.contacts)]))
 
 
 @jitted
-@pytest.mark.deep
 def test_two_programs_that_start_at_once_compile_each_kernel_once(tmp_path):
     environment = {**os.environ, "HITBOX_CACHE_DIR": str(tmp_path / "kernels"), "PYTHONPATH": str(ROOT)}
     both = [

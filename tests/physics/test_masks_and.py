@@ -56,7 +56,6 @@ def test_random_masks_hit_as_the_double_loop_says(seed):
     assert 0.2 * count < hits < 0.9 * count
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(10, 20))
 def test_thousands_of_random_masks_hit_as_the_double_loop_says(seed):
     rng = np.random.default_rng(seed)

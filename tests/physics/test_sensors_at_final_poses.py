@@ -209,7 +209,6 @@ def test_sensors_tell_what_overlaps_at_the_final_poses(name):
     assert seen > 100
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", WORLDS)

@@ -26,6 +26,7 @@ from scenes import SCENES
 REGISTRY = Registry(SCENES)
 WINDOWS = {"x2": (960, 540), "x3": (1440, 810)}
 LABS = [name for name in SCENES if name.startswith("lab/")]
+pytestmark = pytest.mark.usefixtures("nothing_is_measured")
 
 
 def screen(name, frames=30, layers=(), person=True, hint=False):
@@ -45,13 +46,18 @@ def pixels(surface, rect):
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("window", WINDOWS)
-def test_words_and_bars_lie_over_all_overlays(name, window):
+def test_words_and_bars_lie_over_all_overlays(name):
     play = screen(name, 12 if name == "lab/broadphases" else 45, person=False)
     play.session.report.steps = 10_000  # no line of keys
+    play.clock.left_over = play.clock.step  # at the last step's poses, as with overlays
+    for window in WINDOWS:
+        words_and_bars_lie_over_all_overlays(play, window)
+
+
+def words_and_bars_lie_over_all_overlays(play, window):
+    play.overlays.on = set()
     picture = Picture(pygame.Surface(WINDOWS[window]))
     layers = [layer for layer in LAYER_NAMES if layer != "times"]
-    play.clock.left_over = play.clock.step  # at the last step's poses, as with overlays
     plain = play.draw(picture)
     fixed, bare = [rect.copy() for rect in plain.fixed], plain.surface.copy()
     words = [(rect.copy(), text) for rect, text in plain.boxes]
@@ -69,10 +75,14 @@ def test_words_and_bars_lie_over_all_overlays(name, window):
 
 
 @pytest.mark.parametrize("name", LABS)
-@pytest.mark.parametrize("window", WINDOWS)
-@pytest.mark.parametrize("state", ["keys", "frozen", "slow"])
-def test_the_line_of_a_lab_stands_beside_its_title(name, window, state):
+def test_the_line_of_a_lab_stands_beside_its_title(name):
     play = screen(name)
+    for window in WINDOWS:
+        for state in ("keys", "frozen", "slow"):
+            the_line_stands_beside_the_title(play, window, state)
+
+
+def the_line_stands_beside_the_title(play, window, state):
     play.clock.paused, play.clock.speed = state == "frozen", 0.25 if state == "slow" else 1.0
     frame = play.draw(Picture(pygame.Surface(WINDOWS[window])))
     wanted = {"keys": "Esc menu", "frozen": "FROZEN", "slow": "SPEED"}[state]

@@ -16,7 +16,7 @@ from scenes.lander.scene import Lander
 pytestmark = pytest.mark.skipif(not physics.JIT, reason="minutes of play take too long without compiled kernels")
 
 
-@pytest.mark.parametrize("seed", [1, 2, *(pytest.param(seed, marks=pytest.mark.deep) for seed in (3, 4, 5, 6, 7))])
+@pytest.mark.parametrize("seed", [1, 2, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in (3, 4, 5, 6, 7))])
 def test_the_bot_flies_the_course(seed):
     scene = Lander(seed=seed)
     session = Session(scene, BotSource())

@@ -64,7 +64,6 @@ def test_the_gallery_calls_for_sleep_on_its_last_page():
     assert found.matters and PAGES[-1].name == "asleep", found
 
 
-@pytest.mark.deep
 @needs_speed
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=() if name in IDLE_IN_CI else pytest.mark.nightly) for name in LABS]
@@ -83,7 +82,6 @@ def test_what_a_lab_does_not_declare_changes_nothing_when_it_is_idle(name):
     assert not of_others, f"{name}: put in with nothing to do, these change what happens: {of_others}"
 
 
-@pytest.mark.deep
 @needs_speed
 @pytest.mark.parametrize("name", ["platformer", "lander"])
 def test_a_game_that_lets_things_sleep_has_less_to_do(name):

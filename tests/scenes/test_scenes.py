@@ -9,15 +9,24 @@ import physics
 from game.registry import Registry
 from game.run.replay import Recorder
 from game.run.replay_check import load_replay_for
-from game.run.session import Session
 from scenes import SCENES
-from tests.lockstep import ChangingBot, PlainRun, Run, failures_of, first_difference, lockstep, make_scene, ways_to_run
+from tests.lockstep import (
+    SWITCHES,
+    Changing,
+    DrawnRun,
+    PlainRun,
+    Run,
+    failures_of,
+    first_difference,
+    lockstep,
+    make_scene,
+    ways_to_run,
+)
 
+SHORT_FRAMES = 30
 PLAIN_FRAMES = 25  # without compiled kernels
 LAB_FRAMES = 600
 FRAMES = {"shooter": 3600, "platformer": 3600, "lander": 3600}  # the games' first minute, goals included
-TOGETHER = 1200  # frames of all ways side by side; then the first goes on alone to the goals, nightly all of them
-QUICK = "lab/filters"  # the one that stands for all in `pytest -m quick`
 FEW = not physics.JIT
 REGISTRY = Registry(SCENES)
 scene_class = REGISTRY.scene_class
@@ -43,25 +52,38 @@ def play(scene, frames, source=None):
     return run
 
 
+def played_and_replayed(name, frames, path):
+    """Play the scene by its bot, and again from its recording. Return both runs.
+
+    The second is drawn with every overlay, asks all broad phases in each step, and switches them. Raises ReplayDiverged
+    with the first frame that differs, StrategiesDisagree with the pairs.
+    """
+    scene = make_scene(name, FEW)
+    run = Run("the scene", scene, recorder=Recorder(scene, bot=True))
+    for _ in range(frames):
+        run.session.step()
+    run.session.recorder.save(path)
+    recording, _ = load_replay_for(path, REGISTRY)
+    again = DrawnRun("replayed", make_scene(name, FEW, asks_all=True), Changing(SWITCHES, recording), recording)
+    for _ in range(recording.frames):
+        again.step()
+    assert recording.frames == frames and again.scene.state() == scene.state()
+    return run, again
+
+
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.quick) if n == QUICK else n for n in SCENES])
+@pytest.mark.parametrize("name", SCENES)
+def test_one_digest_however_it_is_run_for_half_a_second(name, tmp_path):
+    """Cover every scene in the README's command: on no list of slow tests (tests/slow.py, NEVER)."""
+    played_and_replayed(name, SHORT_FRAMES, tmp_path / "recording.json")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name", SCENES)
 def test_one_digest_however_it_is_run_and_the_goals_are_reached(name, tmp_path):
     frames = FRAMES.get(name, LAB_FRAMES) if physics.JIT else PLAIN_FRAMES
-    runs = list(ways_to_run(name, lambda scene: Recorder(scene, bot=True), FEW))
-    together = min(frames, TOGETHER)
-    lockstep(runs, together)
-    for run in runs:
-        assert not failures_of(run, together), run.label
-    for _ in range(frames - together):
-        runs[0].step()
-    assert not failures_of(runs[0], frames)
-    path = tmp_path / "recording.json"
-    runs[0].session.recorder.save(path)
-    recording, _ = load_replay_for(path, REGISTRY)
-    replayed = Session(make_scene(name, FEW), recording, replay=recording)
-    for _ in range(recording.frames):
-        replayed.step()
-    assert recording.frames == frames and replayed.scene.state() == runs[0].scene.state()
+    for run in played_and_replayed(name, frames, tmp_path / "recording.json"):
+        assert not failures_of(run, frames), run.label
 
 
 @pytest.mark.skipif(not physics.JIT, reason="nothing to compare with")
@@ -97,10 +119,10 @@ def test_restart_goes_back_to_the_start(name):
 
 
 def changed(name, changes):
-    """The scene with settings changed mid-game, under two broad phases."""
+    """Return two runs of the scene with settings changed mid-game: under its own broad phase, and asking all."""
     return [
-        Run(f"changed under broad phase {strategy}", make_scene(name, True, broadphase=strategy), ChangingBot(changes))
-        for strategy in ("hash", "sweep")
+        Run(f"changed{label}", make_scene(name, True, asks_all=asks_all), Changing(changes))
+        for label, asks_all in (("", False), (" and asking all broad phases", True))
     ]
 
 
@@ -113,7 +135,7 @@ def test_the_narrow_phase_switches_mid_game(name):
     for found in (not start, start):
         lockstep(runs, TURNED + 1)
         assert {world.effects.narrowphase for run in runs for world in run.scene.worlds} == {found}
-    untouched, switched = (Run("", make_scene(name, True), ChangingBot(changes)) for changes in ({}, off))
+    untouched, switched = (Run("", make_scene(name, True), Changing(changes)) for changes in ({}, off))
     frame = first_difference(untouched, switched, LAB_FRAMES)
     if name in SAME_WITHOUT_NARROW_PHASE:
         assert frame is None

@@ -23,7 +23,7 @@ def play(scene, frames):
     return session
 
 
-@pytest.mark.parametrize("seed", [2, *(pytest.param(seed, marks=pytest.mark.deep) for seed in (3, 4, 5))])
+@pytest.mark.parametrize("seed", [2, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in (3, 4, 5))])
 def test_the_bot_fights_through_a_minute(seed):
     scene = Shooter(seed=seed)
     session = play(scene, 3600)
@@ -43,7 +43,7 @@ def test_the_bot_knows_what_hurts(part):
     assert scene.hits.count["core"] <= scene.hits.count["hull"] <= scene.hits.count["box"]
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 def test_the_bot_clears_the_stage_on_one_seed_in_three_at_least():
     won = []
     for seed in (1, 2, 3):

@@ -34,7 +34,7 @@ def test_no_scene_breaks_an_invariant(name):
     assert states["U1"] == states["U2"] == states["U11"] == "green" and states["U9"] == "grey"
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", SCENES)
 def test_no_scene_breaks_an_invariant_in_a_minute(name):
     assert play(name, LONG).first is None

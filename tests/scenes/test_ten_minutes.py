@@ -46,7 +46,7 @@ print(json.dumps({"pages": pages, "games": games}))
 """
 
 
-@pytest.mark.deep
+@pytest.mark.nightly
 @pytest.mark.skipif(not physics.JIT, reason="ten minutes of uncompiled physics take an hour")
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="resident memory is read from /proc")
 @pytest.mark.parametrize("name", ["shooter", "platformer", "lander"])

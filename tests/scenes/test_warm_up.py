@@ -65,7 +65,6 @@ print(json.dumps([name for name, count in versions().items() if count > before.g
 """
 
 
-@pytest.mark.deep
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("name", SCENES)
 def test_nothing_is_compiled_in_the_middle_of_a_game(name):

@@ -154,7 +154,6 @@ def test_b7_a_box_that_turns_on_a_long_one(measured):
     long_and_short(measured, 20_000 if JIT else 1000)
 
 
-@pytest.mark.deep
 def test_b7_a_box_that_turns_on_a_long_one_two_hundred_thousand_times(measured):
     long_and_short(measured, 200_000 if JIT else 5000)
 
@@ -257,7 +256,6 @@ def test_b10_needles_that_cross_at_a_thousandth_of_a_degree(measured):
     needles(measured, 10_000 if JIT else 1_000)
 
 
-@pytest.mark.deep
 def test_b10_a_hundred_thousand_needles(measured):
     needles(measured, 100_000 if JIT else 2_000)
 

@@ -179,7 +179,6 @@ def test_c13_random_pairs_keep_their_certificates(measured):
     certify(measured, 1, 20_000 if JIT else 2_000)
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(2, 5))
 def test_c13_more_random_pairs_keep_their_certificates(measured, seed):
     certify(measured, seed, 100_000 if JIT else 2_000)

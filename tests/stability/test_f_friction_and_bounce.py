@@ -131,7 +131,6 @@ def test_f20_all_dominoes_fall(measured):
     measured("F20", "dominoes short of 60°", (angles <= math.radians(60)).sum())
 
 
-@pytest.mark.deep
 @needs_speed
 def test_f20_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass(measured):
     """Four times the size, twice the speed, within 2 %; the mass cancels."""

@@ -95,7 +95,6 @@ def test_f11_more_discs_than_fit_stay_in_and_calm(measured):
     crowd(measured, 10, 300)
 
 
-@pytest.mark.deep
 @needs_speed
 def test_f11_625_discs_in_room_for_496_stay_in_and_calm(measured):
     crowd(measured, 25, 600)

@@ -30,7 +30,6 @@ def test_ten_crates_of_pixels_stand(solver):
     assert column(CRATE, 5.0 if JIT else 0.5, solver) <= 0.5
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_ten_crates_of_pixels_stand_for_a_minute_beside_ten_boxes(solver):
     sway, beside = column(CRATE, 60.0, solver), column(Polygon.box(32, 32), 60.0, solver)

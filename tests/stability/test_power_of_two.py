@@ -96,7 +96,6 @@ def test_scaled_scene_of_bounds_alone_is_bit_equal():
     )
 
 
-@pytest.mark.deep
 @pytest.mark.parametrize("exponent", range(-20, 21))
 def test_every_scale_is_bit_equal(exponent):
     assert run(2.0**exponent, "projection", DynamicTree) == run(1.0, "projection", DynamicTree)

@@ -98,7 +98,6 @@ def test_neighbours_of_the_poisoned_go_on_as_if_it_had_been_removed(scenes, kind
             assert same(found, removed.world.bodies, slice(None)), field
 
 
-@pytest.mark.deep
 @needs_speed
 @pytest.mark.parametrize("target", ["ground", "chain", "disc", "mask", "lift"])
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,0 +1,182 @@
+"""The slow tests: a kept list, the plugin that measures, and the command that writes the list anew.
+
+    python -m tests.slow --refresh                      # all tests but the nightly ones, in two processes
+    python -m tests.slow --refresh tests/physics        # the tests of some files; the lines of others stay
+    python -m pytest -p tests.slow --seconds=FILE       # any run; FILE holds the seconds of each test
+
+A test is slow if it takes half a second of processor time, that of its child processes included. The time that numba
+takes to compile or load kernels is left out: the first test that needs a kernel would pay for all. Other work on the
+machine lengthens processor time less than the clock's, by about a third where caches are shared.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+KEPT = ROOT / "tests/slow_tests.txt"
+SLOW = 0.5  # [s] processor time from which a test is listed
+STAYS = 0.35  # [s] a listed test stays listed from here on, so that tests at the border do not come and go
+COLLECTED = pytest.StashKey[list[str]]()  # node ids of all tests of a run, before any is deselected
+# Tests that the README's command runs however long they take: without them it would not cover every module.
+NEVER = ("tests/scenes/test_scenes.py::test_one_digest_however_it_is_run_for_half_a_second",)
+
+
+def listed() -> dict[str, float]:
+    """Return {node id: seconds} of the kept list."""
+    lines = KEPT.read_text(encoding="utf-8").splitlines()
+    return {name: float(seconds) for seconds, name in (line.split(maxsplit=1) for line in lines)}
+
+
+def write(names: dict[str, float]) -> None:
+    """Write the list: one line for each test, its seconds and its node id."""
+    KEPT.write_text("".join(f"{seconds:.1f} {name}\n" for name, seconds in names.items()), encoding="utf-8")
+
+
+def refreshed(kept: dict[str, float], measured: dict[str, float]) -> dict[str, float]:
+    """Return the list after a run that measured some files: their lines are replaced, those of others stay."""
+    files = {name.split("::")[0] for name in measured}
+    stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}
+    slow = {
+        name: seconds
+        for name, seconds in measured.items()
+        if seconds >= (STAYS if name in kept else SLOW) and name.split("[")[0] not in NEVER
+    }
+    return dict(sorted((stays | slow).items()))
+
+
+def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> list[str]:
+    """Return the names that are no test: their file is gone, or was collected as a whole and does not hold them.
+
+    parts: files of which only some tests were asked for.
+    """
+    there = set(collected)
+    whole = {name.split("::")[0] for name in collected} - parts
+    return [
+        name
+        for name in names
+        if name not in there and (name.split("::")[0] in whole or not (ROOT / name.split("::")[0]).is_file())
+    ]
+
+
+# --- the plugin ---------------------------------------------------------------------------------------------------
+
+
+class Clock:
+    """Processor seconds of this process and of ended children, without those for compiling and loading kernels."""
+
+    def __init__(self) -> None:
+        self.kernels, self.nesting = 0.0, 0
+        if find_spec("numba"):
+            self._watch_kernels()
+
+    def __call__(self) -> float:
+        """Return the seconds until now; the system counts those of children in steps of 10 ms."""
+        all_times = os.times()
+        return time.process_time() - self.kernels + all_times.children_user + all_times.children_system
+
+    def _watch_kernels(self):
+        from numba.core.dispatcher import Dispatcher
+
+        compile_or_load = Dispatcher.compile
+
+        def watched(dispatcher, signature):
+            started, self.nesting = time.process_time(), self.nesting + 1
+            try:
+                return compile_or_load(dispatcher, signature)
+            finally:
+                self.nesting -= 1
+                if not self.nesting:  # what it calls is compiled within
+                    self.kernels += time.process_time() - started
+
+        Dispatcher.compile = watched
+
+
+def pytest_addoption(parser):
+    """Add --seconds."""
+    parser.addoption("--seconds", metavar="FILE", help="write the processor seconds of each test there")
+
+
+def pytest_configure(config):
+    """Measure in every process; collect in the one that all reports reach."""
+    config.pluginmanager.register(Meter(Clock()))
+    path = config.getoption("--seconds")
+    if path and not hasattr(config, "workerinput"):
+        config.pluginmanager.register(Keeper(Path(path)))
+
+
+class Meter:
+    """Record with each test what its phases took."""
+
+    def __init__(self, clock):
+        self.clock = clock
+
+    def _phase(self, item):
+        started = self.clock()
+        yield
+        item.user_properties.append(("seconds", self.clock() - started))
+
+    @pytest.hookimpl(hookwrapper=True, tryfirst=True)
+    def pytest_runtest_setup(self, item):
+        """Measure the fixtures; those of a module count for its first test."""
+        yield from self._phase(item)
+
+    @pytest.hookimpl(hookwrapper=True, tryfirst=True)
+    def pytest_runtest_call(self, item):
+        """Measure the test."""
+        yield from self._phase(item)
+
+    @pytest.hookimpl(hookwrapper=True, tryfirst=True)
+    def pytest_runtest_teardown(self, item):
+        """Measure how fixtures are finished."""
+        yield from self._phase(item)
+
+
+class Keeper:
+    """Write the seconds of all tests as JSON, by node id."""
+
+    def __init__(self, path):
+        self.path, self.seconds = path, {}
+
+    def pytest_runtest_logreport(self, report):
+        """Take the seconds from the last report of a test, which holds those of all phases."""
+        if report.when == "teardown":
+            self.seconds[report.nodeid] = sum(value for name, value in report.user_properties if name == "seconds")
+
+    def pytest_sessionfinish(self):
+        """Write the file."""
+        self.path.write_text(json.dumps(self.seconds, indent=0) + "\n", encoding="utf-8")
+
+
+def main(arguments: list[str]) -> int:
+    """Measure and write the list; without --refresh print its size."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--refresh", action="store_true", help="measure, and write the list anew")
+    parser.add_argument("--keep", metavar="FILE", type=Path, help="keep the seconds of each test there, as JSON")
+    parser.add_argument("paths", nargs="*", help="files or folders of tests; default: all")
+    options = parser.parse_args(arguments)
+    if options.refresh:
+        with tempfile.TemporaryDirectory() as folder:
+            found = options.keep or Path(folder) / "seconds.json"
+            command = [sys.executable, "-m", "pytest", "-p", "tests.slow", f"--seconds={found}", "-m", "not nightly"]
+            if not options.paths:
+                command += ["-n", "2", "--dist", "worksteal"]
+            done = subprocess.run([*command, "-p", "no:cacheprovider", *options.paths], cwd=ROOT)
+            if done.returncode not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+                return done.returncode
+            write(refreshed(listed(), json.loads(found.read_text(encoding="utf-8"))))
+    names = listed()
+    sys.stdout.write(f"{len(names)} tests are slow; they take {sum(names.values()) / 60:.1f} minutes\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
