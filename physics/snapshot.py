@@ -224,7 +224,8 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world.tell_contacts(arrays["told"].copy())
     world.manifolds, world.anchors = arrays["manifolds"].copy(), arrays["anchors"].copy()
     world.sleepers = _sleepers(arrays)
-    world.bodies["active"] = not world.sleeps
+    if not world.sleeps:
+        world.bodies["active"] = True
     world.awake = Awake(world.sleeps)
     world.awake.stir(arrays["stirred"].tolist())
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]

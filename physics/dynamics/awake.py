@@ -109,10 +109,16 @@ class Awake:
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Bring the lists up to date with what was added, or with everything."""
+        """Bring the lists up to date with what was added, or with everything.
+
+        Then what took part in the last step, by the column `active`, goes on: the next step compares with it, and puts
+        the pairs aside that touch among what comes to a stand.
+        """
         bodies, shapes = tables.bodies, tables.shapes
         count, shape_count = len(bodies), len(shapes)
+        went_on = NONE
         if self.stale:
+            went_on = np.flatnonzero(bodies["active"] & ~bodies["quarantined"])
             self.bodies = self.dynamic = self.kinematic = NONE
             bodies["active"] = False
             tables.pairs.proxies["awake"] = False
@@ -132,6 +138,8 @@ class Awake:
             self._sort_shapes(bodies, shapes)
             self.known = (count, shape_count)
             self.shapes = self.shapes_of(self.bodies)
+        if len(went_on):
+            self.include(tables, went_on)
 
     def _sort_shapes(self, bodies, shapes):
         owners = np.ascontiguousarray(shapes["body_row"])
