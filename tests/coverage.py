@@ -20,6 +20,8 @@ ASKED = 95.0  # percent of all lines
 BLOCKS = "without numba a block is one lane wide: none is left over"
 # What no test without numba runs: where, what the line says (a pattern), and why. The first that fits.
 EXPLAINED = (
+    ("physics/background.py", "", "compiling beside the program: there is nothing to compile without numba"),
+    ("physics/compile_worker.py", "", "a process that compiles: never started without numba"),
     ("physics/jit/compiling.py", "", "numba itself: never imported without it"),
     ("physics/jit/content.py", "", "names of what is compiled: nothing is"),
     ("physics/jit/parts.py", "", "how kernels are linked to one another: never imported without numba"),

@@ -120,12 +120,6 @@ def suite_takes():
     return f"That takes {minutes:.0f} minutes on two cores"
 
 
-def parts_take():
-    """The rows of the table of tests."""
-    minutes = kept("minutes.json")
-    return [f"| {minutes[name]:.0f} min |" for name in ("slow tests", "run in all")]
-
-
 def reports_take():
     minutes = kept("minutes.json")["quick report"]
     return f"`--quick` takes {minutes:.1f} minutes, all of it {kept('accuracy.json')['seconds'] / 60:.0f}"
@@ -159,7 +153,6 @@ SENTENCES = {
         study,
         disk,
         suite_takes,
-        parts_take,
         reports_take,
         scenes_and_labs,
         gallery_pages,

@@ -30,12 +30,11 @@ MODULES = (
     "physics.world",
     "physics.jit",
 )
-COMPILER = ("numba", "llvmlite", "numba.core.typing") if __import__("physics").JIT else ()
 LATER = ("game.registry", "game.scene", "scenes", "scenes.shooter.scene", "scenes.lab.shapes")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
-@pytest.mark.parametrize("module", (*MODULES, *COMPILER, *LATER))
+@pytest.mark.parametrize("module", (*MODULES, *LATER))
 def test_it_ends_without_a_word(module):
     run = subprocess.run(
         [sys.executable, "-c", WATCHED.format(module=module)], cwd=ROOT, capture_output=True, text=True
