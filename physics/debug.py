@@ -333,7 +333,7 @@ def _points(world, manifolds, anchors, state):
     persisted = np.where(second, manifolds["persisted_2"][of], manifolds["persisted_1"][of])
     points["state"] = np.where(persisted, PERSISTED, np.where(acting, NEW, SPECULATIVE))
     points["state"][~acting & (points["separation"] > world.tolerances.slop)] = SPECULATIVE
-    if not world.effects.stacking:  # no contact remembers the step before: the events do
+    if not world.stacks:  # no contact remembers the step before: the events do
         begun = world.events.begin
         old = ~np.isin(points["shape_a"] << 32 | points["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
         points["state"][old & (points["state"] == NEW)] = PERSISTED

@@ -13,7 +13,7 @@ from physics.effects import Effects
 from physics.profile import Profile
 from physics.reshaping import rebuild_masks
 from physics.settings import ACCURACY
-from physics.step import SOLVERS, STACKING, Workspace, plans
+from physics.step import SOLVERS, STACKING, Workspace, ignored_effects, plans
 from physics.tables.body import DYNAMIC
 from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.vec2 import Vec2
@@ -66,6 +66,15 @@ class Environment(WorldState):
     def stacks(self) -> bool:
         """Whether the solver is one whose contacts remember."""
         return self._solver in STACKING
+
+    @property
+    def ignored_effects(self) -> tuple[str, ...]:
+        """Names of the declared effects that the present solver does not honour, in the order of Effects.names().
+
+        Without one of them everything goes the same way. Two remarks: under blocking a body turns by its own angular
+        velocity, though no contact turns it; and Characters stand on dynamic bodies wherever stacking is declared.
+        """
+        return ignored_effects(self._effects, self._solver)
 
     @property
     def sleeps(self) -> bool:

@@ -26,9 +26,11 @@ from physics.dynamics.rest import IslandWorkspace, rest
 from physics.dynamics.sleep import wake_disturbed
 from physics.effects import Effects
 from physics.settings import SHORTEST_STEP, STALL
+from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
 from physics.solver.contacts import ContactSet
 from physics.solver.motions import Motions
+from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
 from physics.solver.projection import projection
 from physics.solver.pushes import PushSet
 from physics.solver.sequential_impulse import sequential_impulse
@@ -45,6 +47,7 @@ STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
 FORCES = ("force_x", "force_y", "torque")
 NO_MANIFOLDS = np.zeros(0, MANIFOLD)
 PUSHING = {"blocking": blocking, "projection": projection}
+IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
 
 
 @stage(
@@ -66,6 +69,15 @@ def rest_exactly(state: StepState) -> None:
         for key in np.unique(state.parked[1]).tolist():
             island = state.sleepers.islands[key]
             follow_bodies(state.bodies, island.anchors, island.manifolds)
+
+
+def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
+    """Return the names of the declared effects that a solver does not honour, in the order of Effects.names().
+
+    Without the effect response no solver runs, and none is ignored.
+    """
+    ignored = IGNORED.get(solver, ()) if effects.response else ()
+    return tuple(name for name in effects.names() if name in ignored)
 
 
 class Plan(NamedTuple):
@@ -179,7 +191,8 @@ def begin(world: WorldState, dt: float) -> StepState:
     world.refresh_character_rows()
     aim(world, dt)
     state = StepState()
-    state.effects, state.tolerances, state.workspace = world.effects, world.tolerances, world.workspace
+    state.effects, state.stacks, state.tolerances = world.effects, world.stacks, world.tolerances
+    state.workspace = world.workspace
     state.gravity, state.drag, state.wind = world.gravity, world.drag, world.wind
     state.dt, state.broadphase, state.accuracy = dt, world.broadphase, world.accuracy
     state.span = max(dt, world.span)

@@ -12,6 +12,7 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from game import startup
+from game.drawing.number_text import plain_name
 from game.errors import UsageError
 from game.measure.front import pareto
 from game.report.chart import Axis, Interval, Panel
@@ -187,4 +188,6 @@ def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
     failures = {key: count for key, count in dot.row.get("failures", {}).items() if count}
     if failures:
         told["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
+    if dot.row.get("ignored_effects"):
+        told["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
     return told

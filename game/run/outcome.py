@@ -5,6 +5,7 @@ from typing import Any
 
 from game.run.digest import scene_digest
 from game.run.histogram import Histogram
+from game.run.ignored_effects import ignored_effects
 from game.scene import Scene
 
 Check = dict[str, Any]  # ok, failures, pending
@@ -72,6 +73,7 @@ class RunReport:
             "effects": scene.effects.names(),
             "broadphase": scene.broadphase,
             "solver": solver_name(scene),
+            "ignored_effects": ignored_effects(scene),
             "tier": scene.tier,
             "digest": scene_digest(scene),
             "check": check,

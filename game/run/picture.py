@@ -13,6 +13,7 @@ from game.drawing.drag_line import draw_drag
 from game.drawing.presenter import SCREENSHOT_SCALE, Frame, Presenter
 from game.files.data_folder import write_atomically
 from game.overlays.stack import Overlays, draw_legend, legend_columns, legend_size
+from game.run.ignored_effects import draw_ignored
 from game.scene import Scene
 
 GRAPH_LEAST = 120  # [text px] of the strip's width are kept for the stage times when they are on
@@ -73,6 +74,7 @@ class Picture:
             reserve(frame)
         scene.draw_on_frame(frame)
         draw_drag(frame, scene.drag, scene.pointer)
+        draw_ignored(frame, scene)
         words = frame.lift() if overlays.shows_geometry() else []
         overlays.draw_on_frame(frame, scene)
         frame.put_back(words)  # score, lives, plots: nothing is painted over them

@@ -175,7 +175,7 @@ def cover_final_poses(state: StepState) -> None:
 
 @stage(
     "motion_rectangles",
-    reads=("effects", "tolerances", "gravity", "dt", "awake", "bodies", "shapes", "library", "pairs"),
+    reads=("effects", "stacks", "tolerances", "gravity", "dt", "awake", "bodies", "shapes", "library", "pairs"),
     writes=(
         "pairs",
         "changed_count",
@@ -195,7 +195,7 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     tables: a StepState, or a world whose shapes have just got places in the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
-    piles = tables.effects.stacking
+    piles = tables.stacks
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
     # Where velocities were integrated before, gravity and forces are in them.
     gravity_x, gravity_y = tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)

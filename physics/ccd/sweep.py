@@ -61,7 +61,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
         rows,
         len(rows),
         moving,
-        strict or state.effects.stacking,
+        strict or state.stacks,
         state.effects.rotation,
         state.tolerances.slop,
         state.effects.one_way,
@@ -86,7 +86,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
         rows,
         len(rows),
         moving,
-        strict or state.effects.stacking,
+        strict or state.stacks,
         state.effects.one_way,
         sweeper.squares,
         sweeper.paths,
@@ -131,7 +131,7 @@ def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
     return sweeper.impacts[:found].copy()
 
 
-FORESEEN = ("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "workspace")
+FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "workspace")
 PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 
 

@@ -26,6 +26,10 @@ from physics.tables.counters import SOLVER_ROWS
 from physics.tables.rows import joined
 from physics.tables.step_state import StepState, stage
 
+# Effects that it makes nothing of: no contact turns, rubs, bounces or carries a body, and none is remembered. A body
+# still turns by its own angular velocity.
+IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conveyor")
+
 
 @kernel
 def stay_behind(
@@ -142,7 +146,10 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 @stage(
     "blocking",
-    reads=("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
+    reads=(
+        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds"),
+        "workspace",
+    ),
     writes=(
         "manifolds",
         "library",

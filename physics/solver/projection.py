@@ -19,6 +19,8 @@ from physics.tables.body import DYNAMIC, OFF
 from physics.tables.counters import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS
 from physics.tables.step_state import StepState, stage
 
+IGNORED = ("stacking", "sleeping")  # effects that it makes nothing of, as no contact is remembered
+
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
@@ -193,7 +195,10 @@ def _hold_back(state, rows, before):
 
 @stage(
     "projection",
-    reads=("effects", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
+    reads=(
+        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds"),
+        "workspace",
+    ),
     writes=(
         "manifolds",
         "library",

@@ -15,6 +15,7 @@ from physics.settings import Tolerances
 STAGE_FIELDS = (
     # what the world was asked for
     "effects",
+    "stacks",  # whether the solver is one whose contacts remember
     "tolerances",
     "gravity",  # [px/s2]
     "drag",  # [1/s]
@@ -62,6 +63,7 @@ class StepState:
     __slots__ = STAGE_FIELDS
 
     effects: Any  # effects.Effects
+    stacks: bool
     tolerances: Tolerances
     gravity: tuple[float, float]
     drag: float

@@ -40,6 +40,11 @@ class WorldTables(Protocol):
         ...
 
     @property
+    def stacks(self) -> bool:
+        """Whether the solver is one whose contacts remember."""
+        ...
+
+    @property
     def gravity(self) -> tuple[float, float]:
         """[px/s2]."""
         ...

@@ -33,6 +33,7 @@ def test_json_is_one_object_with_the_documented_names(capsys):
         "effects",
         "broadphase",
         "solver",
+        "ignored_effects",
         "tier",
         "digest",
         "check",

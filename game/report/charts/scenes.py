@@ -14,6 +14,7 @@ from game.run.headless import start_dummy_display
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
+from physics.step import ignored_effects
 
 FRAME = 300  # of the moment: five seconds into the bot's run
 VISIBLE = 1.0  # [px]
@@ -40,6 +41,7 @@ def measure(scene: str, where: str) -> list[Row]:
                     "label": setting.label(moment.here),
                     "panel": f"{scene}, {kind}",
                     "setting": setting._asdict(),
+                    "ignored_effects": list(ignored_effects(moment.effects, setting.solver or world.solver)),
                     "error": [max(0.0, error.value - error.floor), told(error), error.value + error.floor],
                     "floor": error.floor,
                     "wrong": None if error.wrong is None else counted(error.wrong),

@@ -42,6 +42,7 @@ def measure(pile: str, quick: bool) -> list[Row]:
             "label": label,
             "panel": pile,
             "substeps": substeps,
+            "ignored_effects": list(world.ignored_effects),
             **watch.found(),
             "failures": dict(failures),
         }

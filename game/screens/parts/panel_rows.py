@@ -3,6 +3,7 @@ devices.change, so that a recording holds it."""
 
 from game.drawing.number_text import plain_name
 from game.overlays.stack import Overlays
+from game.run.ignored_effects import ignored_effects
 from game.run.loop import SPEEDS
 from game.run.outcome import solver_name
 from game.screens.parts.effect_rows import effect_rows
@@ -80,7 +81,7 @@ def _switches(play, scene):
                 plain_name(solver_name(scene) or ""),
                 "V",
                 turn=play.switches.solver,
-                hint="how overlaps are resolved",
+                hint=_solver_hint(scene),
             )
         )
     if scene.effects.stacking and not any(slider.name == "substeps" for slider in scene.sliders):
@@ -110,6 +111,12 @@ def _switches(play, scene):
         )
     )
     return rows
+
+
+def _solver_hint(scene):
+    """What the row is about, and which declared effects the solver ignores."""
+    ignored = ignored_effects(scene)
+    return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 
 
 def layer_rows(overlays: Overlays) -> list[Row]:

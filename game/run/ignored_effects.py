@@ -1,0 +1,91 @@
+"""The effects that a running scene declares and the solver of a world does not honour: a list and a line of the HUD."""
+
+from collections.abc import Iterable
+
+import pygame
+
+from game.drawing.canvas import SMALL, wrap
+from game.drawing.colors import INK, ORANGE
+from game.drawing.number_text import plain_name
+from game.drawing.presenter import Frame
+from game.scene import Scene
+from physics import Effects, World
+
+LINE = 7  # [text px] from one row to the next
+EDGE = 4  # [text px] around the rows, and between them and the edge of the picture
+SHADE = (20, 16, 32, 225)
+
+
+def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
+    """Return {solver: names of effects} of the worlds whose solver ignores some, in the order of the worlds."""
+    found: dict[str, set[str]] = {}
+    for world in worlds:
+        ignored = world.ignored_effects
+        if ignored:
+            found.setdefault(world.solver, set()).update(ignored)
+    return {solver: in_order(names) for solver, names in found.items()}
+
+
+def ignored_effects(scene: Scene) -> list[str]:
+    """Return the names of the effects that some world of a scene declares and its solver ignores."""
+    return in_order({name for names in ignored_by_solver(scene.worlds).values() for name in names})
+
+
+def in_order(names: set[str]) -> list[str]:
+    """Return names of effects in the order in which Effects has them."""
+    return [name for name in Effects.__dataclass_fields__ if name in names]
+
+
+def sentences(scene: Scene) -> list[str]:
+    """Return a sentence per solver that ignores something; none where all effects are honoured."""
+    return [
+        f"{plain_name(solver)} ignores {', '.join(map(plain_name, names))}"
+        for solver, names in ignored_by_solver(scene.worlds).items()
+    ]
+
+
+def draw_ignored(frame: Frame, scene: Scene) -> None:
+    """Write the sentences into a free corner of the game's part of a frame, as large as fits there, below its head.
+
+    Where no place is free they stand at the bottom on the left, and the text that they cover goes.
+    """
+    told = sentences(scene)
+    if not told:
+        return
+    area = frame.area.clip(frame.rect)
+    head = scene.head * frame.scale
+    area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
+    for scale in range(frame.text_scale, 0, -1):
+        rows = [row for text in told for row in wrap(text, area.width - 4 * EDGE * scale, SMALL, scale)]
+        size = _size(frame, rows, scale)
+        if size[0] <= area.width and size[1] <= area.height:
+            place = frame.free_place(size, _places(area, size, scale))
+            if place is not None:
+                _write(frame, rows, pygame.Rect(place, size), scale, SHADE)
+                return
+    rect = pygame.Rect(area.left, area.bottom - size[1], *size).clamp(area)
+    frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
+    _write(frame, rows, rect, 1, INK)
+
+
+def _size(frame, rows, scale):
+    width = max(frame.measure(row, SMALL, scale)[0] for row in rows)
+    return width + 2 * EDGE * scale, (len(rows) * LINE + EDGE) * scale
+
+
+def _places(area, size, scale):
+    """Places of a box, from the bottom of an area to its top, at its left edge before its right one."""
+    step, edge = LINE * scale, EDGE * scale
+    for x in (area.left + edge, area.right - size[0] - edge):
+        for y in range(area.bottom - size[1] - edge, area.top - 1, -step):
+            yield x, y
+
+
+def _write(frame, rows, rect, scale, ground):
+    shade = pygame.Surface(rect.size, pygame.SRCALPHA)
+    shade.fill(ground)
+    frame.surface.blit(shade, rect)
+    for number, row in enumerate(rows):
+        y = rect.y + (EDGE // 2 + 1 + number * LINE) * scale
+        frame.text(row, rect.x + EDGE * scale, y, ORANGE, SMALL, scale)
+    frame.fix(rect)
