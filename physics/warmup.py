@@ -20,6 +20,7 @@ from physics.shapes.bounds import Bounds
 from physics.shapes.convex import Capsule, Circle, Polygon
 from physics.shapes.lines import Chain
 from physics.shapes.mask import PixelMask
+from physics.shapes.outline import outline_of
 from physics.shapes.tiles import TileGrid
 from physics.tables.rows import rows_of
 from physics.world import World
@@ -100,6 +101,8 @@ def _runs(effects, broadphase, solver, pieces):
         runs.append(("rest", lambda: _rest(effects, solver)))
     if "tree" in names:
         runs.append(("broad phase tree", lambda: _crowd(effects)))
+    if effects.response and effects.sensors:
+        runs.append(("sensors", lambda: _sensor(effects, solver)))
     if effects.carving:
         runs.append(("carving", lambda: _carve(effects, solver)))
     if effects.continuous:
@@ -114,6 +117,8 @@ def _runs(effects, broadphase, solver, pieces):
                 runs.append((piece, lambda: _amid(effects, solver)))
             if piece == "masks" and effects.response and effects.sensors:
                 runs.append((piece, lambda: _zone(effects, solver)))
+            if piece in ("masks", "exact masks"):
+                runs.append((piece, _fit))
             if piece == "tiles":
                 runs.append((piece, lambda: _ground(effects, solver, TILES)))
             if piece == "one-way masks":
@@ -207,6 +212,16 @@ def _carve(effects, solver):
             world.step()
 
 
+def _sensor(effects, solver):
+    """Run a sensor that a body overlaps, and one that no body does."""
+    world = World(effects, solver=solver)
+    world.add_body(BOX, kind="static", sensor=True)
+    body = world.add_body(BOX, position=(1, 0))
+    world.step()
+    body.move_to((90.0, 0.0))
+    world.step()
+
+
 def _crowd(effects):
     """So many new bodies that the tree is built anew."""
     world = World(effects, DynamicTree())
@@ -236,6 +251,13 @@ def _amid(effects, solver):
     world.add_body(Polygon.box(2, 2), position=(0.0, -7.3))  # as near as contacts are found
     for _ in range(3):
         world.step()
+
+
+def _fit():
+    """Fit the outline of a mask with a hole and a notch, which no file holds."""
+    solid = np.ones((23, 29), bool)
+    solid[8:13, 9:17] = solid[:5, 20:] = False
+    outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 DIGEST = 16  # bytes of a key
-FOLDERS = ("fitting", "raster", "tables")  # of this package: their code, and settings.py, decide what is fitted
+FOLDERS = ("fitting", "raster")  # of this package: their code, math2d.py and settings.py decide what is fitted
 
 
 class Parts(NamedTuple):
