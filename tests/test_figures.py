@@ -115,11 +115,6 @@ def disk():
     return f"It takes about {round(kept('bench/0.1.0.json')['installed_mb'], -1)} MB of disk"
 
 
-def suite_takes():
-    minutes = kept("minutes.json")["the README's test command"]
-    return f"That takes {minutes:.0f} minutes on two cores"
-
-
 def reports_take():
     minutes = kept("minutes.json")["quick report"]
     return f"`--quick` takes {minutes:.1f} minutes, all of it {kept('accuracy.json')['seconds'] / 60:.0f}"
@@ -152,7 +147,6 @@ SENTENCES = {
         sinks,
         study,
         disk,
-        suite_takes,
         reports_take,
         scenes_and_labs,
         gallery_pages,
