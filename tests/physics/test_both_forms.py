@@ -7,6 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 
+pytest.importorskip("numba")  # what compares the two forms imports the compiler
+
 import physics
 from physics import Circle, Effects, PixelMask, Polygon, World
 from physics.collision.mask_hulls import pixel_range
