@@ -93,14 +93,17 @@ class Changing:
 
 
 class PlainRun:
-    """The scene with few bodies in a process without compiled kernels, a pipe's length ahead. To be closed."""
+    """Scenes with few bodies, one after another, in a process without compiled kernels. To be closed.
+
+    The process is ahead by the length of a pipe.
+    """
 
     scene = None
 
-    def __init__(self, label, name, frames):
+    def __init__(self, label, names, frames):
         self.label = label
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.lockstep", name, str(frames), "--few"],
+            [sys.executable, "-m", "tests.lockstep", *names, str(frames), "--few"],
             cwd=ROOT,
             env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
             stdout=subprocess.PIPE,
@@ -176,14 +179,15 @@ def failures_of(run, frames):
 def main():
     """Print the digests of a scene, one a line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("name", choices=SCENES, metavar="NAME")
+    parser.add_argument("names", choices=SCENES, nargs="+", metavar="NAME")
     parser.add_argument("frames", type=int, metavar="FRAMES")
     parser.add_argument("--few", action="store_true", help="with few bodies, where the scene lets one choose")
     options = parser.parse_args()
     start_dummy_display()
-    run = Run("the scene", make_scene(options.name, options.few))
-    for _ in range(options.frames):
-        print(run.step(), flush=True)
+    for name in options.names:
+        run = Run(name, make_scene(name, options.few))
+        for _ in range(options.frames):
+            print(run.step(), flush=True)
 
 
 if __name__ == "__main__":

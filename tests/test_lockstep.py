@@ -102,6 +102,6 @@ def test_a_replay_names_its_frame_too(tmp_path):
 
 
 def test_a_process_that_ends_early_says_why():
-    with closing(PlainRun("without compiled kernels", "lab/nowhere", 3)) as run:
+    with closing(PlainRun("without compiled kernels", ["lab/nowhere"], 3)) as run:
         with pytest.raises(RuntimeError, match="without compiled kernels ended early: (?s:.*)'lab/nowhere'"):
             run.step()

@@ -9,7 +9,7 @@ import pytest
 
 import physics
 from tests import slow
-from tests.slow import SLOW, STAYS, refreshed, stale
+from tests.slow import NEVER, SLOW, STAYS, refreshed, stale
 
 NAMES = {"tests/a.py::test_one[1]": 0.6, "tests/a.py::test_two": 2.0, "tests/b.py::test_three": 1.0}
 
@@ -35,6 +35,12 @@ def test_every_name_on_the_list_is_a_test(pytestconfig):
 def test_what_lies_at_the_border_does_not_come_and_go(seconds, before, listed):
     kept = {"tests/a.py::test": 1.0} if before else {}
     assert refreshed(kept, {"tests/a.py::test": seconds}) == ({"tests/a.py::test": seconds} if listed else {})
+
+
+@pytest.mark.parametrize("name", NEVER)
+def test_some_are_never_listed(name):
+    assert refreshed({}, {f"{name}test_that_takes_long": 100.0}) == {}
+    assert not [each for each in slow.listed() if each.startswith(name)]
 
 
 def test_a_refresh_of_some_files_leaves_the_lines_of_others():

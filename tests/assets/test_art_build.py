@@ -17,6 +17,7 @@ FAST = (
     "images/lander",
     "levels/platformer",
 )
+PLAYED = "images/pictures"  # of every scene, after its bot has played: forty seconds
 
 
 @pytest.mark.parametrize("name", FAST)
@@ -25,7 +26,14 @@ def test_product_regenerates_bit_identical(name):
     assert build.differences(name) == [], f"run: python -m assets.build {name}"
 
 
-@pytest.mark.parametrize("name", [name for name in build.PRODUCTS if name not in FAST])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.nightly if name == PLAYED else ())
+        for name in build.PRODUCTS
+        if name not in FAST
+    ],
+)
 def test_every_other_product_regenerates_bit_identical(name):
     assert build.differences(name) == [], f"run: python -m assets.build {name}"
 

@@ -9,10 +9,12 @@ from tests.fuzz.shrinking import shrink
 
 PROGRAMS = 132 if JIT else 12  # a minute of steps; kernels of five sets of effects are compiled before
 LONG = LINES if JIT else 12  # lines of each
-PARTS = 12  # so that several processes share them
+PARTS = 12  # so that several processes share them; the first three in every run, all at night
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize(
+    "part", [0, 1, 2, *(pytest.param(part, marks=pytest.mark.nightly) for part in range(3, PARTS))]
+)
 def test_random_programs_keep_the_invariants(part):
     """A failure shows the shortest program found: paste it into tests/regress, and mend what it shows."""
     for seed in range(part, PROGRAMS, PARTS):

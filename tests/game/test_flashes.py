@@ -132,6 +132,7 @@ def test_whole_games_stay_within_three_flashes_a_second(name, steps, flashing):
     assert meter.most_in_a_second() <= (3 if flashing else 0), meter.turns
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", [name for name in SCENES if "/" in name])
 def test_labs_stay_within_three_flashes_a_second(name):
     assert lights_of(name, 600, Accessibility()).most_in_a_second() <= 3

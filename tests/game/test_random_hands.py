@@ -21,7 +21,7 @@ KEYS = [
     *(pygame.K_LEFTBRACKET, pygame.K_RIGHTBRACKET, pygame.K_LSHIFT, pygame.K_LCTRL),
 ]
 MODS = (0, 0, 0, 0, pygame.KMOD_SHIFT, pygame.KMOD_CTRL)
-DEEDS = 40
+DEEDS, MORE_DEEDS = 15, 240  # of a scene, in every run and at night
 KINDS = {"tap": 42, "hold": 10, "click": 20, "drag": 6, "wheel": 6, "pad": 8, "let_go": 5, "window": 3}  # of a hundred
 
 
@@ -134,5 +134,5 @@ def test_nothing_that_hands_do_ends_a_scene(scene, drive, monkeypatch):
 @pytest.mark.parametrize("scene", SCENES)
 def test_nothing_that_other_hands_do_ends_a_scene(scene, seed, drive, monkeypatch):
     ended = watched(monkeypatch)
-    try_out(drive(listing=SCENES), scene, 1000 + seed, 6 * DEEDS)
+    try_out(drive(listing=SCENES), scene, 1000 + seed, MORE_DEEDS)
     assert not ended

@@ -79,6 +79,7 @@ def test_every_scene_goes_back_and_on_again_to_the_bit(name):
         assert scene_digest(fresh.scene) == digest
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(not physics.JIT, reason="twenty seconds of every scene")
 @pytest.mark.parametrize("name", SCENES)
 def test_ten_seconds_back_and_on_again_in_every_scene(name):

@@ -139,8 +139,32 @@ def test_the_ledger_names_every_effect():
     assert all(sorted(ledger) == sorted(EFFECTS) for ledger in LEDGER.values()) and set(LEDGER) == set(FRAMES)
 
 
+def cases():
+    """Return (game, effect) of all. Neutral effects are put in one by one at night; in every run, all at once below."""
+    return [
+        pytest.param(name, effect, marks=pytest.mark.nightly if LEDGER[name][effect] == NEUTRAL else ())
+        for name in FRAMES
+        for effect in EFFECTS
+    ]
+
+
 @pytest.mark.skipif(not physics.JIT, reason="minutes of uncompiled physics")
-@pytest.mark.parametrize("name, effect", [(name, effect) for name in FRAMES for effect in EFFECTS])
+@pytest.mark.parametrize("name", FRAMES)
+def test_all_that_is_neutral_changes_nothing_together(played, name):
+    """But for effects that need others which the game does not declare: those make another game of it."""
+    scene_class, keys, standard = played(name)
+    neutral = [
+        effect
+        for effect, verdict in LEDGER[name].items()
+        if verdict == NEUTRAL and all(getattr(scene_class.effects, each) for each in NEEDS.get(effect, ()))
+    ]
+    assert len(neutral) > 1
+    found = digests(with_effects(scene_class, neutral, True), ScriptSource(keys))
+    assert first_difference(found, standard) is None, f"one of {', '.join(neutral)} changes what happens in {name}"
+
+
+@pytest.mark.skipif(not physics.JIT, reason="minutes of uncompiled physics")
+@pytest.mark.parametrize("name, effect", cases())
 def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
     scene_class, keys, standard = played(name)
     verdict = LEDGER[name][effect]
@@ -156,7 +180,7 @@ def test_what_is_declared_matters_and_nothing_else_does(played, name, effect):
             with pytest.raises(ValueError, match=rf"effect {effect} needs \w+"):
                 with_effects(scene_class, [effect], True)
             scene_class = with_effects(scene_class, needed, True)
-            standard = [*digests(scene_class, ScriptSource(keys))]
+            standard = digests(scene_class, ScriptSource(keys))
         changed = with_effects(scene_class, [effect], True)
     found = digests(changed, ScriptSource(keys))
     if verdict == REFUSED:
