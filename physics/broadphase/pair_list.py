@@ -139,9 +139,8 @@ class PairList:
         tell_rows(shapes, self.proxies)
         self.moved = True
 
-    def widen(self, shapes: np.ndarray, margin: float | np.ndarray) -> int:
-        """Let the rectangles of SHAPE rows hold their present AABBs too, grown by a margin [px], one for all or one
-        each, and list them as changed. Returns how many."""
+    def widen(self, shapes: np.ndarray, margin: float) -> int:
+        """Let the rectangles of SHAPE rows hold their present AABBs too, and list them as changed. Returns how many."""
         shapes = shapes[shapes["proxy"] >= 0]  # what is quarantined has none
         slots = shapes["proxy"]
         for low, high, axis in (

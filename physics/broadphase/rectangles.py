@@ -12,8 +12,8 @@ import numpy as np
 
 from physics.jit import kernel
 from physics.math2d import length_of
-from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, DRAWN, STEPS_AHEAD
-from physics.shapes.placement import BUCKET_TURN, drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
+from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, STEPS_AHEAD
+from physics.shapes.placement import drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
 from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PIXELS
@@ -160,17 +160,13 @@ def list_outside(
 
 
 def cover_final_poses(state: StepState) -> None:
-    """Widen the motion rectangles of shapes that were pushed out of them, and find the pairs of these shapes: the
-    candidates then hold all that overlaps at the final poses."""
-    pairs, shapes = state.pairs, state.shapes
+    """Write new motion rectangles for shapes that were pushed out of theirs, and find the pairs of these shapes: the
+    candidates then hold all that overlaps at the final poses. The next step finds them in place."""
     rows = state.workspace.rows_for(len(state.awake.shapes))
-    found = list_outside(state.awake.shapes, state.bodies, shapes, pairs.proxies, rows)
+    found = list_outside(state.awake.shapes, state.bodies, state.shapes, state.pairs.proxies, rows)
     if found:
-        left = shapes[rows[:found]]
-        drawn = (left["role"] == PIXELS) & left["snap"]
-        beyond = np.where(drawn, DRAWN + BUCKET_TURN * state.bodies["extent"][left["body_row"]], 0.0)
-        pairs.widen(left, state.tolerances.slop + beyond)
-        pairs.update(state.broadphase, shapes, found, state.work)
+        changed = write_rectangles(state, rows[:found])
+        state.pairs.update(state.broadphase, state.shapes, changed, state.work)
 
 
 @stage(

@@ -132,8 +132,7 @@ def is_any_sensor(
         "library",
         "pairs",
         "broadphase",
-        "tolerances",
-        "manifolds",
+        *("effects", "stacks", "tolerances", "gravity", "dt"),  # of new motion rectangles
         "swept_sensors",
         "workspace",
     ),
@@ -145,7 +144,7 @@ def is_any_sensor(
         "work",
         "workspace",
         "library",
-        *(f"shapes.{name}" for name in ("raster", "left", "top")),
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )
 def sense(state: StepState) -> None:
