@@ -159,13 +159,13 @@ def list_outside(
     return found
 
 
-def cover_final_poses(state: StepState) -> None:
-    """Write new motion rectangles for shapes that were pushed out of theirs, and find the pairs of these shapes: the
+def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
+    """Write new motion rectangles for those of the shape rows that were pushed out of theirs, and find their pairs: the
     candidates then hold all that overlaps at the final poses. The next step finds them in place."""
-    rows = state.workspace.rows_for(len(state.awake.shapes))
-    found = list_outside(state.awake.shapes, state.bodies, state.shapes, state.pairs.proxies, rows)
+    outside = state.workspace.rows_for(len(rows))
+    found = list_outside(rows, state.bodies, state.shapes, state.pairs.proxies, outside)
     if found:
-        changed = write_rectangles(state, rows[:found])
+        changed = write_rectangles(state, outside[:found])
         state.pairs.update(state.broadphase, state.shapes, changed, state.work)
 
 

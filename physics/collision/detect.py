@@ -12,7 +12,7 @@ from physics.tables.manifold import ANCHOR, MANIFOLD
 from physics.tables.rows import joined
 from physics.tables.step_state import StepState, stage
 
-NOTHING, UNANCHORED = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+NOTHING, UNANCHORED, NO_ROWS = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR), np.zeros(0, np.int64)
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
 BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
 GRAZE = 1.5  # slops that who slides by a side may overlap it: what rests on the floor beside it may be in it by one
@@ -149,13 +149,13 @@ def is_any_sensor(
 )
 def sense(state: StepState) -> None:
     """Sensors see the final poses, and what a sweep met on the way."""
-    if not state.pairs.sensors:
-        state.sensed = NOTHING  # most worlds at most times: a twelfth of a step of 55 boxes
-        return
-    cover_final_poses(state)
-    bodies, shapes = state.bodies, state.shapes
-    pairs, swept = state.pairs.rows, state.swept_sensors
-    if not len(swept) and not is_any_sensor(pairs, shapes):
+    bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
+    # Where the world has no sensor nothing is gone over; the kernels are those of every step, so that none is compiled
+    # when the first sensor comes.
+    asked = state.pairs.sensors > 0
+    cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
+    pairs = state.pairs.rows
+    if not is_any_sensor(pairs if asked else pairs[:0], shapes) and not len(swept):
         state.sensed = NOTHING
         return
     sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
