@@ -108,6 +108,8 @@ def _runs(effects, broadphase, solver, pieces):
     if effects.continuous:
         runs.append(("sweeps", lambda: _impacts(effects, solver)))
     pieces = PIECES if pieces is None else tuple(pieces)
+    if "masks" in pieces or "exact masks" in pieces:
+        runs.append(("outlines", _fit))
     for piece in pieces:
         if piece in PAIRS and effects.narrowphase:
             runs += [
@@ -117,8 +119,6 @@ def _runs(effects, broadphase, solver, pieces):
                 runs.append((piece, lambda: _amid(effects, solver)))
             if piece == "masks" and effects.response and effects.sensors:
                 runs.append((piece, lambda: _zone(effects, solver)))
-            if piece in ("masks", "exact masks"):
-                runs.append((piece, _fit))
             if piece == "tiles":
                 runs.append((piece, lambda: _ground(effects, solver, TILES)))
             if piece == "one-way masks":

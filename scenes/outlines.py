@@ -1,7 +1,8 @@
 """`python -m scenes.outlines [--check]`: fit the outlines of the masks that the scenes begin with, and keep them.
 
 They lie beside the art (assets/outlines.npz), so that a start without compiled kernels does not fit them again. Every
-scene is built with each of its tiers, and the games are played for some seconds by their bots, for what comes later.
+scene is built with each of its tiers, the games are played for some seconds by their bots, for what comes later, and
+the sprites of all sheets are asked.
 --check compares the file with outlines that are fitted anew. Exit 1: it differs.
 """
 
@@ -9,15 +10,18 @@ import sys
 import tempfile
 from pathlib import Path
 
+from game.drawing.sprites import load_atlas
 from game.places import OUTLINES
 from game.registry import Registry
 from game.run.headless import start_dummy_display
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics.fitting import kept
+from physics.shapes.outline import outline_of
 from scenes import SCENES
 
 FRAMES = {"shooter": 3600, "platformer": 600, "lander": 600}  # steps of 1/60 s
+SHEETS = ("planes", "hero", "things", "lab", "lander")
 
 
 def fit_all() -> dict[bytes, kept.Parts]:
@@ -31,6 +35,9 @@ def fit_all() -> dict[bytes, kept.Parts]:
                 session = Session(scene_class(0, tier=tier), BotSource())
                 for _ in range(FRAMES.get(scene_class.name, 2)):
                     session.step()
+        for atlas in map(load_atlas, SHEETS):
+            for name in atlas.images:
+                outline_of(atlas.mask(name))
         return dict(kept.recorded)
     finally:
         kept.recorded = None

@@ -51,12 +51,8 @@ def refreshed(kept: dict[str, float], measured: dict[str, float]) -> dict[str, f
     """Return the list after a run that measured some files: their lines are replaced, those of others stay."""
     files = {name.split("::")[0] for name in measured}
     stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}
-    slow = {
-        name: seconds
-        for name, seconds in measured.items()
-        if seconds >= (STAYS if name in kept else SLOW) and not name.startswith(NEVER)
-    }
-    return dict(sorted((stays | slow).items()))
+    slow = {name: seconds for name, seconds in measured.items() if seconds >= (STAYS if name in kept else SLOW)}
+    return {name: seconds for name, seconds in sorted((stays | slow).items()) if not name.startswith(NEVER)}
 
 
 def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> list[str]:

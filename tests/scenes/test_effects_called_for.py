@@ -34,12 +34,12 @@ LEDGER = {
         "rotation": REFUSED,
         "drag": DIFFERS,
         "wind": DIFFERS,
-        # Put in: what is pushed apart flies elsewhere; nothing falls, rubs or rests. A shot is longer than its way in a
+        # Put in: what is pushed apart flies elsewhere, and rubs; nothing falls or rests. A shot is longer than its way in a
         # step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
         # would strike who is missed by all that is drawn.
         "response": DIFFERS,
         "gravity": NEUTRAL,
-        "friction": NEUTRAL,
+        "friction": DIFFERS,
         "restitution": NEUTRAL,
         "stacking": DIFFERS,
         "continuous": DIFFERS,
