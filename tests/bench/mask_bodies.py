@@ -38,9 +38,9 @@ def pair_times(shape, count):
     resting = min(narrow() for _ in range(60))
     step = best_of(60, world.step)
     candidates = world.pairs.rows.astype(np.int64)
-    tables, collide = world.library.tables, world.workspace.narrow.collide
+    library, collide = world.library, world.workspace.narrow.collide
     margin, work = 4.0 * world.tolerances.slop, no_work()
-    new = best_of(60, lambda: collide(tables, world.bodies, world.shapes, candidates, margin, work))
+    new = best_of(60, lambda: collide(library, world.bodies, world.shapes, candidates, margin, work))
     return resting / count, new / count, step / count
 
 

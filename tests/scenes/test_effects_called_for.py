@@ -34,8 +34,8 @@ LEDGER = {
         "rotation": REFUSED,
         "drag": DIFFERS,
         "wind": DIFFERS,
-        # Put in: what is pushed apart flies elsewhere, and rubs; nothing falls or rests. A shot is longer than its way in a
-        # step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
+        # Put in: what is pushed apart flies elsewhere and rubs; nothing falls or rests. A shot is longer than its way in
+        # a step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
         # would strike who is missed by all that is drawn.
         "response": DIFFERS,
         "gravity": NEUTRAL,
