@@ -17,12 +17,10 @@ from time import perf_counter
 from typing import Any
 
 import llvmlite.binding as llvm
-from numba import _dynfunc
 from numba.core import bytecode, caching, types
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import cpu_target
-from numba.core.runtime import _nrt_python
 
 from physics.jit import parts, totals
 from physics.jit.compiler import compiler
@@ -33,6 +31,8 @@ from physics.jit.store import store
 from physics.jit.twins import rebound
 from physics.jit.words import Builtin
 
+# Of numba's modules in C, which declare no types.
+_dynfunc, _nrt_python = map(importlib.import_module, ("numba._dynfunc", "numba.core.runtime._nrt_python"))
 # No kernel makes an array, so none counts references; and only stages' kernels need an entry from Python. Measured:
 # compiling what the platformer needs takes 145 s of processor time, with both 190, on one busy machine.
 LEANER = {"_nrt": False, "no_cfunc_wrapper": True}
@@ -100,15 +100,21 @@ def _kept(result):
 def prepare() -> None:
     """Start LLVM, so that the first kernel that is loaded does not wait for it."""
     with global_compiler_lock:
-        cpu_target.target_context.codegen()
+        _generator()
         _add_runtime_symbols()
+
+
+def _generator() -> Any:
+    """Return what makes machine code: a numba CPUCodegen."""
+    context: Any = cpu_target.target_context
+    return context.codegen()
 
 
 def _link(kept):
     """Return the function that the machine code holds, linked into numba's engine."""
     modname, qualname, symbol, env_name, constants, code = kept
     with global_compiler_lock:
-        generator = cpu_target.target_context.codegen()
+        generator = _generator()
         _add_runtime_symbols()
         engine = generator._engine
         engine._ee.add_object_file(llvm.ObjectFileRef.from_data(code))
@@ -257,20 +263,25 @@ class PartCache(caching._Cache):
         """Do nothing: files of other contents have other names."""
 
 
-def _type_text(found):
+def _type_text(found: Any) -> str:
     """Return a numba type as text that differs for different types."""
-    if isinstance(found, types.BaseNamedTuple):
+    any_tuple, named_tuple = _tuple_types()
+    if isinstance(found, named_tuple):
         kind = found.instance_class
         return f"{kind.__module__}.{kind.__qualname__}{kind._fields}({','.join(map(_type_text, found))})"
-    if isinstance(found, types.BaseTuple):
+    if isinstance(found, any_tuple):
         return f"({','.join(map(_type_text, found))})"
     return str(found)
+
+
+def _tuple_types() -> Any:  # whose members numba does not declare
+    return types.BaseTuple, types.BaseNamedTuple
 
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
     """While this lasts, numba names what it compiles by content, in place of a counter of the process."""
-    identity = bytecode.FunctionIdentity
+    identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 
     def from_function(cls, pyfunc):

@@ -8,13 +8,15 @@ Numba's ways to do so: a pipeline of the dispatcher's own (numba.core.compiler.C
 a library of its own (numba.core.codegen.CodeLibrary). Imported only where there is a compiler.
 """
 
+import importlib
 from typing import Any
 
 import llvmlite.binding as llvm
-from numba import _dynfunc
 from numba.core import codegen, typed_passes
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, compile_result
 from numba.core.compiler_machinery import register_pass
+
+_dynfunc = importlib.import_module("numba._dynfunc")  # in C: it declares no types
 
 
 class PartLibrary(codegen.JITCodeLibrary):

@@ -34,7 +34,7 @@ LEDGER = {
         "rotation": REFUSED,
         "drag": DIFFERS,
         "wind": DIFFERS,
-        # Put in: what is pushed apart flies elsewhere and rubs; nothing falls or rests. A shot is longer than its way in
+        # Put in: what is pushed apart flies elsewhere and rubs, nothing falls, rests. A shot is longer than its way in
         # a step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
         # would strike who is missed by all that is drawn.
         "response": DIFFERS,
