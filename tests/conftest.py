@@ -47,10 +47,11 @@ def nothing_is_measured(monkeypatch):
 def pytest_collection_modifyitems(config, items):
     """Mark the slow tests. Files with the slowest come first, so that no worker ends with one."""
     names, slowest = slow.listed(), {}
+    measured = config.pluginmanager.hasplugin("tests.slow")
     config.stash[slow.COLLECTED] = [item.nodeid for item in items]
     for item in items:
         seconds = names.get(item.nodeid, 0.0)
         if seconds:
-            item.add_marker("slow")
+            item.add_marker("slow" if measured else slow.mark_of(item.nodeid, seconds))
         slowest[item.path] = max(slowest.get(item.path, 0.0), seconds)
     items.sort(key=lambda item: -slowest[item.path])

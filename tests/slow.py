@@ -4,9 +4,10 @@
     python -m tests.slow --refresh tests/physics        # the tests of some files; the lines of others stay
     python -m pytest -p tests.slow --seconds=FILE       # any run; FILE holds the seconds of each test
 
-A test is slow if it takes half a second of processor time, that of its child processes included. The time that numba
-takes to compile or load kernels is left out: the first test that needs a kernel would pay for all. Other work on the
-machine lengthens processor time less than the clock's, by about a third where caches are shared.
+A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from two
+seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
+kernel would pay for all. Other work on the machine lengthens processor time less than the clock's, by about a third
+where caches are shared.
 """
 
 import argparse
@@ -23,8 +24,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 KEPT = ROOT / "tests/slow_tests.txt"
-SLOW = 0.5  # [s] processor time from which a test is listed
-STAYS = 0.35  # [s] a listed test stays listed from here on, so that tests at the border do not come and go
+SLOW = 0.25  # [s] processor time from which a test is listed
+STAYS = 0.18  # [s] a listed test stays listed from here on, so that tests at the border do not come and go
+NIGHT = 2.0  # [s] a listed test from which on is run by .ci/nightly alone
 COLLECTED = pytest.StashKey[list[str]]()  # node ids of all tests of a run, before any is deselected
 # Tests that the README's command runs however long they take: every scene once, and what the sources must keep to.
 NEVER = (
@@ -34,12 +36,33 @@ NEVER = (
     "tests/test_kernel_dialect.py::",
     "tests/test_lockstep.py::",
 )
+# Tests that .ci/run runs however long they take: of the kernels on disk, of what is installed, of the games as a whole.
+DAILY = (
+    "tests/fuzz/",
+    "tests/physics/test_background.py::",
+    "tests/physics/test_kernel_cache.py::",
+    "tests/physics/test_kernel_store.py::",
+    "tests/scenes/test_effects_called_for.py::test_all_that_is_neutral_changes_nothing_together[",
+    "tests/scenes/test_scenes.py::test_compiled_and_plain_kernels_give_one_digest[",
+    *(
+        f"tests/scenes/test_scenes.py::test_one_digest_however_it_is_run_and_the_goals_are_reached[{name}]"
+        for name in ("shooter", "platformer", "lander")
+    ),
+    "tests/scenes/test_takeover.py::",
+    "tests/test_packaging.py::",
+    "tests/test_wheel_layout.py::",
+)
 
 
 def listed() -> dict[str, float]:
     """Return {node id: seconds} of the kept list."""
     lines = KEPT.read_text(encoding="utf-8").splitlines()
     return {name: float(seconds) for seconds, name in (line.split(maxsplit=1) for line in lines)}
+
+
+def mark_of(name: str, seconds: float) -> str:
+    """Return the marker of a listed test: slow or nightly."""
+    return "nightly" if seconds >= NIGHT and not name.startswith(DAILY) else "slow"
 
 
 def write(names: dict[str, float]) -> None:
@@ -108,7 +131,10 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Measure in every process; collect in the one that all reports reach."""
+    """Measure in every process; collect in the one that all reports reach.
+
+    While it is measured, what the list calls nightly is only slow, so that `-m "not nightly"` measures it anew.
+    """
     config.pluginmanager.register(Meter(Clock()))
     path = config.getoption("--seconds")
     if path and not hasattr(config, "workerinput"):
@@ -176,7 +202,9 @@ def main(arguments: list[str]) -> int:
                 return done.returncode
             write(refreshed(listed(), json.loads(found.read_text(encoding="utf-8"))))
     names = listed()
-    sys.stdout.write(f"{len(names)} tests are slow; they take {sum(names.values()) / 60:.1f} minutes\n")
+    for mark in ("slow", "nightly"):
+        spent = [seconds for name, seconds in names.items() if mark_of(name, seconds) == mark]
+        sys.stdout.write(f"{len(spent)} tests are {mark}; they take {sum(spent) / 60:.1f} minutes\n")
     return 0
 
 

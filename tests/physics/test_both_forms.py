@@ -84,8 +84,14 @@ def test_forms_are_the_same_in_sound_worlds(kind, solver, strategy):
 @pytest.mark.parametrize(
     "column", ["x", "angle", "angular_velocity", "sleep_time", "inverse_mass", "inverse_inertia", "extent"]
 )
-@pytest.mark.parametrize("kind", ["static", "dynamic"])
-@pytest.mark.parametrize("touched", [True, False])
+@pytest.mark.parametrize(
+    "kind, touched",
+    [
+        ("dynamic", True),
+        *(pytest.param(*each, marks=pytest.mark.nightly) for each in (("static", True), ("dynamic", False))),
+        ("static", False),
+    ],
+)
 def test_one_wrong_number_of_a_turned_mask(column, value, kind, touched):
     """On which a box lies: its pixels have no column, its angle no bucket, its time asleep no whole number."""
     effects, _ = KINDS["stacked"]

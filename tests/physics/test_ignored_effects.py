@@ -134,7 +134,7 @@ def test_every_effect_has_its_scene():
     assert tuple(SCENES) == NAMES
 
 
-@pytest.mark.parametrize("much", [0.75, 1.0])
+@pytest.mark.parametrize("much", [pytest.param(0.75, marks=pytest.mark.nightly), 1.0])
 @pytest.mark.parametrize("base", BASES)
 @pytest.mark.parametrize("effect", NAMES)
 @pytest.mark.parametrize("solver", SOLVERS)

@@ -99,9 +99,10 @@ def test_neighbours_of_the_poisoned_go_on_as_if_it_had_been_removed(scenes, kind
 
 
 @needs_speed
+@pytest.mark.parametrize("steps", [10, pytest.param(60, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("target", ["ground", "chain", "disc", "mask", "lift"])
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_of_body_can_be_poisoned(scenes, kind, target):
+def test_every_kind_of_body_can_be_poisoned(scenes, kind, target, steps):
     """Also what others stand on: they fall, and nothing that is not finite is ever told."""
     for table in ("bodies", "shapes"):
         for field in fields_of(scenes(kind)[0].world, table):
@@ -110,7 +111,7 @@ def test_every_kind_of_body_can_be_poisoned(scenes, kind, target):
                 scene.sick = scene.named[target]
                 told = poisoned(scene, field, value)
                 assert set(told) <= {scene.sick}, f"{field}: {told}"
-                scene.steps(60)
+                scene.steps(steps)
                 assert len(scene.world.events.quarantined) == 0
                 assert np.isfinite(scene.world.bodies["x"][scene.world.bodies["id"] != scene.sick]).all()
 
