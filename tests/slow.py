@@ -6,7 +6,7 @@
 
 A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from two
 seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
-kernel would pay for all. Other work on the machine lengthens processor time less than the clock's, by about a third
+kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine lengthens processor time less than the clock's, by about a third
 where caches are shared.
 """
 
@@ -142,10 +142,11 @@ def pytest_configure(config):
 
 
 class Meter:
-    """Record with each test what its phases took."""
+    """Record with each test what its phases took, shared fixtures included whoever has paid for them."""
 
     def __init__(self, clock):
-        self.clock = clock
+        self.clock, self.shared = clock, {}  # {key of a fixture: seconds}
+        self.paid = set()  # keys of those that the present test has set up
 
     def _phase(self, item):
         started = self.clock()
@@ -154,8 +155,22 @@ class Meter:
 
     @pytest.hookimpl(hookwrapper=True, tryfirst=True)
     def pytest_runtest_setup(self, item):
-        """Measure the fixtures; those of a module count for its first test."""
+        """Measure the fixtures, and add those that others have set up before."""
+        self.paid.clear()
         yield from self._phase(item)
+        used = {key_of(each[-1]) for each in item._fixtureinfo.name2fixturedefs.values()}
+        others = sum(seconds for key, seconds in self.shared.items() if key in used - self.paid)
+        item.user_properties.append(("seconds", others))
+
+    @pytest.hookimpl(hookwrapper=True)
+    def pytest_fixture_setup(self, fixturedef):
+        """Note what a fixture of a module, a package or the run takes."""
+        started = self.clock()
+        yield
+        if fixturedef.scope not in ("function", "class"):
+            key = key_of(fixturedef)
+            self.shared[key] = max(self.shared.get(key, 0.0), self.clock() - started)
+            self.paid.add(key)
 
     @pytest.hookimpl(hookwrapper=True, tryfirst=True)
     def pytest_runtest_call(self, item):
@@ -166,6 +181,11 @@ class Meter:
     def pytest_runtest_teardown(self, item):
         """Measure how fixtures are finished."""
         yield from self._phase(item)
+
+
+def key_of(fixturedef) -> tuple[str, str]:
+    """Return where a fixture is defined, and its name."""
+    return fixturedef.baseid, fixturedef.argname
 
 
 class Keeper:

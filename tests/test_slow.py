@@ -114,6 +114,7 @@ def test_the_plugin_measures_fixtures_and_processes_and_leaves_out_kernels(tmp_p
     assert run.returncode == 0, run.stdout + run.stderr
     found = {name.split("::")[1]: seconds for name, seconds in json.loads(kept.read_text()).items()}
     assert found["test_own"] >= 0.3 and found["test_first"] >= 0.3 and found["test_child"] >= 0.38
-    assert max(found["test_second"], found["test_waits"]) < 0.25
+    assert found["test_second"] >= 0.3, "it would have paid for the fixture, had it been alone"
+    assert found["test_waits"] < 0.25
     if find_spec("numba"):
         assert found["test_kernels"] < 0.5 * float(path.with_suffix(".spent").read_text()), "compiling is not counted"

@@ -19,6 +19,7 @@ from physics import Effects
 from physics.effects import NEEDS
 from scenes import SCENES
 
+pytestmark = pytest.mark.slow  # whichever test comes first plays a game for the others of this file
 FRAMES = {"shooter": 2640, "platformer": 2400, "lander": 4200}
 EFFECTS = [field.name for field in fields(Effects)]
 
