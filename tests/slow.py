@@ -6,8 +6,8 @@
 
 A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from two
 seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
-kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine lengthens processor time less than the clock's, by about a third
-where caches are shared.
+kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine
+lengthens processor time less than the clock's, by about a third where caches are shared.
 """
 
 import argparse
