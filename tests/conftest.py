@@ -1,6 +1,6 @@
 """Every test runs without a display and without sound; several workers find their kernels compiled.
 
-Which tests are slow stands in tests/slow_tests.txt: see tests/slow.py.
+Which tests are slow stands in tests/slow_tests.txt and tests/slow_without_numba.txt: see tests/slow.py.
 """
 
 import importlib.util
@@ -46,7 +46,7 @@ def nothing_is_measured(monkeypatch):
 @pytest.hookimpl(tryfirst=True)  # before -m chooses
 def pytest_collection_modifyitems(config, items):
     """Mark the slow tests. Files with the slowest come first, so that no worker ends with one."""
-    names, slowest = slow.listed(), {}
+    names, slowest = slow.slow_here(), {}
     measured = config.pluginmanager.hasplugin("tests.slow")
     config.stash[slow.COLLECTED] = [item.nodeid for item in items]
     for item in items:

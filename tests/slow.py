@@ -1,13 +1,17 @@
-"""The slow tests: a kept list, the plugin that measures, and the command that writes the list anew.
+"""The slow tests: kept lists, the plugin that measures, and the command that writes the list anew.
 
     python -m tests.slow --refresh                      # all tests but the nightly ones, in two processes
     python -m tests.slow --refresh tests/physics        # the tests of some files; the lines of others stay
+    python -m tests.slow --more                         # only those that are not on the list yet
     python -m pytest -p tests.slow --seconds=FILE       # any run; FILE holds the seconds of each test
 
 A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from two
 seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
 kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine
 lengthens processor time less than the clock's, by about a third where caches are shared.
+
+Without numba other tests are slow: those of half a second stand on a list of their own, which such an environment reads
+beside the first, and writes.
 """
 
 import argparse
@@ -23,9 +27,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-KEPT = ROOT / "tests/slow_tests.txt"
-SLOW = 0.25  # [s] processor time from which a test is listed
-STAYS = 0.18  # [s] a listed test stays listed from here on, so that tests at the border do not come and go
+KEPT, KEPT_WITHOUT_NUMBA = ROOT / "tests/slow_tests.txt", ROOT / "tests/slow_without_numba.txt"
+SLOW, SLOW_WITHOUT_NUMBA = 0.25, 0.5  # [s] processor time from which a test is listed
+STAYS = 0.7  # of that: a listed test stays listed from here on, so that tests at the border do not come and go
 NIGHT = 2.0  # [s] a listed test from which on is run by .ci/nightly alone
 COLLECTED = pytest.StashKey[list[str]]()  # node ids of all tests of a run, before any is deselected
 # Tests that the README's command runs however long they take: every scene once, and what the sources must keep to.
@@ -54,9 +58,14 @@ DAILY = (
 )
 
 
-def listed() -> dict[str, float]:
-    """Return {node id: seconds} of the kept list."""
-    lines = KEPT.read_text(encoding="utf-8").splitlines()
+def own_list() -> tuple[Path, float]:
+    """Return the list of an environment like this one, and the seconds from which a test is listed there."""
+    return (KEPT, SLOW) if find_spec("numba") else (KEPT_WITHOUT_NUMBA, SLOW_WITHOUT_NUMBA)
+
+
+def listed(path: Path = KEPT) -> dict[str, float]:
+    """Return {node id: seconds} of a kept list."""
+    lines = path.read_text(encoding="utf-8").splitlines()
     return {name: float(seconds) for seconds, name in (line.split(maxsplit=1) for line in lines)}
 
 
@@ -65,17 +74,27 @@ def mark_of(name: str, seconds: float) -> str:
     return "nightly" if seconds >= NIGHT and not name.startswith(DAILY) else "slow"
 
 
-def write(names: dict[str, float]) -> None:
-    """Write the list: one line for each test, its seconds and its node id."""
-    KEPT.write_text("".join(f"{seconds:.1f} {name}\n" for name, seconds in names.items()), encoding="utf-8")
+def slow_here() -> dict[str, float]:
+    """Return {node id: seconds} of the tests that are slow in an environment like this one."""
+    return listed() | listed(own_list()[0])
 
 
-def refreshed(kept: dict[str, float], measured: dict[str, float]) -> dict[str, float]:
-    """Return the list after a run that measured some files: their lines are replaced, those of others stay."""
-    files = {name.split("::")[0] for name in measured}
+def write(path: Path, names: dict[str, float]) -> None:
+    """Write a list: one line for each test, its seconds and its node id."""
+    path.write_text("".join(f"{seconds:.1f} {name}\n" for name, seconds in names.items()), encoding="utf-8")
+
+
+def refreshed(
+    kept: dict[str, float], measured: dict[str, float], slow: float = SLOW, more: bool = False
+) -> dict[str, float]:
+    """Return the list after a run that measured some files: their lines are replaced, those of others stay.
+
+    slow [s]: as of own_list(); more: what was measured was not on the list, all whose lines stay.
+    """
+    files = set() if more else {name.split("::")[0] for name in measured}
     stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}
-    slow = {name: seconds for name, seconds in measured.items() if seconds >= (STAYS if name in kept else SLOW)}
-    return {name: seconds for name, seconds in sorted((stays | slow).items()) if not name.startswith(NEVER)}
+    found = {name: seconds for name, seconds in measured.items() if seconds >= slow * (STAYS if name in kept else 1.0)}
+    return {name: seconds for name, seconds in sorted((stays | found).items()) if not name.startswith(NEVER)}
 
 
 def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> list[str]:
@@ -208,20 +227,24 @@ def main(arguments: list[str]) -> int:
     """Measure and write the list; without --refresh print its size."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--refresh", action="store_true", help="measure, and write the list anew")
+    parser.add_argument("--more", action="store_true", help="measure those that are not listed, and add what is slow")
     parser.add_argument("--keep", metavar="FILE", type=Path, help="keep the seconds of each test there, as JSON")
     parser.add_argument("paths", nargs="*", help="files or folders of tests; default: all")
     options = parser.parse_args(arguments)
-    if options.refresh:
+    path, slow = own_list()
+    if options.refresh or options.more:
         with tempfile.TemporaryDirectory() as folder:
             found = options.keep or Path(folder) / "seconds.json"
-            command = [sys.executable, "-m", "pytest", "-p", "tests.slow", f"--seconds={found}", "-m", "not nightly"]
+            chosen = "not slow and not nightly" if options.more else "not nightly"
+            command = [sys.executable, "-m", "pytest", "-p", "tests.slow", f"--seconds={found}", "-m", chosen]
             if not options.paths:
                 command += ["-n", "2", "--dist", "worksteal"]
             done = subprocess.run([*command, "-p", "no:cacheprovider", *options.paths], cwd=ROOT)
             if done.returncode not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
                 return done.returncode
-            write(refreshed(listed(), json.loads(found.read_text(encoding="utf-8"))))
-    names = listed()
+            measured = json.loads(found.read_text(encoding="utf-8"))
+            write(path, refreshed(listed(path), measured, slow, options.more))
+    names = slow_here()
     for mark in ("slow", "nightly"):
         spent = [seconds for name, seconds in names.items() if mark_of(name, seconds) == mark]
         sys.stdout.write(f"{len(spent)} tests are {mark}; they take {sum(spent) / 60:.1f} minutes\n")

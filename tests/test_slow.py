@@ -1,4 +1,4 @@
-"""The kept list of slow tests: what enters it and what leaves it, names of no test, and what the plugin measures."""
+"""The kept lists of slow tests: what enters them and what leaves them, names of no test, and what the plugin measures."""
 
 import json
 import subprocess
@@ -9,28 +9,33 @@ import pytest
 
 import physics
 from tests import slow
-from tests.slow import NEVER, SLOW, STAYS, refreshed, stale
+from tests.slow import NEVER, SLOW, SLOW_WITHOUT_NUMBA, STAYS, refreshed, stale
 
 NAMES = {"tests/a.py::test_one[1]": 0.6, "tests/a.py::test_two": 2.0, "tests/b.py::test_three": 1.0}
 
 
-def test_the_list_is_in_order_and_holds_each_once():
-    lines = slow.KEPT.read_text(encoding="utf-8").splitlines()
+LISTS = {"slow_tests.txt": (slow.KEPT, SLOW), "slow_without_numba.txt": (slow.KEPT_WITHOUT_NUMBA, SLOW_WITHOUT_NUMBA)}
+
+
+@pytest.mark.parametrize("name", LISTS)
+def test_a_list_is_in_order_and_holds_each_once(name):
+    path, least = LISTS[name]
+    lines = path.read_text(encoding="utf-8").splitlines()
     names = [line.split(maxsplit=1)[1] for line in lines]
-    assert names == sorted(set(names)) and len(names) == len(slow.listed())
-    assert all(seconds >= STAYS - 0.05 for seconds in slow.listed().values())
+    assert names == sorted(set(names)) and len(names) == len(slow.listed(path)) > 100
+    assert all(seconds >= STAYS * least - 0.05 for seconds in slow.listed(path).values())
 
 
-@pytest.mark.skipif(not physics.JIT, reason="some tests have fewer cases")
 def test_every_name_on_the_list_is_a_test(pytestconfig):
+    """On the list of environments like this one: in others some tests have fewer cases."""
     parts = {argument.split("::")[0] for argument in pytestconfig.args if "::" in argument}
-    wrong = stale(pytestconfig.stash[slow.COLLECTED], slow.listed(), parts)
+    wrong = stale(pytestconfig.stash[slow.COLLECTED], slow.listed(slow.own_list()[0]), parts)
     assert not wrong, "python -m tests.slow --refresh writes the list anew"
 
 
 @pytest.mark.parametrize("seconds, before, listed", [
-    (SLOW, False, True), (0.99 * SLOW, False, False), (0.99 * SLOW, True, True), (STAYS, True, True),
-    (0.99 * STAYS, True, False), (100.0, False, True), (0.0, True, False),
+    (SLOW, False, True), (0.99 * SLOW, False, False), (0.99 * SLOW, True, True), (STAYS * SLOW, True, True),
+    (0.99 * STAYS * SLOW, True, False), (100.0, False, True), (0.0, True, False),
 ])  # fmt: skip
 def test_what_lies_at_the_border_does_not_come_and_go(seconds, before, listed):
     kept = {"tests/a.py::test": 1.0} if before else {}
@@ -40,11 +45,12 @@ def test_what_lies_at_the_border_does_not_come_and_go(seconds, before, listed):
 @pytest.mark.parametrize("name", NEVER)
 def test_some_are_never_listed(name):
     assert refreshed({}, {f"{name}test_that_takes_long": 100.0}) == {}
-    assert not [each for each in slow.listed() if each.startswith(name)]
+    assert not [each for path, _ in LISTS.values() for each in slow.listed(path) if each.startswith(name)]
 
 
 def test_a_refresh_of_some_files_leaves_the_lines_of_others():
     measured = {"tests/a.py::test_two": 3.0, "tests/a.py::test_new": 0.7, "tests/a.py::test_fast": 0.1}
+    assert refreshed(NAMES, {"tests/a.py::test_new": 0.7}, more=True) == NAMES | {"tests/a.py::test_new": 0.7}
     found = refreshed(NAMES, measured)
     assert found == {"tests/a.py::test_new": 0.7, "tests/a.py::test_two": 3.0, "tests/b.py::test_three": 1.0}
     assert list(found) == sorted(found), "a test that is gone is dropped"
