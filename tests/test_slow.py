@@ -1,4 +1,4 @@
-"""The kept lists of slow tests: what enters them and what leaves them, names of no test, and what the plugin measures."""
+"""The kept lists of slow tests: what enters and what leaves them, names of no test, and what the plugin measures."""
 
 import json
 import subprocess
@@ -7,7 +7,6 @@ from importlib.util import find_spec
 
 import pytest
 
-import physics
 from tests import slow
 from tests.slow import NEVER, SLOW, SLOW_WITHOUT_NUMBA, STAYS, refreshed, stale
 
