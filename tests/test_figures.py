@@ -115,6 +115,17 @@ def disk():
     return f"It takes about {round(kept('bench/0.1.0.json')['installed_mb'], -1)} MB of disk"
 
 
+def suite_takes():
+    minutes = kept("minutes.json")["the README's test command"]
+    return f"That takes {minutes:.1f} minutes on two cores"
+
+
+def parts_take():
+    """The rows of the table of tests."""
+    minutes = kept("minutes.json")
+    return [f"| {minutes[name]:.0f} min |" for name in ("slow tests", "run in all")]
+
+
 def reports_take():
     minutes = kept("minutes.json")["quick report"]
     return f"`--quick` takes {minutes:.1f} minutes, all of it {kept('accuracy.json')['seconds'] / 60:.0f}"
@@ -147,6 +158,8 @@ SENTENCES = {
         sinks,
         study,
         disk,
+        suite_takes,
+        parts_take,
         reports_take,
         scenes_and_labs,
         gallery_pages,
