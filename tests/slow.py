@@ -10,8 +10,8 @@ second on it is nightly. The time that numba takes to compile or load kernels is
 kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine
 lengthens processor time less than the clock's, by about a third where caches are shared.
 
-Without numba other tests are slow: those of half a second stand on a list of their own, which such an environment reads
-beside the first, and writes.
+Without numba other tests are slow: they stand on a list of their own, which such an environment reads beside the first,
+and writes.
 """
 
 import argparse
@@ -28,7 +28,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 KEPT, KEPT_WITHOUT_NUMBA = ROOT / "tests/slow_tests.txt", ROOT / "tests/slow_without_numba.txt"
-SLOW, SLOW_WITHOUT_NUMBA = 0.25, 0.5  # [s] processor time from which a test is listed
+SLOW = 0.25  # [s] processor time from which a test is listed
 STAYS = 0.7  # of that: a listed test stays listed from here on, so that tests at the border do not come and go
 NIGHT = 1.0  # [s] a listed test from which on is run by .ci/nightly alone
 COLLECTED = pytest.StashKey[list[str]]()  # node ids of all tests of a run, before any is deselected
@@ -58,9 +58,9 @@ DAILY = (
 )
 
 
-def own_list() -> tuple[Path, float]:
-    """Return the list of an environment like this one, and the seconds from which a test is listed there."""
-    return (KEPT, SLOW) if find_spec("numba") else (KEPT_WITHOUT_NUMBA, SLOW_WITHOUT_NUMBA)
+def own_list() -> Path:
+    """Return the list of an environment like this one."""
+    return KEPT if find_spec("numba") else KEPT_WITHOUT_NUMBA
 
 
 def listed(path: Path = KEPT) -> dict[str, float]:
@@ -76,7 +76,7 @@ def mark_of(name: str, seconds: float) -> str:
 
 def slow_here() -> dict[str, float]:
     """Return {node id: seconds} of the tests that are slow in an environment like this one."""
-    return listed() | listed(own_list()[0])
+    return listed() | listed(own_list())
 
 
 def write(path: Path, names: dict[str, float]) -> None:
@@ -84,16 +84,14 @@ def write(path: Path, names: dict[str, float]) -> None:
     path.write_text("".join(f"{seconds:.1f} {name}\n" for name, seconds in names.items()), encoding="utf-8")
 
 
-def refreshed(
-    kept: dict[str, float], measured: dict[str, float], slow: float = SLOW, more: bool = False
-) -> dict[str, float]:
+def refreshed(kept: dict[str, float], measured: dict[str, float], more: bool = False) -> dict[str, float]:
     """Return the list after a run that measured some files: their lines are replaced, those of others stay.
 
-    slow [s]: as of own_list(); more: what was measured was not on the list, all whose lines stay.
+    more: what was measured was not on the list, all whose lines stay.
     """
     files = set() if more else {name.split("::")[0] for name in measured}
     stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}
-    found = {name: seconds for name, seconds in measured.items() if seconds >= slow * (STAYS if name in kept else 1.0)}
+    found = {name: seconds for name, seconds in measured.items() if seconds >= SLOW * (STAYS if name in kept else 1.0)}
     return {name: seconds for name, seconds in sorted((stays | found).items()) if not name.startswith(NEVER)}
 
 
@@ -231,7 +229,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--keep", metavar="FILE", type=Path, help="keep the seconds of each test there, as JSON")
     parser.add_argument("paths", nargs="*", help="files or folders of tests; default: all")
     options = parser.parse_args(arguments)
-    path, slow = own_list()
+    path = own_list()
     if options.refresh or options.more:
         with tempfile.TemporaryDirectory() as folder:
             found = options.keep or Path(folder) / "seconds.json"
@@ -243,7 +241,7 @@ def main(arguments: list[str]) -> int:
             if done.returncode not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
                 return done.returncode
             measured = json.loads(found.read_text(encoding="utf-8"))
-            write(path, refreshed(listed(path), measured, slow, options.more))
+            write(path, refreshed(listed(path), measured, options.more))
     names = slow_here()
     for mark in ("slow", "nightly"):
         spent = [seconds for name, seconds in names.items() if mark_of(name, seconds) == mark]

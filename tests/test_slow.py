@@ -8,27 +8,27 @@ from importlib.util import find_spec
 import pytest
 
 from tests import slow
-from tests.slow import NEVER, SLOW, SLOW_WITHOUT_NUMBA, STAYS, refreshed, stale
+from tests.slow import NEVER, SLOW, STAYS, refreshed, stale
 
 NAMES = {"tests/a.py::test_one[1]": 0.6, "tests/a.py::test_two": 2.0, "tests/b.py::test_three": 1.0}
 
 
-LISTS = {"slow_tests.txt": (slow.KEPT, SLOW), "slow_without_numba.txt": (slow.KEPT_WITHOUT_NUMBA, SLOW_WITHOUT_NUMBA)}
+LISTS = {each.name: each for each in (slow.KEPT, slow.KEPT_WITHOUT_NUMBA)}
 
 
 @pytest.mark.parametrize("name", LISTS)
 def test_a_list_is_in_order_and_holds_each_once(name):
-    path, least = LISTS[name]
+    path = LISTS[name]
     lines = path.read_text(encoding="utf-8").splitlines()
     names = [line.split(maxsplit=1)[1] for line in lines]
     assert names == sorted(set(names)) and len(names) == len(slow.listed(path)) > 100
-    assert all(seconds >= STAYS * least - 0.05 for seconds in slow.listed(path).values())
+    assert all(seconds >= STAYS * SLOW - 0.05 for seconds in slow.listed(path).values())
 
 
 def test_every_name_on_the_list_is_a_test(pytestconfig):
     """On the list of environments like this one: in others some tests have fewer cases."""
     parts = {argument.split("::")[0] for argument in pytestconfig.args if "::" in argument}
-    wrong = stale(pytestconfig.stash[slow.COLLECTED], slow.listed(slow.own_list()[0]), parts)
+    wrong = stale(pytestconfig.stash[slow.COLLECTED], slow.listed(slow.own_list()), parts)
     assert not wrong, "python -m tests.slow --refresh writes the list anew"
 
 
@@ -44,7 +44,7 @@ def test_what_lies_at_the_border_does_not_come_and_go(seconds, before, listed):
 @pytest.mark.parametrize("name", NEVER)
 def test_some_are_never_listed(name):
     assert refreshed({}, {f"{name}test_that_takes_long": 100.0}) == {}
-    assert not [each for path, _ in LISTS.values() for each in slow.listed(path) if each.startswith(name)]
+    assert not [each for path in LISTS.values() for each in slow.listed(path) if each.startswith(name)]
 
 
 def test_a_refresh_of_some_files_leaves_the_lines_of_others():
