@@ -41,7 +41,7 @@ def cache_home() -> Path:
     """Return the folder for compiled kernels by the platform's rule, or HITBOX_CACHE_DIR, without creating it."""
     override = os.environ.get("HITBOX_CACHE_DIR")
     if override:
-        return Path(override)
+        return Path(os.path.expanduser(override))
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local")) / "hitbox" / "compiled"
     if sys.platform == "darwin":
@@ -92,7 +92,7 @@ def _exposed(folder):
 
 def store() -> "Store":
     """Return the store of this process: the user's folder, or one beside it, or where neither is private or can be
-    written a new temporary one for this run, which is reported."""
+    written a new temporary one for this run. Any but the first is reported."""
     with _opening:
         return _open_store()
 
@@ -105,12 +105,17 @@ def _open_store():
         return Store(home)
     beside = home.with_name(f"{home.name}-private")
     if not make_private(beside):
+        _tell(f"in {beside}: {problem}")
         return Store(beside)
     made = Store(Path(tempfile.mkdtemp(prefix=TEMPORARY)))
     _remove_at_exit(made.folder)
-    if sys.stderr is not None:
-        sys.stderr.write(f"hitbox: compiled kernels are kept for this run only: {problem}\n")
+    _tell(f"for this run only: {problem}")
     return made
+
+
+def _tell(where):
+    if sys.stderr is not None:
+        sys.stderr.write(f"hitbox: compiled kernels are kept {where}\n")
 
 
 def _remove_at_exit(folder):

@@ -57,8 +57,8 @@ EXPOSED = {
 
 @posix
 @pytest.mark.parametrize("kind", EXPOSED)
-def test_an_exposed_folder_is_not_used_and_not_changed(tmp_path, monkeypatch, kind):
-    """Nothing is read from it, and nothing in it changes; one beside it is used, in this start and in the next."""
+def test_an_exposed_folder_is_not_used_and_not_changed(tmp_path, monkeypatch, capsys, kind):
+    """Nothing in it is read or changed; one beside it is used, in this start and in the next, and it is said why."""
     make, reason = EXPOSED[kind]
     (tmp_path / "elsewhere").mkdir(mode=0o700)
     folder = tmp_path / "kernels"
@@ -70,9 +70,17 @@ def test_an_exposed_folder_is_not_used_and_not_changed(tmp_path, monkeypatch, ki
         module._open_store.cache_clear()
         assert module.store().folder == tmp_path / "kernels-private"
         assert mode_of(tmp_path / "kernels-private") == 0o700
+        told = capsys.readouterr().err
+        assert told.count("\n") == 1 and f"are kept in {folder}-private: " in told and reason in told
     module._open_store.cache_clear()
     after = folder.lstat(), sorted(os.listdir(folder)) if folder.is_dir() else None
     assert (after[0].st_mode, after[0].st_uid, after[1]) == (before[0].st_mode, before[0].st_uid, before[1])
+
+
+@pytest.mark.parametrize("given, found", [("~/kernels", "{home}/kernels"), ("~nobody of that name/x", "{given}")])
+def test_a_folder_may_be_named_from_home(monkeypatch, given, found):
+    monkeypatch.setenv("HITBOX_CACHE_DIR", given)
+    assert module.cache_home() == Path(found.format(home=Path.home(), given=given))
 
 
 @root
