@@ -41,7 +41,7 @@ def run_app(options: Options, registry: Registry) -> int:
     try:
         surface = open_window(settings)
         if options.scene or options.replay:
-            beside.start()  # no title is shown first
+            beside.start(plays=True)  # no title is shown first
         return App(options, registry, settings, surface, message, beside).run()
     finally:
         beside.stop()

@@ -19,7 +19,9 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
     current folder: a `physics.py` or `numpy.py` there is the user's own. environment: more for its own. Raises OSError,
     ValueError where none can be started.
     """
-    options: dict[str, Any] = {"start_new_session": True}
+    # A group, not a session: Linux weighs sessions against each other whatever the priority of their processes
+    # (autogroups, man 7 sched), so that one of its own would take as much as the program.
+    options: dict[str, Any] = {"process_group": 0}
     if sys.platform == "win32":
         options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
     return subprocess.Popen(
