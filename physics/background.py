@@ -47,8 +47,8 @@ def compile_in_background(workers: int | None = None) -> "Background":
 def short_turns() -> Iterator[None]:
     """While this lasts, the interpreter goes from thread to thread after TURN.
 
-    The program lets go of it in every call of NumPy's, and would wait for 5 ms each time. Measured: while the compiler is
-    imported, frames of the platformer take 80 ms with that, 55 ms with TURN.
+    The program lets go of it in every call of NumPy's, and would wait for 5 ms each time. Measured: while the compiler
+    is imported, frames of the platformer take 80 ms with that, 55 ms with TURN.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
