@@ -28,12 +28,9 @@ class Beside:
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start to compile beside the program. plays: see `turn`."""
+        """Start to compile beside the program, if that has not begun. plays: one core is left to the scene."""
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
-            self._share_cores(plays)
-
-    def _share_cores(self, plays):
         if self.background is not None:
             self.background.workers.limit = max(1, self.cores - plays)
 
@@ -41,7 +38,6 @@ class Beside:
         """Once per turn of the program's loop. plays: a scene is on the screen, so one core is left to it, and no other
         scene is imported."""
         self.start(plays)
-        self._share_cores(plays)
         if self.background is not None and not plays and (scene_class := next(self.scenes, None)) is not None:
             self.background.expect(jobs_of(scene_class))
 
