@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import physics
-from physics.jit import tiers, workers
+from physics.jit import processes, tiers, workers
 from physics.jit.workers import ATTEMPTS, DEATHS, Task, Workers
 
 ROOT = Path(physics.__file__).resolve().parents[1]
@@ -235,3 +235,13 @@ def alive(number):
         return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
         return False
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no sessions")
+def test_a_process_beside_the_program_lies_in_its_session_and_is_deaf_to_its_terminal():
+    """In a session of its own Linux would give it as much as the program, whatever its priority."""
+    process = processes.start_module("physics.compile_worker")
+    try:
+        assert os.getsid(process.pid) == os.getsid(0) and os.getpgid(process.pid) == process.pid != os.getpgid(0)
+    finally:
+        processes.end_all([process])
