@@ -140,8 +140,8 @@ class PairList:
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Let the rectangles of SHAPE rows hold their present AABBs too, grown by a margin [px], and list them as changed.
-        Returns how many."""
+        """Let the rectangles of SHAPE rows hold their present AABBs too, grown by a margin [px], and list them as
+        changed. Returns how many."""
         shapes = shapes[shapes["proxy"] >= 0]  # what is quarantined has none
         slots = shapes["proxy"]
         for low, high, axis in (
