@@ -117,7 +117,8 @@ class Scene:
     # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.
     pieces: tuple[str, ...] | None = None
     sliders: tuple[Slider, ...] = ()
-    lighter: dict[str, float] = {}  # slider -> its value until the physics is compiled, where frames take over 0.1 s
+    # Slider, or "substeps" -> its value until the physics is compiled, where frames would take over 0.1 s.
+    lighter: dict[str, int | float] = {}
     actions: tuple[tuple[str, str], ...] = ()  # (what to press, what it does) pairs for the help line
     tiers: tuple[str, ...] = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
     overlays: tuple[str, ...] = ()  # overlay layers on from the start

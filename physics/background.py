@@ -5,11 +5,11 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep, thread_time
 from typing import Any
 
 from physics.jit import JIT, tiers
@@ -20,7 +20,10 @@ from physics.jit.twins import globals_of
 from physics.jit.workers import Task, Workers
 
 WORKER = f"{__package__}.compile_worker"
+SHARE = 0.25  # of a thread's time in which it imports what nobody waits for
+FIRST_STEPS = 0.2  # [s] in which the first steps tell which kernels take the time
 TURN = 0.0005  # [s] after which a thread of this process lets others go on while kernels are looked for
+LINK = 500  # bytes of code that take as long to compile as a kernel's own share, whatever its length
 FEW = 2  # kernels that are compiled here: a worker takes about as long to start
 Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
 
@@ -58,6 +61,33 @@ def short_turns() -> Iterator[None]:
         sys.setswitchinterval(before)
 
 
+class _Pauses:
+    """A finder of modules that finds none. Before each import in the thread that made it, it sleeps while kernels run
+    plain."""
+
+    def __init__(self):
+        self.thread, self.since = threading.get_ident(), thread_time()
+
+    def find_spec(self, name, path=None, target=None):
+        if threading.get_ident() == self.thread and tiers.wanted:
+            sleep((thread_time() - self.since) * (1.0 / SHARE - 1.0))
+            self.since = thread_time()
+
+
+@contextmanager
+def unhurried_imports() -> Iterator[None]:
+    """While this lasts, imports take SHARE of this thread's time, so that a game goes on that runs plain meanwhile.
+
+    Measured: importing the compiler takes 0.7 s of processor time, and a game showed 20 pictures in that second.
+    """
+    pauses: Any = _Pauses()
+    sys.meta_path.insert(0, pauses)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(pauses)
+
+
 class Background:
     """What is to be compiled for this program, and how far that is. Made by compile_in_background()."""
 
@@ -68,6 +98,9 @@ class Background:
         self.failed: list[str] = []  # names of kernels that stay plain
         self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> what is to run from it
         self._ordered: set[str] = set()
+        self._early: set[tuple[Kernel, Keys]] = set()  # ordered before the compiler was imported here
+        self._came: deque[tuple[Kernel, Keys]] = deque()  # of those, what is compiled
+        self._compiled: set[Kernel] = set()  # whose code a later kernel need not wait for
         self._expected: deque[tuple[int, dict[str, Any]]] = deque()
         self._jobs = 0
         self._wake, self._stopped = threading.Event(), False
@@ -104,14 +137,23 @@ class Background:
 
     def _work(self):
         """Look for what is wanted, until stopped, in a thread of its own."""
-        if compiler() is None:
+        if store().empty and self.workers.alive:  # there is nothing to load: the compiler is not needed here yet
+            self._wake.wait()
+            if tiers.wanted:
+                sleep(FIRST_STEPS)
+            if self._stopped:
+                return
+            for kernel, keys in list(tiers.wanted):
+                self._order_early(kernel, keys)
+            with unhurried_imports():
+                found = self._import()
+        else:
+            found = self._import()
+        if not found:
             tiers.stop()
+            self.workers.stop()
             return
-        with short_turns():
-            from physics.jit import compiling
-
-            compiling.prepare()
-        tiers.load = compiling.load
+        self._take_in()
         while not self._stopped:
             self._wake.wait()
             self._wake.clear()
@@ -121,13 +163,50 @@ class Background:
                 while self._expected and not self._stopped:
                     self._list(*self._expected.popleft())
 
+    def _import(self):
+        """Import the compiler, and start it; return whether there is one."""
+        with short_turns():
+            if compiler() is None:
+                return False
+            from physics.jit import compiling
+
+            compiling.prepare()
+        tiers.load = compiling.load
+        return True
+
+    def _order_early(self, kernel, keys):
+        """Have a kernel compiled while it is not known here yet under which name it will be kept."""
+        from physics.jit.specs import spec_of
+
+        each = kernel, keys
+        self._early.add(each)
+
+        def done(answer):
+            if answer is not None:
+                self._came.append(each)
+                if tiers.load is not None:
+                    self._take_in()
+            elif self.workers.alive:
+                self._fail(kernel.__qualname__, [each])
+            else:
+                self._early.discard(each)
+                self._wake.set()
+
+        self.workers.add([Task(("compile", spec_of(kernel), keys), lambda: self._urgency([each]), done)])
+
+    def _take_in(self):
+        """Load what was compiled before the compiler was imported here."""
+        with suppress(IndexError):  # another thread has taken the last one
+            while self._came:
+                self._load([self._came.popleft()])
+
     def _find(self, kernel, keys):
         """Load a wanted kernel, or have it compiled."""
         from physics.jit import compiling
 
         name = compiling.name_of(kernel, keys)
         waiting = self._waiting.setdefault(name, [])
-        if (kernel, keys) in waiting:
+        if (kernel, keys) in waiting or (kernel, keys) in self._early:
             return
         waiting.append((kernel, keys))
         form = compiling.load(kernel, keys)
@@ -142,33 +221,51 @@ class Background:
             self._arrive(name)
 
     def _order(self, name, spec, keys, index):
-        """Have a kernel compiled: at once if it is wanted, the one with most of the time first; else in its turn."""
+        """Have a kernel compiled: at once if it is wanted, else in its turn.
+
+        Of those wanted the one first that takes most of the time for what it takes to compile (Smith's rule, which has
+        the least sum of the times spent waiting: Smith 1956).
+        """
         if name in self._ordered:
             return
         self._ordered.add(name)
 
         def urgency():
             waiting = self._waiting.get(name)
-            return 1.0 + sum(kernel.seconds for kernel, _ in waiting) if waiting else -index - 0.5
+            return self._urgency(waiting) if waiting else -index - 0.5
 
         def done(answer):
             if answer == name:
                 self._arrive(name)
             elif self.workers.alive:
-                self.failed.append(name)
-                for each in self._waiting.pop(name, []):
-                    tiers.wanted.pop(each, None)
+                self._fail(name, self._waiting.pop(name, []))
             else:  # there are no processes: the thread compiles it
                 self._waiting.pop(name, None)
                 self._wake.set()
 
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
+    def _urgency(self, waiting):
+        """Return the time that kernels of one code have taken, for how much code is to be compiled: their own, and of
+        what they call what no other had."""
+        parts = _parts_of(waiting[0][0])
+        code = LINK + sum(size for part, size in parts.items() if part not in self._compiled)
+        return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
+
+    def _fail(self, name, waiting):
+        self.failed.append(name)
+        for each in waiting:
+            tiers.wanted.pop(each, None)
+
     def _arrive(self, name):
+        self._load(self._waiting.pop(name, []))
+
+    def _load(self, waiting):
         from physics.jit import compiling
 
-        for kernel, keys in self._waiting.pop(name, []):
+        for kernel, keys in waiting:
             form = compiling.load(kernel, keys)
+            self._compiled.update(_parts_of(kernel))
             if form is not None:
                 tiers.arrived.append((kernel, keys, form))
 
@@ -304,6 +401,7 @@ def _spread(found):
     return order
 
 
+@cache
 def _parts_of(kernel):
     """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
     found: dict[Any, int] = {}

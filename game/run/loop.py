@@ -49,6 +49,8 @@ class FixedStep:
 
     def note(self, busy: float) -> None:
         """Take note of how long [s] the steps and the picture of this frame took."""
+        if self.load is None and not self.due:
+            return  # a picture without a step, the first one, tells nothing of what steps take
         load = min(busy / (self.step * max(self.due, 1)), WORST_LOAD)
         self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 

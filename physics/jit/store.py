@@ -183,6 +183,11 @@ class Store:
         """Return whether a file of that name is there."""
         return (self.folder / (name + SUFFIX)).exists()
 
+    @property
+    def empty(self) -> bool:
+        """Whether no compiled kernel is there at all."""
+        return next(self.folder.glob("*" + SUFFIX), None) is None
+
     def write(self, name: str, content: bytes) -> None:
         """Keep contents under a name; where that fails, say so once and go on without."""
         path = self.folder / (name + SUFFIX)

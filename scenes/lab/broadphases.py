@@ -61,7 +61,7 @@ class Broadphases(Scene):
         "four layouts, 10 to 5,000 bodies",
     )
     sliders = (Slider("bodies", 10, 5000, 600, step=10), Slider("layout", 0, 3, 0, choices=LAYOUTS))
-    lighter = {"bodies": 150}
+    lighter = {"bodies": 60}
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
     switches_broadphase = False

@@ -74,6 +74,7 @@ class EffectsLab(Scene):
         Slider("effect", 0, len(NAMES) - 1, NAMES.index("gravity"), choices=NAMES),
         Slider("it is", 0, 1, 1, choices=("off", "on")),
     )
+    lighter = {"substeps": 4}
     actions = (("up down", "effect"), ("Space or click", "switch it"))
     overlays = ("times",)
     head = HEAD

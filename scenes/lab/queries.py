@@ -84,8 +84,9 @@ class Queries(Scene):
     sliders = (
         Slider("query", 0, len(QUERIES) - 1, 0, choices=QUERIES),
         Slider("size", 4, 80, 16, "px", step=4),
-        Slider("bodies", 100, 2000, 260, step=20),
+        Slider("bodies", 60, 2000, 260, step=20),
     )
+    lighter = {"bodies": 60}
     actions = (
         ("mouse", "where"),
         ("click", "from where"),

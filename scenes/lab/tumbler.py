@@ -72,7 +72,7 @@ class Tumbler(Scene):
     pieces = ("boxes", "circles", "capsules")
     features = ("one kinematic body of many boxes", "circles, capsules, boxes, triangles and hexagons mixed")
     sliders = (Slider("bodies", 20, 160, 130, step=10), Slider("speed", -2.0, 2.0, 0.6, "rad/s", step=0.1))
-    lighter = {"bodies": 50}
+    lighter = {"bodies": 30}
     actions = (("left right", "drum's speed"), ("up down", "bodies"))
     draggable = True
     head = HEAD

@@ -4,6 +4,7 @@ from math import hypot
 
 from game.scene import STEP_SECONDS, Result, Scene
 from physics import Effects
+from physics.settings import SLEEP_TIME
 from scenes.platformer.blasting import REACH, WAITING
 from scenes.platformer.contents import BELOW, Contents
 from scenes.platformer.feats import Feats
@@ -77,6 +78,7 @@ class Platformer(Scene):
         self.spawn = (start.x + start.width / 2, start.y + start.height - HEIGHT / 2)
         self.hero = Hero(self.world, self.level, self.spawn)
         self.things = Contents(self.world, self.level, self.random)
+        self.world.bodies["sleep_time"] = SLEEP_TIME  # what does not move in the first step has lain there before
         self.checkpoints = self.things.of("checkpoint")
         self.touched = set()  # ids of the enemies that he touches
         self.phase, self.since, self.mercy, self.stop = PLAYING, 0, 0, 0

@@ -1,10 +1,10 @@
 """`python -m tests.bench.starts [SCENE ...] [--first] [--seconds 10] [--runs 5]`: from the start to play.
 
 The whole program in a process of its own, as a user starts it, under the dummy driver or on the display that is there
-(--display). Without a scene: the title. Told are medians over the runs: seconds from the start of the process to the
-first picture, steps a second in each of the first seconds, milliseconds of a frame (p50, p99, longest) without the wait
-for the next, kernels compiled in the program itself, and seconds until all that was called runs compiled. --first:
-with an empty cache each time.
+(--display). Without a scene: the title. Games are played by their bots, in labs nobody touches a thing. Told are
+medians over the runs: seconds from the start of the process to the first picture, steps and pictures a second in each
+of the first seconds, milliseconds of a frame (p50, p99, longest) without the wait for the next, kernels compiled in the
+program itself, and seconds until all that was called runs compiled. --first: with an empty cache each time.
 """
 
 import argparse
@@ -76,15 +76,17 @@ def start(arguments, seconds, cache, display):
 def figures(found, seconds):
     """Return the figures of one run by name."""
     times = [at for at, _ in found["frames"]]
-    steps = [0] * int(seconds)
+    steps, pictures = [0] * int(seconds), [0] * int(seconds)
     for (at, before), (_, after) in zip(found["frames"], found["frames"][1:], strict=False):
         second = int(at - times[0])
         if second < len(steps):
             steps[second] += after - before
+            pictures[second] += 1
     worked = sorted(1e3 * each for each in found["worked"][1:])
     return {
         "first picture [s]": times[0],
         "steps a second": steps,
+        "pictures a second": pictures,
         "frame p50 [ms]": worked[len(worked) // 2],
         "frame p99 [ms]": worked[int(0.99 * len(worked))],
         "longest [ms]": worked[-1],
@@ -108,7 +110,7 @@ def main() -> None:
         for _ in range(options.runs):
             with tempfile.TemporaryDirectory() as empty:
                 cache = empty if options.first else os.environ.get("HITBOX_CACHE_DIR", "")
-                arguments = ["--scene", scene, "--bot"] if scene else []
+                arguments = ["--scene", scene, *([] if scene.startswith("lab/") else ["--bot"])] if scene else []
                 runs.append(figures(start(arguments, options.seconds, cache, options.display), options.seconds))
                 shutil.rmtree(empty, ignore_errors=True)
                 os.makedirs(empty, exist_ok=True)

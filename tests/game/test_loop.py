@@ -67,6 +67,32 @@ def test_a_rest_does_not_count():
     assert clock.advance(100.0) == 0 and clock.advance(100.0 + 1.01 / 60) == 1
 
 
+@pytest.mark.parametrize("slow", [0.03, 0.1, 0.3, 1.0])
+@pytest.mark.parametrize("pictures", [1, 2, 5])
+def test_where_the_first_steps_are_slow_there_is_one_a_picture(slow, pictures):
+    """However quick the pictures before the first step were."""
+    clock, now = FixedStep(), 0.0
+    clock.advance(now)
+    for _ in range(pictures):
+        clock.note(0.001)
+    now += 1.01 / 60
+    assert clock.advance(now) == 1
+    for _ in range(50):
+        clock.note(slow)
+        now += slow
+        assert clock.advance(now) == 1 and clock.behind
+
+
+def test_a_single_long_frame_is_caught_up_with():
+    clock, now = FixedStep(), 0.0
+    clock.advance(now)
+    for busy in [0.005] * 30 + [0.1]:
+        now += max(busy, 1.001 / 60)
+        clock.advance(now)
+        clock.note(busy)
+    assert clock.advance(now + 0.1) >= 5
+
+
 def test_what_is_loaded_is_set_aside_and_a_later_call_still_frees_what_was():
     class Node:
         pass

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 import physics
-from physics.jit import processes, tiers, workers
+import physics.background
+from physics.jit import kernels, processes, specs, tiers, workers
 from physics.jit.workers import ATTEMPTS, DEATHS, Task, Workers
 
 ROOT = Path(physics.__file__).resolve().parents[1]
@@ -136,6 +137,97 @@ def test_a_wrong_number_of_workers_is_refused(given):
     with pytest.raises(ValueError, match=f"workers must be .* \\(got {given!r}\\)"):
         physics.compile_in_background(given)
     assert not tiers.background
+
+
+# --- what is compiled first --------------------------------------------------------------------------------------
+
+
+class Asked:
+    """A pool that keeps the tasks it is given, and is told which of them a process would take."""
+
+    count, alive, left = 1, True, 0
+
+    def __init__(self):
+        self.tasks, self.limit = [], 1
+
+    def add(self, tasks):
+        self.tasks += tasks
+
+    def first(self):
+        task = max(self.tasks, key=lambda each: each.urgency())
+        self.tasks.remove(task)
+        return task
+
+    def stop(self):
+        pass
+
+
+def small(x):
+    return x + 1.0
+
+
+def large(x):
+    for _ in range(3):
+        x = x * x + 1.0 / (x + 2.0) - x * 3.0 + (x - 1.0) * (x + 4.0) / (x * x + 5.0)
+        x = x * x + 1.0 / (x + 2.0) - x * 3.0 + (x - 1.0) * (x + 4.0) / (x * x + 5.0)
+        x = x * x + 1.0 / (x + 2.0) - x * 3.0 + (x - 1.0) * (x + 4.0) / (x * x + 5.0)
+    return x
+
+
+def calling(called):
+    def calls(x):
+        return called(x) * 2.0
+
+    return calls
+
+
+@pytest.fixture
+def ordered(monkeypatch):
+    """ordered(seconds, function): the kernel, ordered of a Background that has no thread and no processes."""
+    monkeypatch.setattr(physics.background, "JIT", False)
+    monkeypatch.setattr(physics.background, "Workers", lambda *given: Asked())
+    background = physics.background.Background(1)
+    before = len(kernels.registry)
+
+    def order(seconds, function, keys=()):
+        kernel = function if isinstance(function, kernels.Kernel) else kernels.Part(function)
+        kernel.seconds = seconds
+        background._order_early(kernel, keys)
+        return kernel
+
+    order.pool, order.background = background.workers, background
+    yield order
+    del kernels.registry[before:]
+
+
+@pytest.mark.parametrize("share", [1.5, 2.0, 10.0])
+def test_of_two_kernels_of_one_length_that_with_more_time_is_first(ordered, share):
+    less, more = ordered(0.1, small), ordered(0.1 * share, small)
+    asked = [ordered.pool.first().order for _ in range(2)]
+    assert [each[1] for each in asked] == [specs.spec_of(more), specs.spec_of(less)]
+
+
+@pytest.mark.parametrize("share, first", [(0.8, "small"), (1.0, "small"), (1.2, "small"), (100.0, "large")])
+def test_a_short_kernel_goes_before_a_long_one_unless_that_takes_more_of_the_time_for_its_length(ordered, share, first):
+    ordered(0.1, small)
+    ordered(0.1 * share, large)
+    assert ordered.pool.first().order[1][1] == first
+
+
+def test_what_a_kernel_calls_counts_until_another_has_had_it_compiled(ordered):
+    part = kernels.Part(large)
+    outer, other = ordered(0.1, calling(part)), ordered(0.08, small)
+    assert [ordered.background._urgency([(each, ())]) for each in (outer, other)] == sorted(
+        ordered.background._urgency([(each, ())]) for each in (outer, other)
+    )
+    ordered.background._compiled.add(part)
+    assert ordered.pool.first().order[1][1].endswith("calls")
+
+
+def test_a_kernel_that_cannot_be_compiled_stays_plain_and_is_told(ordered):
+    kernel = ordered(0.1, small)
+    ordered.pool.first().done(None)
+    assert ordered.background.failed == [kernel.__qualname__]
 
 
 # --- a whole program ---------------------------------------------------------------------------------------------
