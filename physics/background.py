@@ -4,25 +4,24 @@ import json
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
-from time import perf_counter, sleep, thread_time
+from time import perf_counter, sleep
 from typing import Any
 
 from physics.jit import JIT, tiers
 from physics.jit.compiler import compiler
 from physics.jit.kernels import Kernel, Keys
+from physics.jit.specs import parts_of
 from physics.jit.store import store
-from physics.jit.twins import globals_of
+from physics.jit.turns import short_turns, unhurried_imports
 from physics.jit.workers import Task, Workers
 
 WORKER = f"{__package__}.compile_worker"
-SHARE = 0.25  # of a thread's time in which it imports what nobody waits for
 FIRST_STEPS = 0.2  # [s] in which the first steps tell which kernels take the time
-TURN = 0.0005  # [s] after which a thread of this process lets others go on while kernels are looked for
 LINK = 500  # bytes of code that take as long to compile as a kernel's own share, whatever its length
 FEW = 2  # kernels that are compiled here: a worker takes about as long to start
 Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
@@ -44,48 +43,6 @@ def compile_in_background(workers: int | None = None) -> "Background":
     if not _running:
         _running.append(Background(workers))
     return _running[0]
-
-
-@contextmanager
-def short_turns() -> Iterator[None]:
-    """While this lasts, the interpreter goes from thread to thread after TURN.
-
-    The program lets go of it in every call of NumPy's, and would wait for 5 ms each time. Measured: while the compiler
-    is imported, frames of the platformer take 80 ms with that, 55 ms with TURN.
-    """
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(TURN)
-    try:
-        yield
-    finally:
-        sys.setswitchinterval(before)
-
-
-class _Pauses:
-    """A finder of modules that finds none. Before each import in the thread that made it, it sleeps while kernels run
-    plain."""
-
-    def __init__(self):
-        self.thread, self.since = threading.get_ident(), thread_time()
-
-    def find_spec(self, name, path=None, target=None):
-        if threading.get_ident() == self.thread and tiers.wanted:
-            sleep((thread_time() - self.since) * (1.0 / SHARE - 1.0))
-            self.since = thread_time()
-
-
-@contextmanager
-def unhurried_imports() -> Iterator[None]:
-    """While this lasts, imports take SHARE of this thread's time, so that a game goes on that runs plain meanwhile.
-
-    Measured: importing the compiler takes 0.7 s of processor time, and a game showed 20 pictures in that second.
-    """
-    pauses: Any = _Pauses()
-    sys.meta_path.insert(0, pauses)
-    try:
-        yield
-    finally:
-        sys.meta_path.remove(pauses)
 
 
 class Background:
@@ -248,7 +205,7 @@ class Background:
     def _urgency(self, waiting):
         """Return the time that kernels of one code have taken, for how much code is to be compiled: their own, and of
         what they call what no other had."""
-        parts = _parts_of(waiting[0][0])
+        parts = parts_of(waiting[0][0])
         code = LINK + sum(size for part, size in parts.items() if part not in self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 
@@ -265,7 +222,7 @@ class Background:
 
         for kernel, keys in waiting:
             form = compiling.load(kernel, keys)
-            self._compiled.update(_parts_of(kernel))
+            self._compiled.update(parts_of(kernel))
             if form is not None:
                 tiers.arrived.append((kernel, keys, form))
 
@@ -392,29 +349,13 @@ def _spread(found):
     """Return kernels in the order in which each adds most to those before: processes that share the work are then at
     different parts of the physics, and seldom wait for one another (measured with the platformer on two cores: 1 % of
     the processes' time was waiting, 14 % with the longest code first)."""
-    left = {each: _parts_of(each[0]) for each in found}
+    left = {each: parts_of(each[0]) for each in found}
     order, covered = [], set()
     while left:
         first = max(left, key=lambda each: sum(size for part, size in left[each].items() if part not in covered))
         covered.update(left.pop(first))
         order.append(first)
     return order
-
-
-@cache
-def _parts_of(kernel):
-    """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
-    found: dict[Any, int] = {}
-    todo = [kernel]
-    while todo:
-        each = todo.pop()
-        if each not in found:
-            function = each.py_func
-            found[each] = len(function.__code__.co_code)
-            values = [value for _, value in globals_of(function)]
-            values += [cell.cell_contents for cell in function.__closure__ or ()]
-            todo += [value for value in values if isinstance(value, Kernel)]
-    return found
 
 
 class StderrProgress:

@@ -2,12 +2,14 @@
 over, and the content that must come out."""
 
 import importlib
+from functools import cache
 from types import CellType, CodeType, FunctionType
 from typing import Any
 
 from physics.jit.calls import StageKernel
 from physics.jit.content import content_of
 from physics.jit.kernels import Kernel, Part, registry
+from physics.jit.twins import globals_of
 
 Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
 
@@ -63,3 +65,19 @@ def _codes_of(module, qualname):
         if code.co_qualname == qualname:
             yield code
         todo += [each for each in code.co_consts if isinstance(each, CodeType)]
+
+
+@cache
+def parts_of(kernel: Kernel) -> dict[Kernel, int]:
+    """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
+    found: dict[Any, int] = {}
+    todo = [kernel]
+    while todo:
+        each = todo.pop()
+        if each not in found:
+            function = each.py_func
+            found[each] = len(function.__code__.co_code)
+            values = [value for _, value in globals_of(function)]
+            values += [cell.cell_contents for cell in function.__closure__ or ()]
+            todo += [value for value in values if isinstance(value, Kernel)]
+    return found
