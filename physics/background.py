@@ -33,10 +33,10 @@ def compile_in_background(workers: int | None = None) -> "Background":
     """Never wait for the compiler from now on: run kernels as plain Python while worker processes compile them.
 
     Compiled forms take over between two steps. Both forms give the same bits, so nothing but the speed changes. The
-    kernels that take most of the time are compiled first. workers: how many processes, None: one fewer than there are
-    cores, at least one. They start when something is to be compiled, as `python -m`, so a script needs no guard; a
-    frozen program has none, and compiles in a thread. Without numba nothing changes. Call it before the first step;
-    another call returns the same object. Raises ValueError for a number of workers below 0.
+    kernels that take most of the time for their length are compiled first. workers: how many processes, None: one fewer
+    than there are cores, at least one. They start when something is to be compiled, as `python -m`, so a script needs
+    no guard; a frozen program has none, and compiles in a thread. Without numba nothing changes. Call it before the
+    first step; another call returns the same object. Raises ValueError for a number of workers below 0.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")

@@ -3,7 +3,7 @@
 Left alone, a kernel is loaded or compiled at its first call. `collecting()` notes what a run calls that is not on disk,
 so that several processes can compile it. `start()` opts in to tiers for the rest of the program: kernels run plain, a
 thread loads what is on disk and has the rest compiled by worker processes (workers.py), the kernels with the largest
-share of the time first; take_over() lets what has arrived run from the next step on.
+share of the time for their length first; take_over() lets what has arrived run from the next step on.
 """
 
 from collections import deque
