@@ -15,7 +15,7 @@ from typing import Any
 from physics.jit import JIT, tiers
 from physics.jit.compiler import compiler
 from physics.jit.kernels import Kernel, Keys
-from physics.jit.specs import parts_of
+from physics.jit.specs import parts_of, spec_of
 from physics.jit.store import store
 from physics.jit.turns import short_turns, unhurried_imports
 from physics.jit.workers import Task, Workers
@@ -133,8 +133,6 @@ class Background:
 
     def _order_early(self, kernel, keys):
         """Have a kernel compiled while it is not known here yet under which name it will be kept."""
-        from physics.jit.specs import spec_of
-
         each = kernel, keys
         self._early.add(each)
 
@@ -170,8 +168,6 @@ class Background:
         if form is not None:
             self._arrive(name)
         elif self.workers.alive:
-            from physics.jit.specs import spec_of
-
             self._order(name, spec_of(kernel), keys, 0)
         else:
             compiling.load_or_compile(kernel, keys)
@@ -267,7 +263,6 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
     if not order:
         return
     from physics.jit import compiling
-    from physics.jit.specs import spec_of
 
     names = {compiling.name_of(kernel, keys): (kernel, keys) for kernel, keys in order}
     told: list[str] = []
