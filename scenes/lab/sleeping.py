@@ -297,8 +297,9 @@ class Sleeping(Scene):
     def check(self):
         """All fall asleep and cost nothing; a knock wakes one island first, then others; then all sleep again."""
         woken = sum(count for _, count in self.waves)
+        slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"
         return [
-            Goal("all fall asleep by themselves", SETTLE, self.slept_at >= 0, f"after {self.slept_at} steps"),
+            Goal("all fall asleep by themselves", SETTLE, self.slept_at >= 0, slept),
             Goal("what sleeps is not moved", SETTLE, self.slept_at >= 0 and self.idle == 0, f"{self.idle} bodies"),
             Goal("the knock wakes one island at first", KNOCK + 90, self.first_woken == 1, f"{self.first_woken}"),
             Goal(
