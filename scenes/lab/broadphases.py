@@ -113,6 +113,8 @@ class Broadphases(Scene):
     def change_slider(self, name, value):
         """Another number or layout: fill the worlds anew."""
         super().change_slider(name, value)
+        if name == "bodies":
+            self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies none needs fewer than brute force
         self.fill()
 
     def update(self, inputs):

@@ -158,6 +158,7 @@ class Queries(Scene):
         super().change_slider(name, value)
         self._forget()
         if name == "bodies":
+            self.looked = dict.fromkeys(STRATEGIES, 0)  # among few shapes the hash looks at more than brute force
             self.fill()
 
     def update(self, inputs):
