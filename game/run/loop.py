@@ -49,9 +49,10 @@ class FixedStep:
 
     def note(self, busy: float) -> None:
         """Take note of how long [s] the steps and the picture of this frame took."""
-        if self.load is None and not self.due:
-            return  # a picture without a step, the first one, tells nothing of what steps take
-        load = min(busy / (self.step * max(self.due, 1)), WORST_LOAD)
+        if not self.due:  # a picture alone tells nothing of what steps take: until one does, there is one a picture
+            self.load = WORST_LOAD if self.load is None else self.load
+            return
+        load = min(busy / (self.step * self.due), WORST_LOAD)
         self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 
     def rest(self) -> None:

@@ -69,7 +69,7 @@ class MaskStack(Scene):
         "sinking, swaying and sleep, live, and the cost of a step, measured beside the game",
     )
     sliders = (Slider("sprites", 0, len(CHOICES) - 1, 0, choices=CHOICES), Slider("high", 2, 5, 3))
-    lighter = {"substeps": 4}
+    lighter = {"substeps": 2}
     actions = (("Space", "nudge"), ("left right", "sprites"), ("up down", "high"))
     draggable = True
     head = HEAD

@@ -75,7 +75,7 @@ class Sleeping(Scene):
         Slider("apart", 120, 200, 140, "cm", step=5),
         Slider("sleep", 0, 1, 1, choices=SLEEP),
     )
-    lighter = {"apart": 200, "high": 3, "substeps": 4}
+    lighter = {"apart": 200, "high": 3, "substeps": 2}
     actions = (("click or Space", "throw a ball"), ("left right", "aim"), ("up down", "crates"))
     hides_pointer = False
     head = HEAD

@@ -75,12 +75,20 @@ def test_where_the_first_steps_are_slow_there_is_one_a_picture(slow, pictures):
     clock.advance(now)
     for _ in range(pictures):
         clock.note(0.001)
-    now += 1.01 / 60
+    now += slow  # a scene is built
     assert clock.advance(now) == 1
     for _ in range(50):
         clock.note(slow)
         now += slow
         assert clock.advance(now) == 1 and clock.behind
+
+
+def test_where_steps_are_quick_time_is_kept_from_the_first_second_on():
+    clock, steps = FixedStep(), 0
+    for frame in range(61):
+        steps += clock.advance(frame / 60 + 1e-6)
+        clock.note(0.005)
+    assert steps >= 59
 
 
 def test_a_single_long_frame_is_caught_up_with():
