@@ -25,6 +25,7 @@ from physics.tables.rows import joined
 
 EMPTY = np.zeros(TILE, np.uint64)
 EMPTY.flags.writeable = False
+FULL = np.uint64(2**64 - 1)
 
 
 @cache
@@ -65,8 +66,26 @@ class PixelTiles:
         words = np.ascontiguousarray(packed(whole).reshape(blank.rows, TILE, blank.columns).transpose(0, 2, 1))
         words = words.reshape(-1, TILE)
         words.flags.writeable = False
-        found = [np.zeros(0, NODE), *(blank._nodes_of(tile, each) for tile, each in enumerate(words))]
-        return cls(width, height, list(words), joined(found))
+        full = (words == FULL).all(axis=1)
+        mixed = np.flatnonzero(words.any(axis=1) & ~full)
+        found = [blank._full_nodes(np.flatnonzero(full)), *(blank._nodes_of(int(tile), words[tile]) for tile in mixed)]
+        nodes = joined(found)
+        return cls(width, height, list(words), nodes[np.argsort(nodes["tile"], kind="stable")])
+
+    def _full_nodes(self, tiles: np.ndarray) -> np.ndarray:
+        """NODE rows of tiles that are solid throughout: what find_nodes() would write."""
+        nodes = np.zeros(len(tiles), NODE)
+        row, column = np.divmod(tiles, self.columns)
+        squares = 0
+        for axis, first in (("x", column * TILE), ("y", row * TILE)):
+            places = first[:, None] + np.arange(TILE)
+            nodes[f"min_{axis}"], nodes[f"max_{axis}"] = first, first + TILE
+            nodes[f"sum_{axis}"] = places.sum(axis=1) * TILE
+            squares = squares + (places * places).sum(axis=1) * TILE
+        nodes["tile"], nodes["count"], nodes["sum_squares"] = tiles, TILE * TILE, squares
+        for side in ("top", "bottom", "left", "right"):
+            nodes[side] = FULL
+        return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
         """NODE rows of a tile."""

@@ -61,7 +61,7 @@ class Pyramid(Scene):
     )
     solvers = SOLVERS
     sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 2, choices=SOLVERS))
-    lighter = {"rows": 8}
+    lighter = {"rows": 7, "substeps": 2}
     actions = (("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
     draggable = True
     head = HEAD
