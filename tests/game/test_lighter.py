@@ -14,7 +14,6 @@ from game.scene import SUBSTEPS
 from game.screens.parts import lighter
 from game.screens.parts.lighter import FRAMES, SLOW, Lighter
 from game.screens.play import Play
-from physics.jit import tiers
 from scenes import SCENES
 from tests.lockstep import make_scene
 
@@ -23,28 +22,18 @@ LIGHTER = [name for name in REGISTRY.names if REGISTRY.scene_class(name).lighter
 
 
 class Kernels:
-    """What the tiers tell of kernels: whether any is on disk, which run plain."""
+    """What the tiers tell of kernels, in their place: whether any is on disk, which run plain."""
 
-    def __init__(self, monkeypatch):
-        self.monkeypatch, self.empty = monkeypatch, False
-        monkeypatch.setattr(lighter, "store", lambda: self)
-        self.background(True)
-        self.loading(True)
-        self.want({})
-
-    def background(self, on):
-        self.monkeypatch.setattr(tiers, "background", on)
-
-    def loading(self, on):
-        self.monkeypatch.setattr(tiers, "load", (lambda kernel, keys: None) if on else None)
-
-    def want(self, kernels):
-        self.monkeypatch.setattr(tiers, "wanted", kernels)
+    def __init__(self):
+        self.empty, self.background, self.load, self.wanted = False, True, id, {}
 
 
 @pytest.fixture
 def kernels(monkeypatch):
-    return Kernels(monkeypatch)
+    told = Kernels()
+    monkeypatch.setattr(lighter, "tiers", told)
+    monkeypatch.setattr(lighter, "store", lambda: told)
+    return told
 
 
 def lighter_of(name):
@@ -77,14 +66,14 @@ def test_it_begins_before_the_first_step_where_nothing_is_on_disk_and_ends_when_
         assert (scene.worlds[0].substeps if key == "substeps" else scene.values[key]) == value  # a slider may clamp
     one.note(0.5)  # the first picture: no kernel was called yet
     assert not devices.next().changes
-    kernels.want({"some": None})
+    kernels.wanted = {"some": None}
     one.note(0.5)
     assert not devices.next().changes
-    kernels.want({})
+    kernels.wanted = {}
     one.note(0.01)
     take(scene, devices)
     assert ({**scene.values}, [world.substeps for world in scene.worlds]) == before and one.line == ""
-    kernels.want({"some": None})
+    kernels.wanted = {"some": None}
     for _ in range(5 * FRAMES):
         one.note(2 * SLOW)  # it does not begin again
     assert not devices.next().changes
@@ -92,13 +81,13 @@ def test_it_begins_before_the_first_step_where_nothing_is_on_disk_and_ends_when_
 
 @pytest.mark.parametrize("name", LIGHTER)
 def test_where_some_are_on_disk_it_begins_after_slow_frames_once_those_are_loaded(name, kernels):
-    kernels.want({"some": None})
-    kernels.loading(False)
+    kernels.wanted = {"some": None}
+    kernels.load = None
     one, scene, devices = lighter_of(name)
     for _ in range(9):
         one.note(2 * SLOW)
     assert not devices.next().changes
-    kernels.loading(True)
+    kernels.load = id
     for busy in (2 * SLOW,) * (FRAMES - 1) + (0.5 * SLOW,):
         one.note(busy)
     assert not devices.next().changes  # a single slow frame is none
@@ -120,7 +109,7 @@ def test_without_a_compiler_it_ends(name, kernels):
     kernels.empty = True
     one, scene, devices = lighter_of(name)
     take(scene, devices)
-    kernels.background(False)
+    kernels.background = False
     one.note(0.5)
     assert devices.next().changes and one.line == ""
 
@@ -130,9 +119,9 @@ def test_what_the_player_has_changed_since_stays(kernels):
     one, scene, devices = lighter_of("lab/sleeping")
     take(scene, devices)
     scene.change("slider:high", 5)
-    kernels.want({"some": None})
+    kernels.wanted = {"some": None}
     one.note(0.5)
-    kernels.want({})
+    kernels.wanted = {}
     one.note(0.01)
     assert "slider:high" not in take(scene, devices) and scene.values["high"] == 5
 
@@ -141,7 +130,7 @@ def test_what_the_player_has_changed_since_stays(kernels):
 def test_other_scenes_have_none(name, kernels):
     kernels.empty = True
     one, _, devices = lighter_of(name)
-    kernels.want({"some": None})
+    kernels.wanted = {"some": None}
     for _ in range(20):
         one.note(5 * SLOW)
     assert not devices.next().changes and one.line == ""
@@ -166,7 +155,7 @@ def test_a_recording_holds_it(name, kernels, tmp_path):
         make_scene(name), DeviceSource(), Sounds(silent=True), settings=Settings(hint_seen=True, labs_seen=list(SCENES))
     )
     for step in range(12):
-        kernels.want({} if step > 5 else {"some": None})
+        kernels.wanted = {} if step > 5 else {"some": None}
         play.note_busy(0.05)
         play.step()
     assert play.lighter is not None and play.lighter.over
