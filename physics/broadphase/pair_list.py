@@ -2,7 +2,16 @@
 
 import numpy as np
 
-from physics.broadphase.proxies import Arena, Strategy, keep_pairs, mark_settled, merge_pairs, pair_keys, tell_rows
+from physics.broadphase.proxies import (
+    Arena,
+    Strategy,
+    keep_pairs,
+    mark_settled,
+    merge_pairs,
+    pair_keys,
+    tell_rows,
+    write_states,
+)
 from physics.shapes.filter import Filter
 from physics.tables.counters import CANDIDATES, COUNTERS
 from physics.tables.proxy import PROXY
@@ -232,7 +241,8 @@ class PairList:
             self.states = np.zeros(len(proxies), np.int8)
         if self.moved:
             self._rename(shapes)
-        kept = keep_pairs(proxies, self.slots, self.candidates, self.count, self.states, self.kept, self.kept_rows)
+        write_states(proxies, self.states[: len(proxies)])
+        kept = keep_pairs(self.states, self.slots, self.candidates, self.count, self.kept, self.kept_rows)
         if len(self.keys) < found:
             self.keys = np.zeros(2 * found, np.int64)
         pair_keys(proxies, arena.pairs, found, arena.pairs, self.keys)

@@ -181,26 +181,29 @@ def tell_rows(shapes, proxies_inout):
             proxies_inout[slot].row = k
 
 
+def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
+    """Write of each proxy 2 if it changed, + 1 if it is awake: asked many times, so close together. O(proxies)."""
+    np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
+    states_out |= proxies["awake"].view(np.int8)
+
+
 @kernel
 def keep_pairs(
     # read
-    proxies,
+    states,
     old,
     old_rows,
     old_count,
     # write
-    states_out,
     kept_out,
     rows_out,
 ):
     """Copy the pairs of which neither side changed or was freed, and a side is awake, in their order.
 
-    proxies PROXY rows; old, kept_out (capacity, 2) int32 slots; old_rows, rows_out (capacity, 2) int64 their shape
-    rows; states_out (proxies) int8: what is asked of each slot many times, close together. Returns how many were kept.
-    Without a branch: which pairs are kept is what no processor predicts. O(proxies + pairs).
+    states (proxies,) int8 of write_states(); old, kept_out (capacity, 2) int32 slots; old_rows, rows_out (capacity, 2)
+    int64 their shape rows. Returns how many were kept. Without a branch: which pairs are kept is what no processor
+    predicts. O(pairs).
     """
-    for slot in range(len(proxies)):
-        states_out[slot] = 2 * int(proxies[slot].changed) + int(proxies[slot].awake)
     kept = 0
     for i in range(old_count):
         a = old[i, 0]
@@ -209,7 +212,7 @@ def keep_pairs(
         kept_out[kept, 1] = b
         rows_out[kept, 0] = old_rows[i, 0]
         rows_out[kept, 1] = old_rows[i, 1]
-        kept += int((states_out[a] | states_out[b]) == 1)
+        kept += int((states[a] | states[b]) == 1)
     return kept
 
 
