@@ -15,7 +15,7 @@ from typing import Any
 from physics.jit import JIT, tiers
 from physics.jit.compiler import compiler
 from physics.jit.kernels import Kernel, Keys
-from physics.jit.specs import parts_of, spec_of
+from physics.jit.specs import code_of, parts_of, spec_of
 from physics.jit.store import store
 from physics.jit.turns import short_turns, unhurried_imports
 from physics.jit.workers import Task, Workers
@@ -55,8 +55,8 @@ class Background:
         self.failed: list[str] = []  # names of kernels that stay plain
         self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> what is to run from it
         self._ordered: set[str] = set()
-        self._early: set[tuple[Kernel, Keys]] = set()  # ordered before the compiler was imported here
-        self._came: deque[tuple[Kernel, Keys]] = deque()  # of those, what is compiled
+        self._seen: set[tuple[Kernel, Keys]] = set()  # ordered or loaded
+        self._came: deque[tuple[Kernel, Keys]] = deque()  # compiled before the compiler was imported here
         self._compiled: set[Kernel] = set()  # whose code a later kernel need not wait for
         self._expected: deque[tuple[int, dict[str, Any]]] = deque()
         self._jobs = 0
@@ -134,7 +134,7 @@ class Background:
     def _order_early(self, kernel, keys):
         """Have a kernel compiled while it is not known here yet under which name it will be kept."""
         each = kernel, keys
-        self._early.add(each)
+        self._seen.add(each)
 
         def done(answer):
             if answer is not None:
@@ -144,7 +144,7 @@ class Background:
             elif self.workers.alive:
                 self._fail(kernel.__qualname__, [each])
             else:
-                self._early.discard(each)
+                self._seen.discard(each)
                 self._wake.set()
 
         self.workers.add([Task(("compile", spec_of(kernel), keys), lambda: self._urgency([each]), done)])
@@ -159,19 +159,18 @@ class Background:
         """Load a wanted kernel, or have it compiled."""
         from physics.jit import compiling
 
-        name = compiling.name_of(kernel, keys)
-        waiting = self._waiting.setdefault(name, [])
-        if (kernel, keys) in waiting or (kernel, keys) in self._early:
+        if (kernel, keys) in self._seen:
             return
-        waiting.append((kernel, keys))
+        self._seen.add((kernel, keys))
+        name = compiling.name_of(kernel, keys)
+        self._waiting.setdefault(name, []).append((kernel, keys))  # before the look on disk: it may just be finished
         form = compiling.load(kernel, keys)
-        if form is not None:
-            self._arrive(name)
-        elif self.workers.alive:
+        if form is None and self.workers.alive:
             self._order(name, spec_of(kernel), keys, 0)
         else:
-            compiling.load_or_compile(kernel, keys)
-            self._arrive(name)
+            form = form or compiling.load_or_compile(kernel, keys)
+            for each in self._waiting.pop(name, []):
+                self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
         """Have a kernel compiled: at once if it is wanted, else in its turn.
@@ -193,7 +192,7 @@ class Background:
             elif self.workers.alive:
                 self._fail(name, self._waiting.pop(name, []))
             else:  # there are no processes: the thread compiles it
-                self._waiting.pop(name, None)
+                self._seen.difference_update(self._waiting.pop(name, []))
                 self._wake.set()
 
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
@@ -201,8 +200,7 @@ class Background:
     def _urgency(self, waiting):
         """Return the time that kernels of one code have taken, for how much code is to be compiled: their own, and of
         what they call what no other had."""
-        parts = parts_of(waiting[0][0])
-        code = LINK + sum(size for part, size in parts.items() if part not in self._compiled)
+        code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 
     def _fail(self, name, waiting):
@@ -218,9 +216,14 @@ class Background:
 
         for kernel, keys in waiting:
             form = compiling.load(kernel, keys)
-            self._compiled.update(parts_of(kernel))
-            if form is not None:
-                tiers.arrived.append((kernel, keys, form))
+            if form is None:  # it could not be kept
+                self._fail(kernel.__qualname__, [(kernel, keys)])
+            else:
+                self._take(kernel, keys, form)
+
+    def _take(self, kernel, keys, form):
+        self._compiled.update(parts_of(kernel))
+        tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
         """Have a job's kernels listed and compiled, unless an earlier start found nothing left of it."""
@@ -344,11 +347,11 @@ def _spread(found):
     """Return kernels in the order in which each adds most to those before: processes that share the work are then at
     different parts of the physics, and seldom wait for one another (measured with the platformer on two cores: 1 % of
     the processes' time was waiting, 14 % with the longest code first)."""
-    left = {each: parts_of(each[0]) for each in found}
-    order, covered = [], set()
+    left, order, covered = list(found), [], set()
     while left:
-        first = max(left, key=lambda each: sum(size for part, size in left[each].items() if part not in covered))
-        covered.update(left.pop(first))
+        first = max(left, key=lambda each: code_of(each[0], covered))
+        left.remove(first)
+        covered.update(parts_of(first[0]))
         order.append(first)
     return order
 

@@ -2,6 +2,7 @@
 over, and the content that must come out."""
 
 import importlib
+from collections.abc import Container
 from functools import cache
 from types import CellType, CodeType, FunctionType
 from typing import Any
@@ -65,6 +66,11 @@ def _codes_of(module, qualname):
         if code.co_qualname == qualname:
             yield code
         todo += [each for each in code.co_consts if isinstance(each, CodeType)]
+
+
+def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
+    """Return how many bytes of code a kernel has with all that it calls, but for those that are known."""
+    return sum(size for part, size in parts_of(kernel).items() if part not in known)
 
 
 @cache

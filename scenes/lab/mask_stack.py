@@ -267,7 +267,7 @@ class MaskStack(Scene):
 
     def check(self):
         """Outlines stand and sleep; boxes and hulls hold air that no outline holds."""
-        corners, air, _ = ({way: self.share(way)[column] for way in WAYS} for column in range(3))
+        corners, air, _ = (dict(zip(WAYS, column, strict=True)) for column in zip(*map(self.share, WAYS), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
         return [
             Goal("the outlines stand", SLEPT_BY, self.stands_now("outline"), f"sinks {self.sinks['outline']:z.2f} px"),
@@ -289,8 +289,10 @@ class MaskStack(Scene):
 
     def finding(self):
         """How much air three ways hold, by how many corners they are pushed, and how far their towers have sunk."""
-        if self.since <= WARM or any(isnan(self.share(way)[0]) for way in WAYS):
+        if self.since <= WARM:
             return "not yet: the piles have to settle for half a second"
+        if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):
+            return "not yet: how well the shapes fit is being measured"
         told = []
         for way in TOLD:
             corners, air, _ = self.share(way)

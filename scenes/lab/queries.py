@@ -108,7 +108,6 @@ class Queries(Scene):
         self.origin, self.target = ORIGIN, (0.7 * WIDTH, 0.6 * HEIGHT)
         self.asked = self.disagreements = self.found = 0
         self.kinds = set()  # queries that found something
-        self.looked = dict.fromkeys(STRATEGIES, 0)  # boxes and nodes so far
         self.fill()
 
     def fill(self):
@@ -126,6 +125,8 @@ class Queries(Scene):
             for number in range(count)
         ]
         self.worlds = []
+        # Boxes and nodes so far, among as many: among few shapes the hash looks at more than brute force.
+        self.looked = dict.fromkeys(STRATEGIES, 0)
         for strategy in STRATEGIES:
             world = self.add_world(broadphase=strategy)
             for place, angle, velocity, shape, still in rows:
@@ -158,7 +159,6 @@ class Queries(Scene):
         super().change_slider(name, value)
         self._forget()
         if name == "bodies":
-            self.looked = dict.fromkeys(STRATEGIES, 0)  # among few shapes the hash looks at more than brute force
             self.fill()
 
     def update(self, inputs):

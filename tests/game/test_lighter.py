@@ -22,7 +22,7 @@ LIGHTER = [name for name in REGISTRY.names if REGISTRY.scene_class(name).lighter
 
 
 class Kernels:
-    """What the tiers tell of kernels, in their place: whether any is on disk, which run plain."""
+    """Stands in place of the tiers, and tells of kernels what a test wants: whether any is on disk, which run plain."""
 
     def __init__(self):
         self.empty, self.background, self.load, self.wanted = False, True, id, {}

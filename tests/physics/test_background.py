@@ -337,3 +337,14 @@ def test_a_process_beside_the_program_lies_in_its_session_and_is_deaf_to_its_ter
         assert os.getsid(process.pid) == os.getsid(0) and os.getpgid(process.pid) == process.pid != os.getpgid(0)
     finally:
         processes.end_all([process])
+
+
+@jitted
+def test_what_was_compiled_and_cannot_be_loaded_is_told_and_no_longer_waited_for(ordered, monkeypatch):
+    """As where the disk is full: the line that says how far it is goes away."""
+    kernel = ordered(0.1, small)
+    monkeypatch.setattr(tiers, "wanted", {(kernel, ()): None})
+    monkeypatch.setattr(tiers, "load", id)
+    monkeypatch.setattr("physics.jit.compiling.load", lambda *given: None)
+    ordered.pool.first().done("a name")
+    assert ordered.background.failed == [kernel.__qualname__] and not tiers.wanted

@@ -29,7 +29,7 @@ class Lighter:
 
     @property
     def line(self) -> str:
-        """What there is less of, to be shown meanwhile; "" where nothing was changed."""
+        """The line to be shown meanwhile: what there is less of; "" where nothing was changed."""
         if not self.changed:
             return ""
         less = [f"{self.scene.lighter[name]} {name}" for name in self.changed if name == "substeps"]
