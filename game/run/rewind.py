@@ -4,7 +4,8 @@ Between key frames lie the inputs of the steps, and a seek puts the key frame be
 A key frame is taken as soon as the steps since the last took KEY_SECONDS together, or there are MOST_STEPS of them, so
 a seek takes no longer than that and putting back. One that takes long itself waits until they took twice as long, or is
 not taken at all; where key frames hold more than MOST_BYTES the past is shorter. Where a player restarts, it begins
-anew.
+anew. While kernels run plain, and steps take all the time there is, a key frame waits PLAIN times as long, and nothing
+is compressed: a seek in the first seconds of a first start may take as much longer.
 """
 
 import pickle
@@ -17,9 +18,11 @@ from game.input.inputs import InputFrame
 from game.run.chunks import Chunk
 from game.run.key_frame import KeyFrame, bytes_held
 from game.run.session import Session
+from physics.jit import tiers
 
 STEPS = 600  # that can be gone back: ten seconds
 KEY_SECONDS = 0.05  # of steps lie between two key frames: with what putting back takes, below a tenth of a second
+PLAIN = 4  # measured with the lander, whose key frames take 6 ms: 1.3 in place of 5.4 ms of each frame
 DEAREST = 0.1  # [s] that a key frame may take
 MOST_STEPS = 90  # between two key frames
 STONE_COSTS = 5  # times what a key frame takes: after so long a seek leaves one more, for the next step back
@@ -122,7 +125,7 @@ class Rewind:
             self._begin_stretch()
         elif self._is_due(last):
             self._begin_stretch()
-        else:
+        elif not tiers.wanted:
             started = perf_counter()
             while self.raw and perf_counter() - started < PACK_SECONDS:
                 self.raw.pop().pack()
@@ -130,9 +133,10 @@ class Rewind:
     def _is_due(self, last):
         """Whether a key frame is to be taken: not one that takes more than half the time of the steps it saves, nor one
         that could not be put back in a tenth of a second."""
-        if last.spent < KEY_SECONDS and len(last.open) < MOST_STEPS:
+        enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
+        if last.spent < enough and len(last.open) < MOST_STEPS:
             return False
-        return self._cost() <= min(DEAREST, 0.5 * max(last.spent, KEY_SECONDS))
+        return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
         """[s] that a key frame will take, if nothing comes in between."""

@@ -1,8 +1,8 @@
 """Compiles kernels, or runs them as they are; numba is imported nowhere else, and only when a kernel is called.
 
 A kernel is a plain function over tables and scalars. With numba it is compiled at its first call and kept on disk.
-Without numba the same source runs: structured arrays are handed over as row views, arrays as memoryviews. In a program
-that opted in (tiers.py) it runs as plain Python until its compiled form is there; both give the same bits.
+Without numba the same source runs, over views of the tables and arrays (views.py). In a program that opted in
+(tiers.py) it runs as plain Python until its compiled form is there; both give the same bits.
 
 Five decorators: `kernel` for functions that a stage calls with arrays, `generic` for those among them that are called
 with arrays of several types; `subkernel` for functions that only kernels call, of these `inlined` for those that are

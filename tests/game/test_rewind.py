@@ -16,11 +16,12 @@ from game.run.chunks import CHUNK, Chunks, bytes_of
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.run.replay import Recorder, load_replay
-from game.run.rewind import MOST_STEPS, STEPS, Rewind
+from game.run.rewind import KEY_SECONDS, MOST_STEPS, PLAIN, STEPS, Rewind
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
 from game.screens.parts.panel_rows import LEAP, play_rows
 from game.screens.play import Play
+from physics.jit import tiers
 from scenes import SCENES
 from tests.game.arena import Arena, Race
 from tests.lockstep import make_scene
@@ -124,6 +125,25 @@ def test_a_seek_makes_few_steps_and_going_back_fewer():
         assert rewind.position == step and rewind.steps_made <= MOST_STEPS
         made.append(rewind.steps_made)
     assert 0 < sum(made) < len(made) * MOST_STEPS / 2
+
+
+@pytest.mark.usefixtures("even_clock")
+@pytest.mark.parametrize("milliseconds", [3, 10, 30])
+def test_while_kernels_run_plain_key_frames_wait_and_every_step_comes_back(monkeypatch, milliseconds):
+    spacings = []
+    for wanted in ({}, {"a kernel": None}):
+        with monkeypatch.context() as patch:
+            patch.setattr(tiers, "wanted", wanted)
+            noted = Noted(Arena(seed=3))
+            patch.setattr(noted.session.report, "note_step", lambda scene, seconds: None)
+            noted.session.report.last = 1e-3 * milliseconds
+            noted.play(200)
+        starts = [each.start for each in noted.rewind.stretches]
+        spacings.append(max(np.diff(starts)))
+        for step in (199, 131, 58, 1, 0):
+            noted.rewind.seek(step)
+            assert noted.digest == noted.digests[step], f"step {step}"
+    assert spacings[1] == min(MOST_STEPS, int(np.ceil(PLAIN * 1e3 * KEY_SECONDS / milliseconds))) > spacings[0]
 
 
 def test_slow_steps_have_key_frames_closer_together(monkeypatch):
