@@ -14,7 +14,8 @@ from game.run.session import Session
 from game.run.sources import IdleSource, ScriptSource
 from physics import PixelMask, measure
 from scenes.lab.carving import MASKS, TOP, Carving
-from scenes.lab.mask_stack import CHOICES, FALLEN, WARM, WAYS, MaskStack, shapes_of
+from scenes.lab.costs import UNKNOWN
+from scenes.lab.mask_stack import CHOICES, EVERY, FALLEN, WARM, WAYS, MaskStack, shapes_of
 from scenes.lab.mask_sweep import MaskSweep, placed
 from scenes.lab.prints import EDGE, cut_out
 from scenes.lab.thin_walls import HALF, RADIUS, SHAPES, is_beyond, wall_of
@@ -198,10 +199,13 @@ def test_figures_are_those_of_the_sprites_in_the_pile():
     scene.change("slider:sprites", CHOICES.index("stars"))
     scene.change("slider:high", 2)
     image = load_atlas("lab")["star_gold"]
-    for way, (corners, over, missed) in zip(WAYS, scene.shares, strict=True):
+    for number, way in enumerate(WAYS):
+        assert np.isnan(scene.share(way)).all(), "nothing is told before it was measured"
+        idle(scene, EVERY)
+        assert [bool(np.isnan(scene.share(each)).any()) for each in WAYS].count(False) == number + 1
         found = measure(*shapes_of(image, way))
-        assert (corners, over, missed) == pytest.approx((2 * found.corners, 2 * found.over, 2 * found.missed))
-    by_way = dict(zip(WAYS, scene.shares, strict=True))
+        assert scene.share(way) == pytest.approx((2 * found.corners, 2 * found.over, 2 * found.missed))
+    by_way = {way: scene.share(way) for way in WAYS}
     mask = PixelMask.from_surface(image)
     left, top, right, bottom = mask.bounds
     assert by_way["box"][1] == pytest.approx(2 * ((right - left) * (bottom - top) - mask.area))
@@ -221,7 +225,9 @@ def test_every_pile_has_the_same_sprites_in_all_columns(choice):
 def test_nothing_costs_anything_before_the_piles_have_been_laid():
     scene = MaskStack(seed=1)
     session = idle(scene, WARM - 1)
-    assert scene.measured() is None and words(scene).count("-") == len(WAYS)
+    assert scene.measured() is None
+    scene.fits = {(name, way): (4, 0.0, 0.0) for way in WAYS for name, _, _ in scene.laid[way]}
+    assert words(scene).count(UNKNOWN) == len(WAYS), "what fitting costs, under each pile"
     session.step()
     assert len(scene.measured().names) == len(WAYS)
     scene.change("slider:high", 2)
