@@ -65,5 +65,5 @@ def test_it_is_refused_by_name(what):
 
 def test_a_view_knows_its_rows():
     rows = view_of(np.zeros(3, [("x", np.float64)]))
-    with pytest.raises(IndexError):
+    with pytest.raises(IndexError, match="row 3 of a table of 3"):
         rows[3]

@@ -1,4 +1,4 @@
-"""What lies in the platformer's level at the start sleeps after one step; what hangs in the air falls all the same."""
+"""Crates that lie in the platformer's level at the start sleep after one step; those that hang in the air fall."""
 
 import numpy as np
 import pytest

@@ -1,6 +1,5 @@
 """Compiled forms take over at random steps: the digests are those of the compiled scene, after every frame."""
 
-import ctypes
 import math
 
 import pytest
@@ -11,6 +10,7 @@ import physics
 from physics.dynamics import integrate
 from physics.jit import tiers
 from physics.jit.kernels import Kernel
+from physics.jit.views import TableView
 from scenes import SCENES
 from tests.game.arena import Arena
 from tests.lockstep import Diverged
@@ -54,7 +54,7 @@ def test_a_plain_twin_that_differs_is_seen(seed, monkeypatch):
 
         def differs(rows, *rest):
             found(rows, *rest)
-            bodies = next(each for each in rest if isinstance(each, ctypes.Array))
+            bodies = next(each for each in rest if isinstance(each, TableView))
             for k in range(len(rows)):
                 bodies[rows[k]].vx = math.nextafter(bodies[rows[k]].vx, math.inf)
 

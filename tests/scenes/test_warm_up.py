@@ -129,7 +129,7 @@ def test_a_second_report_and_a_second_benchmark_compile_nothing(command, tmp_pat
     """Whichever of their processes would: the folder holds the same kernels afterwards."""
     from physics.jit.store import store
 
-    pytest.importorskip("pymunk")  # the benchmark runs it beside
+    pytest.importorskip("pymunk")  # both run it beside the physics
     kept = []
     for number in range(2):
         arguments = [each.replace("FOLDER", str(tmp_path / str(number))) for each in command]
