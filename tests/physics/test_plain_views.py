@@ -16,8 +16,8 @@ def _tables():
     """Every dtype of rows with columns of numbers that a module of the physics names."""
     found = {}
     for module in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}."):
-        if module.name.rsplit(".", 1)[1] == "compile_worker":
-            continue
+        if module.name.startswith(f"{physics.__name__}.jit"):
+            continue  # what compiles has no tables, and imports a compiler that need not be installed
         for name, value in vars(importlib.import_module(module.name)).items():
             if isinstance(value, np.dtype) and value.names:
                 found.setdefault(value, name)
