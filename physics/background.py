@@ -22,6 +22,7 @@ from physics.jit.workers import Task, Workers
 
 WORKER = f"{__package__}.compile_worker"
 FIRST_STEPS = 0.2  # [s] in which the first steps tell which kernels take the time
+ALONE = 0.8  # [s] after which the compiler is imported here: no worker has compiled a kernel before that
 LINK = 500  # bytes of code that take as long to compile as a kernel's own share, whatever its length
 FEW = 2  # kernels that are compiled here: a worker takes about as long to start
 Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
@@ -102,6 +103,9 @@ class Background:
                 return
             for kernel, keys in list(tiers.wanted):
                 self._order_early(kernel, keys)
+            sleep(ALONE)
+            if self._stopped:
+                return
             with unhurried_imports():
                 found = self._import()
         else:

@@ -121,7 +121,7 @@ class DynamicTree:
         self.fours, self.kin, self.stale = np.zeros(0), np.zeros(0, np.int64), np.zeros(0, np.int64)
         self.state = np.array([-1, 0, 0, -1, -1], np.int64)
         self.stack = np.zeros(STACK, np.int64)
-        self.leaves, self.spans = np.zeros(0, np.int64), np.zeros((0, 4), np.int64)
+        self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
@@ -162,9 +162,10 @@ class DynamicTree:
             write_stale(self.nodes, self.stale, self.state, self.fours, self.kin)
         if len(self.spans) < len(self.leaf_of):
             self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
+            self.twice = np.zeros((2, len(self.nodes)))
         for still, wanted in ((0, loose), (1, loose_still)):
             if wanted and moved:
-                rebuild(self.leaf_of, still, self.leaves, self.spans, self.nodes, self.state)
+                rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
                 if self.width == WIDTH:
                     write_fours(self.nodes, still, self.fours, self.kin)
 

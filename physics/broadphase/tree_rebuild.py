@@ -5,25 +5,18 @@ from physics.jit import kernel, subkernel
 
 
 @subkernel
-def middle_of(nodes, leaf, axis):
-    """Twice the middle of a leaf's box along an axis [px]."""
-    n = nodes[leaf]
-    return n.lower_x + n.upper_x if axis == 0 else n.lower_y + n.upper_y
-
-
-@subkernel
-def select_median(nodes, first, last, middle, axis, leaves_inout):
-    """Reorder leaves first..last so that none before `middle` lies beyond it along the axis. Source: Hoare 1961."""
+def select_median(along, first, last, middle, leaves_inout):
+    """Reorder leaves first..last so that none before `middle` lies beyond it in `along`. Source: Hoare 1961."""
     low = first
     high = last
     while low < high:
-        pivot = middle_of(nodes, leaves_inout[(low + high) // 2], axis)
+        pivot = along[leaves_inout[(low + high) // 2]]
         i = low
         j = high
         while i <= j:
-            while middle_of(nodes, leaves_inout[i], axis) < pivot:
+            while along[leaves_inout[i]] < pivot:
                 i += 1
-            while middle_of(nodes, leaves_inout[j], axis) > pivot:
+            while along[leaves_inout[j]] > pivot:
                 j -= 1
             if i <= j:
                 leaves_inout[i], leaves_inout[j] = leaves_inout[j], leaves_inout[i]
@@ -38,20 +31,17 @@ def select_median(nodes, first, last, middle, axis, leaves_inout):
 
 
 @subkernel
-def wider_axis(nodes, leaves, first, last):
-    """The axis along which the middles of the leaves spread more."""
-    low_x = middle_of(nodes, leaves[first], 0)
-    low_y = middle_of(nodes, leaves[first], 1)
-    high_x = low_x
-    high_y = low_y
+def spread(along, leaves, first, last):
+    """How far leaves first..last lie apart in `along`."""
+    low = along[leaves[first]]
+    high = low
     for k in range(first + 1, last + 1):
-        x = middle_of(nodes, leaves[k], 0)
-        y = middle_of(nodes, leaves[k], 1)
-        low_x = min(low_x, x)
-        high_x = max(high_x, x)
-        low_y = min(low_y, y)
-        high_y = max(high_y, y)
-    return 0 if high_x - low_x >= high_y - low_y else 1
+        value = along[leaves[k]]
+        if value < low:
+            low = value
+        if value > high:
+            high = value
+    return high - low
 
 
 @kernel
@@ -62,20 +52,26 @@ def rebuild(
     # write
     leaves_out,
     spans_out,
+    twice_x_out,
+    twice_y_out,
     nodes_inout,
     state_inout,
 ):
     """Build the tree of the still leaves (still 1) or of the moving ones (0) anew by median splits.
 
-    leaf_of (slots): leaf or -1; leaves_out (slots), spans_out (slots, 4): scratch. The inner nodes of the old tree are
-    freed first. O(n log n).
+    leaf_of (slots): leaf or -1; scratch: leaves_out (slots), spans_out (slots, 4), twice_x_out, twice_y_out (nodes):
+    twice the middle of each leaf's box [px]. The inner nodes of the old tree are freed first. O(n log n).
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
     for slot in range(len(leaf_of)):
         if leaf_of[slot] >= 0 and nodes_inout[leaf_of[slot]].still == (still == 1):
-            leaves_out[count] = leaf_of[slot]
+            leaf = leaf_of[slot]
+            leaves_out[count] = leaf
             count += 1
+            n = nodes_inout[leaf]
+            twice_x_out[leaf] = n.lower_x + n.upper_x
+            twice_y_out[leaf] = n.lower_y + n.upper_y
     for index in range(state_inout[USED]):
         n = nodes_inout[index]
         if n.height > 0 and n.still == (still == 1):
@@ -113,7 +109,11 @@ def rebuild(
         else:
             nodes_inout[parent].child_b = index
         middle = (first + last + 1) // 2
-        select_median(nodes_inout, first, last, middle, wider_axis(nodes_inout, leaves_out, first, last), leaves_out)
+        wide = spread(twice_x_out, leaves_out, first, last) >= spread(twice_y_out, leaves_out, first, last)
+        if wide:
+            select_median(twice_x_out, first, last, middle, leaves_out)
+        else:
+            select_median(twice_y_out, first, last, middle, leaves_out)
         # The larger half first; a half of one leaf hangs here itself.
         for half in range(2):
             start = middle if half == 0 else first

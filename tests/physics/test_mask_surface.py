@@ -49,6 +49,31 @@ def test_colour_key_is_clear_at_every_depth(depth):
     assert row(PixelMask.from_surface(made)) == [0, 1, 0]
 
 
+BYTES = [255 << 8 * place for place in range(4)]
+LAYOUTS = [
+    (32, tuple(BYTES[place] for place in places)) for places in ((0, 1, 2, 3), (2, 1, 0, 3), (3, 2, 1, 0), (1, 2, 3, 0))
+]
+LAYOUTS += [
+    (16, (15 << 8, 15 << 4, 15, 15 << 12)),
+    (16, (31 << 11, 63 << 5, 31, 0)),
+    (32, (255 << 16, 255 << 8, 255, 0)),
+]
+
+
+@pytest.mark.parametrize("cut", [None, (2, 1, 9, 4)])
+@pytest.mark.parametrize("threshold", [0, 90, 127])
+@pytest.mark.parametrize(("depth", "masks"), LAYOUTS)
+def test_alpha_is_read_wherever_it_lies(depth, masks, threshold, cut):
+    made = pygame.Surface((13, 7), pygame.SRCALPHA if masks[3] else 0, depth, masks)
+    random = np.random.default_rng(depth)
+    for x in range(13):
+        for y in range(7):
+            made.set_at((x, y), (10, 200, 30, int(random.integers(0, 256))))
+    seen = made if cut is None else made.subsurface(cut)
+    wanted = [[seen.get_at((x, y)).a > threshold for x in range(seen.get_width())] for y in range(seen.get_height())]
+    assert PixelMask.from_surface(seen, threshold).solid.tolist() == wanted
+
+
 def test_colour_key_and_alpha_are_both_clear():
     made = surface([255, 0, 255, 100], at0=(255, 0, 255))
     made.set_colorkey((255, 0, 255))
