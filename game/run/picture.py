@@ -79,6 +79,7 @@ class Picture:
         overlays.draw_on_frame(frame, scene)
         frame.put_back(words)  # score, lives, plots: nothing is painted over them
         if panel is None:
+            frame.reserve(frame.from_canvas((0, 0, self.canvas.surface.get_width(), scene.head)))
             overlays.draw_floating(frame, scene.legend_at)
         else:
             self._draw_panel(frame, panel, overlays)

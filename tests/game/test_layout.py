@@ -52,12 +52,15 @@ def assert_text_is_apart_with(play, size, panel, layers):
     play.overlays = Overlays(LAYERS[layers](play.scene))
     play.overlays.note(play.scene)
     play.panel_open = panel
-    assert_text_of_is_apart(play, Picture(pygame.Surface(size)))
+    frame = assert_text_of_is_apart(play, Picture(pygame.Surface(size)))
+    head = frame.from_canvas((0, 0, 1, play.scene.head))  # painted last, with the line of the keys
+    assert not any(place.top < head.bottom for place, _ in play.overlays.invariants.places)
 
 
 def assert_text_of_is_apart(play, picture):
     frame = play.draw(picture)
     assert_text_is_apart(frame.boxes, frame.rect)
+    return frame
 
 
 @pytest.mark.parametrize("name, size, panel, layers", pairwise(SCENES, SIZES, PANEL, LAYERS))
@@ -85,8 +88,9 @@ def test_the_largest_numbers_fit():
 
 @pytest.mark.parametrize("name", SCENES)
 def test_text_is_apart_and_readable_while_it_goes_on(plays, name):
-    """Paused, slow, and at several moments: with its own overlays and the panel, and readable without."""
+    """Under all overlays; paused, slow, and at several moments with its own and the panel, and readable without."""
     play = plays(name)
+    assert_text_is_apart_with(play, SIZES[0], False, "all")
     own = Overlays(play.scene.overlays)
     play.overlays, play.panel_open = own, True
     for paused, speed in ((True, 1.0), (False, 0.25)):
