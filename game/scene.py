@@ -26,7 +26,7 @@ from game.invariants.watch import WatchedWorld
 from game.places import OUTLINES
 from game.wishes import Lanes, Sprites
 from physics import BROADPHASES, SOLVERS, Effects
-from physics.fitting import kept
+from physics.outline import kept
 
 kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0

@@ -11,29 +11,18 @@ from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character, Moved
-from physics.digest import PHYSICS_VERSION
 from physics.effects import Effects
 from physics.jit import JIT
+from physics.math2d import Vec2
 from physics.queries.casts import RayHit
-from physics.queries.pair_distance import Distance, distance
-from physics.queries.pair_impact import TimeOfImpact, time_of_impact
-from physics.queries.pair_manifold import Manifold, collide
-from physics.shapes.accuracy import Fit, measure
-from physics.shapes.approximate import TIERS, fit
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.filter import Filter
+from physics.queries.pairs import Distance, Manifold, TimeOfImpact, collide, distance, time_of_impact
+from physics.shapes.approximate import TIERS, Fit, decompose, fit, hull, measure
 from physics.shapes.kinds import mass_of
-from physics.shapes.lines import Chain, Segment
-from physics.shapes.mask import PixelMask
-from physics.shapes.mass import Mass
-from physics.shapes.material import Material
-from physics.shapes.polygons import decompose, hull
-from physics.shapes.tiles import TileGrid
-from physics.snapshot import Snapshot
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.values import Capsule, Chain, Circle, Filter, Mass, Material, Polygon, Segment, TileGrid
+from physics.snapshot import PHYSICS_VERSION, Snapshot
 from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
-from physics.vec2 import Vec2
 from physics.warmup import warmup
 from physics.world import World
 

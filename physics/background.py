@@ -13,12 +13,11 @@ from time import perf_counter, sleep
 from typing import Any
 
 from physics.jit import JIT, tiers
-from physics.jit.compiler import compiler
 from physics.jit.kernels import Kernel, Keys
-from physics.jit.specs import code_of, parts_of, spec_of
+from physics.jit.plain import compiler
 from physics.jit.store import store
-from physics.jit.turns import short_turns, unhurried_imports
-from physics.jit.workers import Task, Workers
+from physics.jit.tiers import code_of, parts_of, spec_of
+from physics.jit.workers import Task, Workers, short_turns, unhurried_imports
 
 WORKER = f"{__package__}.compile_worker"
 FIRST_STEPS = 0.2  # [s] in which the first steps tell which kernels take the time

@@ -1,27 +1,25 @@
-"""Body: a handle on one row of `world.bodies`. It holds an id, no state; a removed body's handle raises.
-
-Where it is and how it moves is here; what it is made of, and how it meets others, in body_settings.py.
-"""
+"""Body: a handle on one row of `world.bodies`. It holds an id and no state; a removed body's handle raises."""
 
 import math
+from typing import Any
 
 import numpy as np
 
-from physics import carving, checks, editing, targets
-from physics.body_settings import BodySettings
+from physics import carving, checks, edit, step
 from physics.carving import Carved
 from physics.checks import Pair, Pose
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
-from physics.dynamics import sleep
-from physics.math2d import turned
-from physics.queries.boxes import bounds_of
+from physics.islands import sleep
+from physics.math2d import Vec2, turned
+from physics.queries.casts import bounds_of
 from physics.shapes.kinds import Shape
-from physics.tables.body import DYNAMIC, KINDS, STATIC
-from physics.vec2 import Vec2
+from physics.shapes.values import Filter, Material
+from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, STATIC
+from physics.world_state import Handle
 
 
-class Body(BodySettings):
+class Body(Handle):
     """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
     What is set raises TypeError or ValueError naming the argument, KeyError for a removed body, RuntimeError during a
@@ -39,7 +37,7 @@ class Body(BodySettings):
 
     @position.setter
     def position(self, value: Pair) -> None:
-        editing.move_to(self.world, self.id, checks.position("position", value), None)
+        edit.move_to(self.world, self.id, checks.position("position", value), None)
 
     @property
     def angle(self) -> float:
@@ -48,7 +46,7 @@ class Body(BodySettings):
 
     @angle.setter
     def angle(self, value: float) -> None:
-        editing.move_to(self.world, self.id, self.position, checks.number("angle", value))
+        edit.move_to(self.world, self.id, self.position, checks.number("angle", value))
 
     @property
     def center(self) -> Vec2:
@@ -78,7 +76,7 @@ class Body(BodySettings):
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
         """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
-        editing.move_to(
+        edit.move_to(
             self.world,
             self.id,
             checks.position("position", position),
@@ -89,7 +87,7 @@ class Body(BodySettings):
         """Have a kinematic body arrive at a position [px] and an angle [rad] (None: as it is) at the end of the next
         step, whatever its length: riders come along, what is in the way is pushed. It stands there until it is told
         anew. Another velocity, or a teleport, before that step takes the target back."""
-        targets.set_target(self.world, self.id, position, angle)
+        step.set_target(self.world, self.id, position, angle)
 
     # --- how it moves ------------------------------------------------------------------------------------------------
 
@@ -123,7 +121,7 @@ class Body(BodySettings):
         row = self._row
         if row["kind"] == STATIC and value != 0.0:
             raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
-        editing.check_grid_stands(self.shapes, value)
+        edit.check_grid_stands(self.shapes, value)
         row["angular_velocity"] = value
         self.world._targets.pop(self.id, None)
         self._stir(row)
@@ -241,12 +239,169 @@ class Body(BodySettings):
 
     def set_kind(self, kind: str) -> None:
         """static, kinematic or dynamic. What becomes static stops. ValueError for a character, it stays kinematic."""
-        editing.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
+        edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
         """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
-        editing.restore(self.world, self.id)
+        edit.restore(self.world, self.id)
 
     def remove(self) -> None:
         """Remove it from its world."""
         self.world._remove([self.id])
+
+    # --- its kind and its user's value -----------------------------------------------------------------------------
+
+    @property
+    def kind(self) -> str:
+        """static, kinematic or dynamic; see set_kind."""
+        return KINDS[self._value("kind")]
+
+    @property
+    def user(self) -> Any:
+        """Anything the game wants to find again; not part of snapshots and digests."""
+        self._must_exist()
+        return self.world._users.get(self.id)
+
+    @user.setter
+    def user(self, value: Any) -> None:
+        self._must_exist()
+        self.world._users[self.id] = value
+
+    # --- what it says of its shapes ------------------------------------------------------------------------------
+
+    @property
+    def material(self) -> Material:
+        """What those shapes are made of that have no material of their own. Set, the body is weighed anew."""
+        return edit.material_of(self.world, self.id)
+
+    @material.setter
+    def material(self, value: Material) -> None:
+        edit.set_material(self.world, self.id, value)
+
+    @property
+    def filter(self) -> Filter:
+        """The filter of those shapes that have none of their own."""
+        return edit.filter_of(self.world, self.id)
+
+    @filter.setter
+    def filter(self, value: Filter) -> None:
+        edit.set_filter(self.world, self.id, value)
+
+    @property
+    def sensor(self) -> bool:
+        """Whether those shapes that do not say so themselves report and do not push. Sensors count in the mass."""
+        return self._given["sensor"].item()
+
+    @sensor.setter
+    def sensor(self, value: bool) -> None:
+        edit.set_sensor(self.world, self.id, value)
+
+    # --- how it moves ----------------------------------------------------------------------------------------------
+
+    @property
+    def gravity_scale(self) -> float:
+        """Factor on the world's gravity."""
+        return self._value("gravity_scale")
+
+    @gravity_scale.setter
+    def gravity_scale(self, value: float) -> None:
+        self.world._unlocked()
+        row = self._row
+        row["gravity_scale"] = checks.number("gravity_scale", value)
+        self._stir(row)
+
+    @property
+    def bullet(self) -> bool:
+        """Whether it is swept against moving bodies too. Raises ValueError for True without the effect continuous."""
+        return self._value("bullet")
+
+    @bullet.setter
+    def bullet(self, value: bool) -> None:
+        self.world._unlocked()
+        row = self._row
+        row["bullet"] = edit.checked_bullet(self.world, value)
+
+    @property
+    def continuous(self) -> str:
+        """off, ray, swept, toi or auto: how it is kept from passing through what it meets on its way."""
+        return CONTINUOUS[self._value("continuous")]
+
+    @continuous.setter
+    def continuous(self, value: str) -> None:
+        edit.set_continuous(self.world, self.id, value)
+
+    @property
+    def fixed_rotation(self) -> bool:
+        """Whether contacts and impulses leave its turn alone. Set to True it stops turning."""
+        return self._value("fixed_rotation")
+
+    @fixed_rotation.setter
+    def fixed_rotation(self, value: bool) -> None:
+        edit.set_fixed_rotation(self.world, self.id, value)
+
+    # --- its shapes ------------------------------------------------------------------------------------------------
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes as they were given; with a tier, what they are replaced by."""
+        self._must_exist()
+        return self.world._shapes_of[self.id]
+
+    @property
+    def shape_ids(self) -> tuple[int, ...]:
+        """Ids of the shapes, in the order of `shapes`."""
+        return edit.shape_ids(self.world, self.id)
+
+    def set_shapes(self, *shapes: Shape) -> None:
+        """Replace the shapes; what the body says of them stays. The new shapes get new ids, but for masks that take the
+        place of as many masks: contacts with these go on."""
+        edit.set_shapes(self.world, self.id, shapes)
+
+    def add_shape(self, shape: Shape) -> int:
+        """Add a shape behind those it has, and weigh the body anew. A tier ends. Returns the shape's id."""
+        return edit.add_shape(self.world, self.id, shape)
+
+    def remove_shape(self, shape_id: int) -> None:
+        """Take one of its shapes away, and weigh the body anew. A tier ends. Raises KeyError for an id that is none of
+        its shapes'."""
+        edit.remove_shape(self.world, self.id, shape_id)
+
+    @property
+    def tier(self) -> str | None:
+        """How exactly its sprite collides: one of TIERS, or None for the shapes as given."""
+        self._must_exist()
+        return self.world._tiers.get(self.id)
+
+    @tier.setter
+    def tier(self, value: str | None) -> None:
+        edit.set_tier(self.world, self.id, value)
+
+    # --- rows --------------------------------------------------------------------------------------------------------
+
+    @property
+    def _row(self) -> np.void:
+        return self.world._body_row(self.id)
+
+    def _value(self, name: str) -> Any:
+        """Of its row, as a Python value: out of the column, which takes half as long as out of the row."""
+        world = self.world
+        return world._bodies.data[name].item(world._row_number(self.id))
+
+    def _pair(self, first: str, second: str) -> Vec2:
+        world = self.world
+        row, columns = world._row_number(self.id), world._bodies.data
+        return Vec2(columns[first].item(row), columns[second].item(row))
+
+    @property
+    def _given(self) -> np.void:
+        """The GIVEN row."""
+        return self.world._given.rows[self.world._row_number(self.id)]
+
+    def _must_exist(self) -> None:
+        """Raises KeyError for a body that was removed."""
+        self.world._row_number(self.id)
+
+    def _stir(self, row) -> None:
+        if not row["awake"]:
+            sleep.disturb(self.world, [self.id])
+        row["sleep_time"] = 0.0

@@ -6,16 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics import checks, editing, reshaping
-from physics.body_settings import BodySettings
-from physics.mask_exchange import exchange_mask
+from physics import checks, edit
+from physics.edit import exchange_mask
 from physics.math2d import turned
-from physics.raster.cut import Cut, Loose, Tool, cut
-from physics.raster.erase import find_in_hull, find_in_pixels
-from physics.shapes.convex import Capsule, Circle, Polygon
+from physics.raster.pixel_tiles import Cut, Loose, Tool, cut, find_in_hull, find_in_pixels
 from physics.shapes.kinds import mass_of
+from physics.shapes.library import weigh
 from physics.shapes.mask import PixelMask
-from physics.shapes.rows import weigh
+from physics.shapes.values import Capsule, Circle, Polygon
 from physics.tables.body import CONTINUOUS, DYNAMIC
 from physics.world_state import WorldState
 
@@ -121,7 +119,7 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
     """Give a body what is left of its masks; those without a pixel go, and a body without a mass left, too."""
-    shapes, ids = world._shapes_of[identity], reshaping.shape_ids(world, identity)
+    shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
     rest = [shape for at, shape in enumerate(shapes) if at not in empty]
     if not rest or (world._body_row(identity)["kind"] == DYNAMIC and mass_of(tuple(rest), 1.0).mass == 0.0):
@@ -132,10 +130,10 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
         if at not in empty and isinstance(mask, PixelMask):
             exchange_mask(world, identity, at, ids[at], mask.with_tiles(each.tiles), each.changed)
     for at in empty:
-        reshaping.remove_shape(world, identity, ids[at])
+        edit.remove_shape(world, identity, ids[at])
     if given.share:
         left = weigh(world._shapes_of[identity], given.density, 0.0).mass
-        reshaping.set_mass_of(world, identity, given.share * left)
+        edit.set_mass_of(world, identity, given.share * left)
     # What is left goes on as it moved, about its own centre.
     row = world._body_row(identity)
     row["vx"] -= given.spin * (row["center_y"].item() - given.center[1])
@@ -161,16 +159,16 @@ def _motion_and_weight(world, identity) -> _Given:
     return _Given(center, (row["vx"].item(), row["vy"].item()), row["angular_velocity"].item(), share, density)
 
 
-def _values_of(world, identity) -> editing.Wanted:
+def _values_of(world, identity) -> edit.Wanted:
     """What is wanted for a body of a piece, but for its mass."""
-    body, row = BodySettings(world, identity), world._body_row(identity)
-    return editing.Wanted(
+    row, given = world._body_row(identity), world._given.rows[world._row_number(identity)]
+    return edit.Wanted(
         kind="dynamic",
         angular_velocity=row["angular_velocity"].item(),
         mass=None,
-        material=body.material,
-        filter=body.filter,
-        sensor=body.sensor,
+        material=edit.material_of(world, identity),
+        filter=edit.filter_of(world, identity),
+        sensor=given["sensor"].item(),
         bullet=bool(row["bullet"]),
         continuous=CONTINUOUS[int(row["continuous"])],
         fixed_rotation=bool(row["fixed_rotation"]),
@@ -180,7 +178,7 @@ def _values_of(world, identity) -> editing.Wanted:
     )
 
 
-def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: editing.Wanted) -> int:
+def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.Wanted) -> int:
     """A body of the pixels of a piece, where they are and as fast as they were. Returns its id."""
     # Its origin lies on the mask's own grid, near its middle: what was drawn on whole pixels goes on so.
     height, width = loose.solid.shape
@@ -196,4 +194,4 @@ def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wa
     dx, dy = x + cx - given.center[0], y + cy - given.center[1]
     velocity = (given.velocity[0] - given.spin * dy, given.velocity[1] + given.spin * dx)
     heavy = wanted._replace(mass=weight.mass * given.share or None)
-    return int(editing.add_rows(world, (piece,), [(x, y)], [velocity], [frame[2]], heavy)[0])
+    return int(edit.add_rows(world, (piece,), [(x, y)], [velocity], [frame[2]], heavy)[0])

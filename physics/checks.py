@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from physics.math2d import NO_PAIRS, Vec2
 from physics.settings import POSITION_LIMIT
-from physics.vec2 import NO_PAIRS, Vec2
 
 # What a user may hand in where these functions give floats back.
 Pair = Sequence[float] | np.ndarray  # (x, y)

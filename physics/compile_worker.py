@@ -19,16 +19,16 @@ NICE = 10  # of the system's 0 to 19: the program goes first
 def answer(order: tuple) -> Any:
     """Do one task and return what it comes to."""
     from physics.effects import Effects
-    from physics.jit import compiling, specs, tiers
+    from physics.jit import compiling, tiers
     from physics.warmup import run_warmup
 
     if order[0] == "compile":
-        kernel = specs.kernel_of(order[1])
+        kernel = tiers.kernel_of(order[1])
         compiling.load_or_compile(kernel, order[2])
         return compiling.name_of(kernel, order[2])
     with tiers.collecting() as found:
         run_warmup(**{**order[1], "effects": Effects.named(order[1]["effects"])})
-    return [(compiling.name_of(kernel, keys), specs.spec_of(kernel), keys) for kernel, keys in found]
+    return [(compiling.name_of(kernel, keys), tiers.spec_of(kernel), keys) for kernel, keys in found]
 
 
 def main() -> None:

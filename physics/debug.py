@@ -9,11 +9,9 @@ from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.collision.manifold import contacts_of
-from physics.queries.pair_axes import sat_axes
-from physics.queries.pair_distance import gjk_steps
-from physics.queries.visited import visited
+from physics.queries.index import visited
 from physics.settings import MASK_ANGLE_BUCKETS
-from physics.shapes.rasters import draw_pictures
+from physics.shapes.library import draw_pictures
 from physics.tables.body import DYNAMIC
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POLYGON, SEGMENT
 from physics.world import World
@@ -22,7 +20,6 @@ __all__ = [
     "bounds",
     "contact_points",
     "drawn_masks",
-    "gjk_steps",
     "impact_ghosts",
     "islands",
     "mask_hits",
@@ -31,7 +28,6 @@ __all__ = [
     "outlines",
     "pairs",
     "part_edges",
-    "sat_axes",
     "shape_rows",
     "structure",
     "visited",

@@ -5,13 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.owners import by_owner
+from physics.collision.manifold import by_owner
 from physics.jit import kernel, subkernel
-from physics.tables.contact import EVENT, HIT, QUARANTINE
-from physics.tables.counters import CONTACTS
-from physics.tables.manifold import MANIFOLD
-from physics.tables.rows import joined, rows_of
-from physics.tables.step_state import StepState, stage
+from physics.tables.contact import EVENT, HIT, MANIFOLD, QUARANTINE
+from physics.tables.step_state import CONTACTS, StepState, stage
+from physics.tables.table import joined, rows_of
 
 NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, MANIFOLD), np.zeros(0, EVENT), np.zeros(0, HIT)
 UNBROKEN = np.zeros(0, QUARANTINE)

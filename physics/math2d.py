@@ -1,8 +1,16 @@
-"""Scalar vector maths used by kernels. Scalars in, tuples out: a two-element array would allocate."""
+"""Scalar vector maths of kernels, and Vec2, a point or vector of the API."""
 
 import math
+import numbers
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple, cast
+
+import numpy as np
 
 from physics.jit import inlined, subkernel
+
+# ---- math2d ----------------------------------------------------------------------------------------------------------
+# Scalar vector maths used by kernels. Scalars in, tuples out: a two-element array would allocate.
 
 RIGHT = 2.0 * 2.0**-52  # of an angle: what the number nearest to a quarter turn, or a sum of two, is off by
 
@@ -65,3 +73,115 @@ def cosine_and_sine(angle, greatest):
     if abs(sine) <= off:
         return 1.0 if cosine > 0.0 else -1.0, 0.0
     return cosine, sine
+
+
+# ---- vec2 ------------------------------------------------------------------------------------------------------------
+# Vec2: a point or a vector as the API hands it out. A plain pair in all but its arithmetic.
+
+NO_PAIRS = (str, bytes, bytearray, set, frozenset, dict)  # though two things may be in them
+
+
+class Vec2(NamedTuple):
+    """(x, y) [px, or px/s], y down. Equals a plain pair, and any pair is taken as one.
+
+    + − * / go element by element with a pair, or by a number, from either side; an array of other than two numbers
+    makes an array. A wrong kind raises TypeError, a division by zero ZeroDivisionError.
+    """
+
+    x: float
+    y: float
+
+    @property
+    def length(self) -> float:
+        """Length, without overflow."""
+        return math.hypot(self[0], self[1])
+
+    @property
+    def angle(self) -> float:
+        """Angle [rad] from +x, clockwise on the screen, -pi..pi; 0 of the zero vector."""
+        return math.atan2(self[1], self[0])
+
+    def dot(self, v: "Vec2 | Sequence[float]") -> float:
+        """Scalar product. Raises TypeError for what is no pair of numbers."""
+        x, y = _named_pair("v", v)
+        return self[0] * x + self[1] * y
+
+    def cross(self, v: "Vec2 | Sequence[float]") -> float:
+        """x · v.y − y · v.x: positive where v lies clockwise on the screen. Raises TypeError."""
+        x, y = _named_pair("v", v)
+        return self[0] * y - self[1] * x
+
+    def rotated(self, angle: float) -> "Vec2":
+        """Turned by an angle [rad], clockwise on the screen. Raises TypeError, and ValueError for one not finite."""
+        if not _is_number(angle):
+            raise TypeError(f"angle must be a number (got {angle!r})")
+        if not math.isfinite(angle):
+            raise ValueError(f"angle must be finite (got {angle!r})")
+        cosine, sine = math.cos(angle), math.sin(angle)
+        return Vec2(cosine * self[0] - sine * self[1], sine * self[0] + cosine * self[1])
+
+    def normalized(self) -> "Vec2":
+        """The same direction at length 1. Raises ValueError for the zero vector, and for one that is not finite."""
+        largest = max(abs(self[0]), abs(self[1]))
+        if largest == 0.0 or not (math.isfinite(self[0]) and math.isfinite(self[1])):
+            raise ValueError(f"a vector must be finite and longer than 0 to be normalized (got {tuple(self)})")
+        # Scaled first: neither tiny nor huge vectors lose digits when squared.
+        x, y = self[0] / largest, self[1] / largest
+        length = math.hypot(x, y)
+        return Vec2(x / length, y / length)
+
+    def __neg__(self) -> "Vec2":
+        return Vec2(-self[0], -self[1])
+
+    def __pos__(self) -> "Vec2":
+        return self
+
+    # A tuple's + and * join and repeat: here they are a vector's.
+    def __add__(self, other: Any) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
+        return _each(other, lambda x, y: Vec2(self[0] + x, self[1] + y), lambda array: np.add(self, array))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> "Vec2":
+        return _each(other, lambda x, y: Vec2(self[0] - x, self[1] - y), lambda array: np.subtract(self, array))
+
+    def __rsub__(self, other: Any) -> "Vec2":
+        return _each(other, lambda x, y: Vec2(x - self[0], y - self[1]), lambda array: np.subtract(array, self))
+
+    def __mul__(self, other: Any) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
+        return _each(other, lambda x, y: Vec2(self[0] * x, self[1] * y), lambda array: np.multiply(self, array))
+
+    __rmul__ = __mul__  # pyright: ignore[reportAssignmentType]
+
+    def __truediv__(self, other: Any) -> "Vec2":
+        return _each(other, lambda x, y: Vec2(self[0] / x, self[1] / y), lambda array: np.divide(self, array))
+
+    def __rtruediv__(self, other: Any) -> "Vec2":
+        return _each(other, lambda x, y: Vec2(x / self[0], y / self[1]), lambda array: np.divide(array, self))
+
+    @property
+    def __array_priority__(self) -> float:
+        """NumPy's numbers and arrays on the left leave the arithmetic to the vector."""
+        return 1.0
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def _named_pair(name, value) -> tuple[float, float]:
+    pair = tuple(value) if isinstance(value, Iterable) and not isinstance(value, NO_PAIRS) else ()
+    if len(pair) != 2 or not all(map(_is_number, pair)):
+        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {value!r})")
+    return float(pair[0]), float(pair[1])
+
+
+def _each(other, combine, combine_array) -> Vec2:
+    """combine(x, y) of a number or a pair of numbers; TypeError for anything else."""
+    if _is_number(other):
+        return combine(float(other), float(other))
+    if isinstance(other, np.ndarray) and other.shape != (2,):
+        return combine_array(other)
+    if isinstance(other, (tuple, list, np.ndarray)):  # left to itself, a tuple would be joined
+        return combine(*_named_pair("what a Vec2 is combined with", other))
+    return cast(Vec2, NotImplemented)

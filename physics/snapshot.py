@@ -1,6 +1,7 @@
-"""Snapshots of a world, in memory and as `.npz` files without pickle."""
+"""Snapshots of a world, in memory and as `.npz` files without pickle, and its digest."""
 
 import contextlib
+import hashlib
 import io
 import json
 import lzma
@@ -11,29 +12,84 @@ import time
 import tokenize
 import zipfile
 import zlib
+from dataclasses import astuple
 from os import PathLike
 from typing import Any
 
 import numpy as np
 
 from physics import checks
-from physics.dynamics.awake import Awake
-from physics.dynamics.sleepers import Island, Sleepers
-from physics.environment import checked_substeps
-from physics.shape_rows import MATERIAL
-from physics.shapes.filter import Filter
+from physics.edit import MATERIAL
+from physics.islands.awake import Awake
+from physics.islands.sleep import Island, Sleepers
 from physics.shapes.kinds import Shape
-from physics.shapes.library import Library
-from physics.shapes.material import Material
+from physics.shapes.library import Geometries, Library
+from physics.shapes.mask import PixelMask
+from physics.shapes.values import Capsule, Chain, Filter, Material, Polygon, Segment, TileGrid
 from physics.step import PUSHING, SOLVERS
-from physics.stored_shapes import pack_geometry, unpack_geometry
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
-from physics.tables.contact import EVENT
-from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.rows import joined
-from physics.tables.shape import PART, SHAPE
-from physics.world_state import WorldState
+from physics.tables.contact import ANCHOR, EVENT, MANIFOLD
+from physics.tables.shape import MASK, PART, SHAPE
+from physics.tables.table import joined
+from physics.world_state import WorldState, checked_substeps
+
+# ---- stored shapes ---------------------------------------------------------------------------------------------------
+# The shapes of a world as arrays and facts, for a file, and back.
+
+HULLS = {
+    "Polygon": lambda points, radius: Polygon(points, radius),
+    "Capsule": lambda points, radius: Capsule(*points, radius=radius),
+    "Segment": lambda points, radius: Segment(*points),
+}
+
+
+def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """(arrays, facts that JSON can say) of shapes."""
+    arrays = {}
+    for number, shape in enumerate(geometry.outlines):
+        arrays[f"hull_{number}"] = np.array(shape.points)
+    for number, shape in enumerate(geometry.chains):
+        arrays[f"chain_{number}"] = np.array(shape.points)
+    for number, shape in enumerate(geometry.grids):
+        arrays[f"solid_{number}"], arrays[f"one_way_{number}"] = shape.solid, shape.one_way
+        arrays[f"slopes_{number}"] = shape.slopes
+    for number, shape in enumerate(geometry.masks):
+        arrays[f"mask_{number}"] = shape.solid
+    facts = {
+        "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in geometry.outlines],
+        "chains": [
+            [shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
+            for shape in geometry.chains
+        ],
+        "tile_sizes": [shape.tile_size for shape in geometry.grids],
+        "masks": [[shape.origin, shape.snap, shape.smooth, shape.one_way, shape.carved] for shape in geometry.masks],
+    }
+    return arrays, facts
+
+
+def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
+    """Shapes from arrays and facts. Raises KeyError, TypeError, ValueError."""
+    outlines, masks = [], []
+    for number, (name, radius) in enumerate(facts["hulls"]):
+        points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
+        outlines.append(HULLS[name](points, radius))
+    chains = [
+        Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))
+        for number, (loop, ghosts, materials) in enumerate(facts["chains"])
+    ]
+    grids = [
+        TileGrid(arrays[f"solid_{number}"], size, arrays[f"one_way_{number}"], arrays[f"slopes_{number}"])
+        for number, size in enumerate(facts["tile_sizes"])
+    ]
+    for number, (origin, snap, smooth, one_way, carved) in enumerate(facts["masks"]):
+        mask = PixelMask(arrays[f"mask_{number}"], tuple(origin), snap, smooth, one_way)
+        masks.append(mask.with_tiles(mask.tiles) if carved else mask)
+    return Geometries(outlines, chains, grids, masks)
+
+
+# ---- snapshot --------------------------------------------------------------------------------------------------------
+# Snapshots of a world, in memory and as `.npz` files without pickle.
 
 VERSION = 11
 ABANDONED = 3600.0  # [s] without a byte written to it: nobody is at work on such a file
@@ -304,3 +360,85 @@ def _targets(arrays) -> dict:
     """{body id: (x, y, angle)} from flat arrays."""
     ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
     return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
+
+
+# ---- digest ----------------------------------------------------------------------------------------------------------
+# The digest of a world: two worlds with the same one go on alike.
+
+# Goes up with every change by which some world takes other digests: recordings of before play, and part.
+PHYSICS_VERSION = 5
+STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
+CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
+ASKED = ("substeps", "eased")  # where the number of substeps follows from the loads
+# What bodies and shapes were given. Materials are left out: where their effect is not declared they are inert.
+GIVEN_COLUMNS = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
+SHAPE_COLUMNS = ("id", "membership", "mask", "sensor")
+NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
+KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
+WALK = (
+    "body",
+    "left",
+    "top",
+    "remainder_x",
+    "remainder_y",
+    "riding",
+    "riding_shape",
+    "slope",
+    "grounded",
+    "squeezed",
+    "pressed",
+    "carry_x",
+    "carry_y",
+    "belt",
+    "belt_x",
+    "push_vx",
+    "push_vy",
+    "deep",
+    "wedged",
+)
+
+
+def digest(world: WorldState) -> str:
+    """blake2b-128 over length and solver of the step, ids, poses, velocities, flags, masses, filters, characters,
+    contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
+    found = hashlib.blake2b(digest_size=16)
+    auto = world.substeps == "auto"
+    pace = (0, world.accuracy) if auto else (world.substeps,)
+    numbers = np.array((world.dt, *pace, world.tolerances.pixels_per_meter), np.float64)
+    found.update(world.solver.encode() + numbers.tobytes())
+    tables = (
+        (world.bodies, (*STATE, *CLOCK, *GIVEN_COLUMNS, *(ASKED if auto and world.stacks else ()))),
+        (world.shapes, SHAPE_COLUMNS),
+        (world.characters.rows, WALK),
+        (world.contacts, KEYS),
+    )
+    for rows, names in tables:
+        found.update(len(rows).to_bytes(8, "little"))
+        for name in names:
+            column = rows[name].astype(NARROW.get(name, rows.dtype[name]))
+            found.update((column + 0.0 if column.dtype == np.float64 else column).tobytes())
+    exact = world.shapes["id"][(world.shapes["kind"] == MASK) & ~world.shapes["snap"]]
+    if len(exact):
+        found.update(b"exact" + exact.tobytes())
+    open_ones = [
+        shape.one_way for masks in world._shapes_of.values() for shape in masks if isinstance(shape, PixelMask)
+    ]
+    if any(open_ones):
+        found.update(b"one way" + bytes(open_ones))
+    for masks in world._shapes_of.values() if world.effects.carving else ():
+        for mask in masks:
+            if isinstance(mask, PixelMask) and mask.carved:
+                found.update(b"carved" + mask.fingerprint)
+    if world.stacks and world.span not in (0.0, world.dt):
+        found.update(b"span" + np.float64(world.span).tobytes())
+    # What waits for the next step only; where nothing waits, nothing is added.
+    targets = world._targets
+    for identity in sorted(targets):
+        found.update(
+            b"target" + np.array([identity], np.int64).tobytes() + (np.array(targets[identity]) + 0.0).tobytes()
+        )
+    waiting = np.stack([world.bodies[name] for name in ("force_x", "force_y", "torque")], axis=1) + 0.0
+    rows = np.flatnonzero(waiting.any(axis=1))
+    if len(rows):
+        found.update(b"forces" + world.bodies["id"][rows].tobytes() + waiting[rows].tobytes())
+    return found.hexdigest()

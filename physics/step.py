@@ -1,46 +1,122 @@
-"""The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
+"""The step: its stages in order, the targets of kinematic bodies, and a step that pauses between stages."""
 
-Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap afterwards.
-With it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to where it met
-something. A stage that no effect needs is not planned: it is not called, and its kernels are never compiled.
-"""
-
+from collections.abc import Generator
+from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
 
 from physics import checks, events
 from physics.broadphase.pair_list import broad_phase
-from physics.broadphase.rectangles import motion_rectangles
+from physics.broadphase.proxies import motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
 from physics.character.carry import bear_characters, carry_characters
-from physics.character.workspace import new_scratch
-from physics.collision.detect import detect_ended, detect_piles, sense
-from physics.collision.dispatch import NarrowPhase
-from physics.collision.final_poses import settle_contacts
-from physics.collision.follow import follow_bodies
-from physics.dynamics.awake import list_awake
-from physics.dynamics.integrate import integrate_positions, integrate_velocities
-from physics.dynamics.quarantine import REASONS, quarantine, quarantine_solved
-from physics.dynamics.rest import IslandWorkspace, rest
-from physics.dynamics.sleep import wake_disturbed
+from physics.character.solids import new_scratch
+from physics.checks import Pair
+from physics.collision.cache import follow_bodies, settle_contacts
+from physics.collision.narrow_phase import NarrowPhase, detect_ended, detect_piles, sense
+from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
+from physics.dynamics.non_finite import REASONS, quarantine, quarantine_solved
+from physics.edit import check_grid_stands
 from physics.effects import Effects
+from physics.islands import sleep
+from physics.islands.awake import list_awake
+from physics.islands.sleep import IslandWorkspace, rest, wake_disturbed
 from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
-from physics.solver.contacts import ContactSet
+from physics.solver.constraints import ContactSet
 from physics.solver.motions import Motions
 from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
-from physics.solver.projection import projection
-from physics.solver.pushes import PushSet
+from physics.solver.projection import PushSet, projection
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
-from physics.tables.counters import CARVED_PIXELS
-from physics.tables.lines import zeros_in_lines
-from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.step_state import Stage, StepState, stage
-from physics.targets import aim, arrive
+from physics.tables.body import KINEMATIC
+from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.step_state import CARVED_PIXELS, Stage, StepState, stage
+from physics.tables.table import rows_of, zeros_in_lines
 from physics.world_state import WorldState
+
+# ---- targets ---------------------------------------------------------------------------------------------------------
+# Targets of kinematic bodies: where they are to be at the end of the next step, and the velocity that leads there.
+#
+# They are set between steps, aimed at when a step begins, by its length, and reached when it ends: to the bit.
+
+
+def set_target(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
+    """Have a kinematic body arrive at a position [px] and an angle [rad] (None: as it is) at the end of the next step.
+    Raises TypeError, ValueError."""
+    world._unlocked()
+    row = world._body_row(identity)
+    x, y = checks.position("position", position)
+    turned = float(row["angle"]) if angle is None else checks.number("angle", angle)
+    if row["kind"] != KINEMATIC:
+        raise ValueError(f"set_target needs a kinematic body; body {identity} is not (got {checks.shown(position)})")
+    turn = turned - float(row["angle"])
+    check_grid_stands(world._shapes_of[identity], turn, "the turn to angle")
+    world._needs("rotation", f"set_target with angle {angle}", turn != 0.0)
+    aimed = _velocities(world.bodies[[world._row_number(identity)]], np.array([(x, y, turned)]), world.dt)
+    limit = world.tolerances.speed_limit
+    if not np.abs(aimed[:, :2]).max() < limit:
+        raise ValueError(f"position must be within {limit * world.dt:g} px of the body (got {checks.shown(position)})")
+    row["vx"], row["vy"], row["angular_velocity"] = aimed[0]
+    world._targets[identity] = (x, y, turned)
+    if not row["awake"]:
+        sleep.disturb(world, [identity])
+
+
+def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
+    """(n, 3) velocity of the centre of mass and angular velocity that take BODY rows to poses (n, 3) in dt [s]."""
+    cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
+    x, y = bodies["local_center_x"], bodies["local_center_y"]
+    return np.stack(
+        [
+            (targets[:, 0] + (cosine * x - sine * y) - bodies["center_x"]) / dt,
+            (targets[:, 1] + (sine * x + cosine * y) - bodies["center_y"]) / dt,
+            (targets[:, 2] - bodies["angle"]) / dt,
+        ],
+        axis=1,
+    )
+
+
+def _rows(world) -> tuple[np.ndarray, np.ndarray]:
+    """Body rows that have a target, and the targets."""
+    return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
+
+
+def aim(world: WorldState, dt: float) -> None:
+    """Give the bodies with a target the velocity that takes them there in dt [s]; in no time nobody gets anywhere."""
+    if not world._targets or dt == 0.0:
+        return
+    rows, targets = _rows(world)
+    aimed = _velocities(world.bodies[rows], targets, dt)
+    for k, name in enumerate(("vx", "vy", "angular_velocity")):
+        world.bodies[name][rows] = aimed[:, k]
+
+
+def arrive(world: WorldState, dt: float) -> None:
+    """Put who had a target exactly there, at rest. What was quarantined on the way stays where it is."""
+    if not world._targets or dt == 0.0:
+        return
+    rows, targets = _rows(world)
+    bodies = world.bodies
+    there = ~bodies["quarantined"][rows]
+    rows, targets = rows[there], targets[there]
+    for k, name in enumerate(("x", "y", "angle")):
+        bodies[name][rows] = targets[:, k]
+    for name in ("vx", "vy", "angular_velocity"):
+        bodies[name][rows] = 0.0
+    refresh_centers(rows, bodies)
+    world._targets.clear()
+
+
+# ---- step ------------------------------------------------------------------------------------------------------------
+# The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
+#
+# Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap
+# afterwards. With it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to
+# where it met something. A stage that no effect needs is not planned: it is not called, and its kernels are never
+# compiled.
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
@@ -231,3 +307,52 @@ def finish(world: WorldState, state: StepState) -> None:
     world.steps += 1
     world.time += state.dt
     world.span = next_span(world.span, state.dt, world.dt)
+
+
+# ---- staged step -----------------------------------------------------------------------------------------------------
+# A step that stands still after each of its stages, for whoever looks between them. World.step makes it in one go.
+
+
+def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
+    """Make the step of World.step(dt): yields None before the first stage, then each stage when it has run.
+
+    Meanwhile the world shows what there is so far: bodies, candidates, manifolds, contacts and events of half a step,
+    seconds and counters in `profile`. It cannot be changed. That is no state to go on from: whoever stops in the
+    middle, or lets debug or a query look in between, puts the world back afterwards. Raises ValueError as World.step.
+    """
+    world._unlocked()
+    dt = step_length(world, dt)
+    stages, names = world._plan_now
+    spent = world.profile.begin(names)
+    world._stepping = True
+    try:
+        state = begin(world, dt)
+        yield None
+        for stage in stages:
+            started = perf_counter()
+            stage(state)
+            spent.append(perf_counter() - started)
+            _show(world, state)
+            yield stage
+        finish(world, state)
+    finally:
+        world._stepping = False
+
+
+def _show(world: WorldState, state: StepState) -> None:
+    """Let the world tell what the stages have found so far; until they tell of contacts, those that touch by now."""
+    world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
+    world.ghosts, world.events = state.ghosts, state.events
+    manifolds, keep = state.told
+    world.tell_contacts(*(state.told if keep is not None else (state.manifolds, _touching(state))))
+
+
+def _touching(state: StepState) -> np.ndarray:
+    """Which manifolds touch, sensors apart, as `events` will tell: those that overlap, that touched and are no further
+    apart than the slop, bear something, or were met on the way."""
+    rows, before = state.manifolds, state.touching.rows
+    second = rows["count"] > 1
+    gap = np.minimum(rows["separation_1"], np.where(second, rows["separation_2"], np.inf))
+    old = np.isin(rows["shape_a"] << 32 | rows["shape_b"], before["shape_a"] << 32 | before["shape_b"])
+    pushed = (rows["normal_impulse_1"] > 0.0) | (second & (rows["normal_impulse_2"] > 0.0))
+    return ((gap <= np.where(old, state.tolerances.slop, 0.0)) | pushed | rows["swept"]) & ~rows["sensor"]

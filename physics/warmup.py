@@ -14,15 +14,11 @@ from physics.character.character import Character
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.jit import tiers
-from physics.proximity.trace import steps_of
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.lines import Chain
-from physics.shapes.mask import PixelMask
+from physics.shapes.mask import Bounds, PixelMask
 from physics.shapes.outline import outline_of
-from physics.shapes.tiles import TileGrid
-from physics.tables.rows import rows_of
+from physics.shapes.values import Capsule, Chain, Circle, Polygon, TileGrid
+from physics.tables.table import rows_of
 from physics.world import World
 
 STRATEGIES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
@@ -307,12 +303,6 @@ def _casts(effects):
     world.closest((9, 9))
 
 
-def _steps(effects):
-    box = np.array([(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)])
-    for off in (4.0, 40.0):
-        steps_of(box, box + off)
-
-
 def _character(effects, solver):
     world = World(effects, solver=solver)
     world.add_body(Polygon.box(40, 8), position=(0, 20), kind="kinematic", velocity=(60.0, 0.0))
@@ -332,5 +322,5 @@ def _contacts(effects):
         len(world.contacts)
 
 
-QUESTIONS = {"queries": _queries, "casts": _casts, "steps": _steps, "contacts": _contacts}
+QUESTIONS = {"queries": _queries, "casts": _casts, "contacts": _contacts}
 PIECES = (*PAIRS, *QUESTIONS, "characters")

@@ -1,45 +1,53 @@
 """World: owns the tables and runs the stages. Start reading at `step`."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks, editing, snapshot
+from physics import checks, edit, snapshot
 from physics.body import Body
 from physics.broadphase.pair_list import PairList
 from physics.broadphase.proxies import Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
-from physics.checks import Pair
-from physics.digest import digest
-from physics.dynamics.awake import Awake
-from physics.dynamics.sleepers import Sleepers
+from physics.checks import Pair, Pose
+from physics.edit import rebuild_masks
 from physics.effects import Effects
-from physics.environment import Environment, checked_accuracy, checked_substeps, own_solver
 from physics.events import Events, Pairs
+from physics.islands import sleep
+from physics.islands.awake import Awake
+from physics.islands.sleep import Sleepers
 from physics.jit import tiers
+from physics.math2d import Vec2
+from physics.queries import casts
+from physics.queries import casts as queries
+from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
-from physics.questions import Questions
-from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
-from physics.shapes.filter import Filter
+from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
-from physics.shapes.material import Material
-from physics.snapshot import Snapshot
-from physics.step import Workspace, begin, finish, plans, step_length
-from physics.tables.body import BODY, GIVEN
+from physics.shapes.values import Filter, Material
+from physics.snapshot import Snapshot, digest
+from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
+from physics.tables.body import BODY, DYNAMIC, GIVEN
 from physics.tables.character import CHARACTER
-from physics.tables.manifold import ANCHOR, MANIFOLD
+from physics.tables.contact import ANCHOR, MANIFOLD
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
-from physics.vec2 import Vec2
+from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
 
 PLAIN = Material()  # of bodies that are given none
+STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
-class World(Environment, Questions):
+def own_solver(effects: Effects) -> str:
+    """The solver of a World that is told none."""
+    return "soft_step" if effects.stacking else "projection"
+
+
+class World(WorldState):
     """Bodies, the effects they live under, and the stages that those call for.
 
     effects: what the scene calls for, None = Effects.rigid_bodies(); broadphase: an instance of one of the four, None =
@@ -49,6 +57,14 @@ class World(Environment, Questions):
     accuracy [px], None = 1 mm; what leans up to 128 times. What needs more is counted in cap_hits. Raises TypeError or
     ValueError naming the argument.
     """
+
+    _solver: str
+    _substeps: int | str
+    _accuracy: float | None
+    _gravity: Vec2
+    _drag: float
+    _wind: Vec2
+    _dt: float
 
     def __init__(
         self,
@@ -153,13 +169,13 @@ class World(Environment, Questions):
         """Add one body. mass: in place of what its shapes' densities make of it.
 
         Raises TypeError or ValueError naming the argument; the world is unchanged then."""
-        ids = editing.add_rows(
+        ids = edit.add_rows(
             self,
             shapes,
             [checks.position("position", position)],
             [checks.vector("velocity", velocity)],
             [checks.number("angle", angle)],
-            editing.Wanted(
+            edit.Wanted(
                 kind,
                 angular_velocity,
                 mass,
@@ -204,13 +220,13 @@ class World(Environment, Questions):
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return editing.add_rows(
+        return edit.add_rows(
             self,
             (shape,),
             positions,
             velocities,
             angles,
-            editing.Wanted(
+            edit.Wanted(
                 kind,
                 angular_velocity,
                 mass,
@@ -240,7 +256,7 @@ class World(Environment, Questions):
         boxes follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
         KeyError, TypeError, ValueError; nothing is touched then."""
         self._unlocked()
-        editing.touch(self, ids)
+        edit.touch(self, ids)
 
     def clear(self) -> None:
         """Remove every body, and what is kept of their shapes. Ids go on from where they were."""
@@ -263,3 +279,240 @@ class World(Environment, Questions):
         Raises ValueError when it does not fit this version's tables, this world's effects or pixels_per_meter."""
         self._unlocked()
         snapshot.restore(self, taken)
+
+    # --- settings, which can be set between steps ----------------------------------------------------------------
+
+    @property
+    def solver(self) -> str:
+        """One of SOLVERS; can be set between steps."""
+        return self._solver
+
+    @solver.setter
+    def solver(self, name: str) -> None:
+        self._unlocked()
+        self._solver = self._checked_solver(name)
+        sleep.wake_all(self)
+        self._plan()
+
+    @property
+    def stacks(self) -> bool:
+        """Whether the solver is one whose contacts remember."""
+        return self._solver in STACKING
+
+    @property
+    def ignored_effects(self) -> tuple[str, ...]:
+        """Names of the declared effects that the present solver does not honour, in the order of Effects.names().
+
+        Without one of them everything goes the same way. Two remarks: under blocking a body turns by its own angular
+        velocity, though no contact turns it; and Characters stand on dynamic bodies wherever stacking is declared.
+        """
+        return ignored_effects(self._effects, self._solver)
+
+    @property
+    def sleeps(self) -> bool:
+        """Whether what has come to rest is left out of the steps."""
+        return self.stacks and self._effects.sleeping
+
+    def _checked_solver(self, name):
+        name = checks.choice("solver", name, SOLVERS)
+        self._needs("stacking", f"solver {name!r}", name in STACKING)
+        return name
+
+    def set_narrowphase(self, on: bool) -> None:
+        """Switch between the narrow phase and plain AABBs, between steps."""
+        self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
+
+    def set_effects(self, effects: Effects) -> None:
+        """Live under other effects from the next step on, and wake. What bodies were given stays, and means nothing as
+        long as no effect calls for it: a spin, a bullet, a sensor, a material. The solver stays where they allow it,
+        else it is the World's own choice. Where `response` comes or goes, masks get other parts, and new shape ids.
+
+        Raises TypeError, and ValueError for effects without response in a world that has Characters."""
+        self._unlocked()
+        if not isinstance(effects, Effects):
+            raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
+        if len(self.characters.rows) and not effects.response:
+            raise ValueError("effects must have response: this world has Characters, which need it")
+        before, self._effects = self._effects, effects
+        sleep.wake_all(self)
+        if before.stacking != effects.stacking:
+            self._solver = own_solver(effects)
+        self._plan()
+        if before.response != effects.response:
+            rebuild_masks(self)
+
+    def _plan(self):
+        before, self.workspace = self.workspace, Workspace(self._effects, self._solver)
+        self._plans = plans(self._effects, self._solver)
+        if before is None or before.stacks != self.stacks:
+            # The two kinds of worlds keep other facts of their contacts.
+            self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+            self.sensed = None
+        if (self.sensed is not None) != self._effects.response:
+            self.sensed = np.zeros(0, MANIFOLD) if self._effects.response else None
+        if self.awake.sleeping != self.sleeps:
+            self._let_sleep(self.sleeps)
+        self.profile = Profile(self._plan_now.names)
+
+    def _let_sleep(self, sleeping):
+        """From now on the steps go over what is awake, or over everything."""
+        self.awake = Awake(sleeping)
+        self.bodies["active"] = not sleeping
+        self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
+        self.pairs.let_sleep(sleeping)
+        self._broadphase = self._broadphase.fresh()  # it is told of all there is, and of nothing that is gone
+        self.sleepers.return_all(self)
+
+    @property
+    def substeps(self) -> int | str:
+        """How often the stacking solvers look at the contacts in a step; "auto": as often as each island needs for its
+        contacts to sink by no more than the accuracy, 4 to 32 times, and up to 128 where it leans. Can be set between
+        steps."""
+        return self._substeps
+
+    @substeps.setter
+    def substeps(self, value: int | str) -> None:
+        self._unlocked()
+        self._substeps = checked_substeps(value)
+
+    @property
+    def accuracy(self) -> float:
+        """[px] what contacts may sink under their loads where substeps are "auto", as far as 32 of them reach; None: a
+        millimetre. Can be set between steps."""
+        return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
+
+    @accuracy.setter
+    def accuracy(self, value: float | None) -> None:
+        self._unlocked()
+        self._accuracy = checked_accuracy(value)
+
+    @property
+    def broadphase(self) -> Strategy:
+        """The strategy that finds the candidates; can be set between steps, without changing any result."""
+        return self._broadphase
+
+    @broadphase.setter
+    def broadphase(self, strategy: Strategy) -> None:
+        self._unlocked()
+        if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
+            raise TypeError(
+                "broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
+                f"(got {checks.shown(strategy)})"
+            )
+        self._broadphase = strategy.fresh()
+        self.pairs.start_over()
+
+    @property
+    def gravity(self) -> Vec2:
+        """[px/s2]; can be set between steps."""
+        return self._gravity
+
+    @gravity.setter
+    def gravity(self, value: Pair) -> None:
+        self._unlocked()
+        self._gravity = self._felt(self._gravity, checks.vector("gravity", value), self._effects.gravity)
+
+    def _felt(self, before, now, felt):
+        """A new value of a force; where it is felt, it wakes what rests under the old one."""
+        if felt and now != before:
+            sleep.wake_all(self)
+        return now
+
+    @property
+    def dt(self) -> float:
+        """Length of a step [s]; can be set between steps."""
+        return self._dt
+
+    @dt.setter
+    def dt(self, value: float) -> None:
+        self._unlocked()
+        self._dt = checks.number("dt", value, above=0.0)
+
+    @property
+    def drag(self) -> float:
+        """[1/s]; can be set between steps. What sleeps wakes, as from another gravity or wind."""
+        return self._drag
+
+    @drag.setter
+    def drag(self, value: float) -> None:
+        self._unlocked()
+        felt = self._effects.drag or self._effects.wind
+        self._drag = self._felt(self._drag, checks.number("drag", value, low=0.0), felt)
+
+    @property
+    def wind(self) -> Vec2:
+        """Velocity of the air [px/s]; it acts through the drag. Can be set between steps."""
+        return self._wind
+
+    @wind.setter
+    def wind(self, value: Pair) -> None:
+        self._unlocked()
+        self._wind = self._felt(self._wind, checks.vector("wind", value), self._effects.wind)
+
+    # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
+
+    def body(self, identity: Body | int) -> Body:
+        """The handle of an id (or of a Body, itself). Raises KeyError when there is no such body, TypeError,
+        ValueError."""
+        identity = self._identity("identity", identity)
+        self._row_number(identity)
+        return Body(self, identity)
+
+    def __len__(self) -> int:
+        """How many bodies there are."""
+        return self._bodies.count
+
+    def __bool__(self) -> bool:
+        """A world is there, whether or not somebody is in it."""
+        return True
+
+    def __iter__(self) -> Iterator[Body]:
+        """The bodies in the order of ids. Those that are there now: what is added on the way is left out, and what is
+        removed before its turn."""
+        for identity in self.bodies["id"].tolist():
+            if identity in self:
+                yield Body(self, identity)
+
+    def __contains__(self, body: object) -> bool:
+        """Whether a Body, or an id, is one of this world's."""
+        if isinstance(body, Body):
+            return body.world is self and body.id in self
+        if isinstance(body, bool) or not isinstance(body, (int, np.integer)):
+            return False
+        return int(body) in self._shapes_of
+
+    def ray_cast(
+        self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
+    ) -> RayHit | None:
+        """The first shape that a ray [px] meets, or None. See queries.RayHit."""
+        hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
+        return hits[0] if hits else None
+
+    def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
+        """All shapes that a ray [px] meets, nearest first, ties by shape id."""
+        return queries.ray_cast_all(self, origin, translation, filter, sensors)
+
+    def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
+        """The first shape that a shape at a pose touches on its way by a translation [px], or None."""
+        return queries.shape_cast(self, shape, pose, translation, filter)
+
+    def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
+        """(body, point, distance) [px] of the nearest point of any shape, or None."""
+        return queries.closest(self, point, filter)
+
+    def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
+        """The bodies that a shape at a pose overlaps, in the order of ids."""
+        return queries.overlap(self, shape, pose, filter)
+
+    def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
+        """The bodies with a shape whose AABB meets the closed box [px], in the order of ids."""
+        return casts.query_aabb(self, lower, upper)
+
+    def query_rect(self, rect: Sequence[float] | Sequence[Pair]) -> list[Body]:
+        """The bodies with a shape whose AABB meets a closed box given as pygame's Rect is: (x, y, width, height), or
+        ((x, y), (width, height)) [px]; in the order of ids."""
+        return casts.query_rect(self, rect)
+
+    def query_point(self, point: Pair) -> list[Body]:
+        """The bodies with a shape that holds the point [px], in the order of ids."""
+        return queries.query_point(self, point)

@@ -1,4 +1,4 @@
-"""WorldState: what a world keeps from step to step, by name and type, and the looks at it that its parts share."""
+"""WorldState: what a world keeps from step to step, and the times of its stages."""
 
 from bisect import bisect_left
 from collections.abc import Iterable, Sequence
@@ -8,25 +8,70 @@ import numpy as np
 
 from physics import checks
 from physics.broadphase.pair_list import PairList
-from physics.broadphase.proxies import Strategy
-from physics.broadphase.rectangles import write_rectangles
+from physics.broadphase.proxies import Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
-from physics.dynamics import sleep
-from physics.dynamics.awake import Awake
-from physics.dynamics.sleepers import Sleepers
 from physics.effects import Effects
 from physics.events import Events, Pairs
-from physics.profile import Profile
+from physics.islands import sleep
+from physics.islands.awake import Awake
+from physics.islands.sleep import Sleepers
+from physics.math2d import Vec2
 from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
 from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
-from physics.solver.unloading import forget_loads
+from physics.solver.substeps import forget_loads
 from physics.tables.body import STATIC
-from physics.tables.rows import rows_of
-from physics.tables.table import Table
-from physics.vec2 import Vec2
+from physics.tables.step_state import COUNTERS
+from physics.tables.table import Table, rows_of
+
+# ---- profile ---------------------------------------------------------------------------------------------------------
+# What a step cost: seconds and work per stage. Counters are an int64 array that kernels add to.
+
+
+class Profile:
+    """Seconds and work of the last step."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.work = np.zeros(len(COUNTERS), np.int64)
+        self.begin(names)
+
+    def begin(self, names: Sequence[str]) -> list[float]:
+        """Start a step with the stages of these names: all to zero. Returns what the seconds of each are to be appended
+        to."""
+        self.work.fill(0)
+        self._names, self._spent = names, []
+        return self._spent
+
+    @property
+    def stages(self) -> dict[str, float]:
+        """{name: seconds} of the last step, in order; 0.0 for what has not run."""
+        told = dict.fromkeys(self._names, 0.0)
+        for name, seconds in zip(self._names, self._spent, strict=False):
+            told[name] += seconds
+        return told
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """{name: int} of the last step, every name always present."""
+        return dict(zip(COUNTERS, self.work.tolist(), strict=True))
+
+
+# ---- world state -----------------------------------------------------------------------------------------------------
+# WorldState: what a world keeps from step to step, by name and type, and the looks at it that its parts share.
+
+
+def checked_substeps(value: Any) -> int | str:
+    """A number of substeps, or "auto". Raises TypeError, ValueError."""
+    if isinstance(value, str):
+        return checks.choice("substeps", value, ("auto",))
+    return checks.whole("substeps", value, 1, 1000)
+
+
+def checked_accuracy(value: Any) -> float | None:
+    """A length [px], or None. Raises TypeError, ValueError."""
+    return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
 class Handle:
@@ -61,7 +106,7 @@ class Handle:
 
 
 class WorldState:
-    """The fields of a World, which fills them; Environment adds the settings, and nothing else inherits from this."""
+    """The fields of a World, which fills them; nothing else inherits from this."""
 
     tolerances: Tolerances
     library: Library
@@ -83,7 +128,7 @@ class WorldState:
     span: float  # [s] that what contacts remember of their forces is a mean of: a short step says little of them
     profile: Profile
     workspace: Any  # a Workspace of step.py, whose stages are given what stands here
-    # Properties of Environment.
+    # Properties of World.
     solver: str
     substeps: Any
     accuracy: float

@@ -16,7 +16,7 @@ from game.registry import Registry
 from game.run.headless import start_dummy_display
 from game.run.session import Session
 from game.run.sources import BotSource
-from physics.fitting import kept
+from physics.outline import kept
 from physics.shapes.outline import outline_of
 from scenes import SCENES
 

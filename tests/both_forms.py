@@ -14,9 +14,9 @@ from contextlib import contextmanager
 import numpy as np
 
 from physics.jit import compiling
-from physics.jit.calls import StageKernel
-from physics.jit.signatures import key_of
-from physics.jit.views import view_of
+from physics.jit.kernels import key_of
+from physics.jit.plain import view_of
+from physics.jit.tiers import StageKernel
 from physics.solver.lanes import LANES, SIZE, Blocks
 
 

@@ -13,7 +13,7 @@ import pytest
 from tests import slow
 
 # Its figures are oracles: without it what needs them is not collected.
-NEEDS_SHAPELY = ("import shapely", "from shapely", "from tests.fitting")
+NEEDS_SHAPELY = ("import shapely", "from shapely", "from tests.outline")
 if importlib.util.find_spec("shapely") is None:
     collect_ignore = [
         str(path)

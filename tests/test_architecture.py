@@ -27,7 +27,7 @@ GAME = (
     "errors", "startup", "places", "input", "files", "drawing", "audio", "invariants", "wishes", "scene",
     "overlays", "registry", "measure", "run", "report", "parts", "screens", "app", "command_line",
 )  # fmt: skip
-LIMIT = 400
+LIMIT = 800
 BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "base", "misc"}
 
 

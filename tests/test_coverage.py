@@ -21,9 +21,11 @@ def test_the_page_is_of_what_was_measured():
 
 def test_a_hole_is_named_and_a_line_that_any_run_met_is_none():
     files = copy.deepcopy(kept())
-    files["physics/vec2.py"]["missing"] = [[7, "x = 8"]]
-    assert coverage.unexplained(files) == ["physics/vec2.py:7: x = 8"] and "**nobody has said**" in coverage.page(files)
-    one = {"files": {"physics/vec2.py": {"executed_lines": [1, 3], "missing_lines": [5]}}}
-    other = {"files": {"physics/vec2.py": {"executed_lines": [5], "missing_lines": [1, 9]}}}
+    files["physics/math2d.py"]["missing"] = [[7, "x = 8"]]
+    assert coverage.unexplained(files) == ["physics/math2d.py:7: x = 8"] and "**nobody has said**" in coverage.page(
+        files
+    )
+    one = {"files": {"physics/math2d.py": {"executed_lines": [1, 3], "missing_lines": [5]}}}
+    other = {"files": {"physics/math2d.py": {"executed_lines": [5], "missing_lines": [1, 9]}}}
     (found,) = coverage.merged([one, other]).values()
     assert found["lines"] == 4 and [number for number, _ in found["missing"]] == [9]

@@ -10,7 +10,7 @@ from pkgutil import resolve_name
 
 import pytest
 
-from physics.jit import processes
+from physics.jit import workers
 from tests.installed_names import ROOT, layout_module, own_modules
 
 layout = layout_module()
@@ -306,13 +306,13 @@ def test_a_child_does_not_pick_up_what_lies_in_the_current_folder(staged):
 @pytest.mark.parametrize("installed", [False, True])
 def test_the_path_of_a_child(monkeypatch, tmp_path, given, installed):
     """The checkout first, then what the user names; site-packages is there by itself, after the standard library."""
-    monkeypatch.setattr(processes.site, "getsitepackages", lambda: [str(tmp_path)])
-    monkeypatch.setattr(processes, "IMPORTED_FROM", tmp_path.resolve() if installed else ROOT)
+    monkeypatch.setattr(workers.site, "getsitepackages", lambda: [str(tmp_path)])
+    monkeypatch.setattr(workers, "IMPORTED_FROM", tmp_path.resolve() if installed else ROOT)
     monkeypatch.delenv("PYTHONPATH", raising=False)
     if given is not None:
         monkeypatch.setenv("PYTHONPATH", given)
     wanted = {} if installed else {"PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, [given])])}
-    assert processes.search_path() == wanted
+    assert workers.search_path() == wanted
 
 
 def test_a_child_of_a_checkout_does_not_pick_up_what_lies_in_the_current_folder(tmp_path):

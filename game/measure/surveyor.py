@@ -26,7 +26,7 @@ from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.wishes import Lane, Lanes
 from physics import Fit, PixelMask, Snapshot
-from physics.jit.processes import end_all, start_module
+from physics.jit.workers import end_all, start_module
 
 
 class Surveyor:

@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from game.measure.pair_batch import PairBatch
 from game.measure.rates import Rate
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import TIERS, Fit, PixelMask, fit, measure
-from physics.queries.pair_batch import PairBatch
 
 POSES = 4000
 WANTED = 0.5  # of the poses are hits

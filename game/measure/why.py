@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from game.drawing.number_text import count_text, plain_name
+from game.measure.pair_batch import PairBatch
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import World
-from physics.collision.owners import by_owner
-from physics.queries.pair_batch import PairBatch
+from physics.collision.manifold import by_owner
 
 MICRO, NANO = 1e6, 1e9
 

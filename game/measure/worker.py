@@ -26,7 +26,7 @@ from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
 from game.wishes import STEPS, Act, Lane, Recipe
 from physics import PixelMask, Snapshot
-from physics.jit.processes import end_all, start_module
+from physics.jit.workers import end_all, start_module
 
 NICE = 19  # of the system's 0 to 19: whoever plays goes first
 

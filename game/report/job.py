@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from game.measure.rates import Rate
 from game.measure.timing import Cost
-from physics.jit.totals import measured as compiling
+from physics.jit.kernels import measured as compiling
 
 Row = dict[str, Any]
 COST = "cost"  # what the keys of times end in

@@ -12,7 +12,7 @@ from typing import Any
 from game import startup
 from game.errors import UsageError
 from game.report.job import Job, Row, run_job
-from physics.jit.processes import end_all, start_module
+from physics.jit.workers import end_all, start_module
 
 TRIES = 2
 PATIENCE = "10s"  # until a scheduler answers

@@ -19,9 +19,8 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
-from physics.staged_step import staged_step
-from physics.tables.counters import COUNTERS
-from physics.tables.step_state import Stage
+from physics.step import staged_step
+from physics.tables.step_state import COUNTERS, Stage
 
 TABLES = ("bodies", "shapes", "characters", "manifolds", "candidates")
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, overlaps, write_pair
 from physics.jit import kernel
-from physics.tables.counters import PAIRS_TESTED
+from physics.tables.step_state import PAIRS_TESTED
 
 
 @kernel

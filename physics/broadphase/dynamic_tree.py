@@ -12,13 +12,27 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs
-from physics.broadphase.tree_fours import NONE, SIZE, WIDTH, write_fours, write_stale
-from physics.broadphase.tree_nodes import FREE, NODE, ROOT_MOVING, insert_leaf, remove_leaf, take_node
-from physics.broadphase.tree_rebuild import rebuild
-from physics.broadphase.tree_search import find_in_fours, find_in_trees, near_in_fours, near_in_trees
+from physics.broadphase.tree_nodes import (
+    FREE,
+    NODE,
+    NONE,
+    ROOT_MOVING,
+    SIZE,
+    WIDTH,
+    find_in_fours,
+    find_in_trees,
+    insert_leaf,
+    near_in_fours,
+    near_in_trees,
+    rebuild,
+    remove_leaf,
+    take_node,
+    write_fours,
+    write_stale,
+)
 from physics.jit import kernel
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
-from physics.tables.counters import REINSERTS
+from physics.tables.step_state import REINSERTS
 
 REBUILD_FROM = 64  # changed proxies below which every leaf is moved by itself
 STACK = 256  # far above any height that fits in memory: with four boxes, three more for every other level

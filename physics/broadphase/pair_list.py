@@ -12,11 +12,9 @@ from physics.broadphase.proxies import (
     tell_rows,
     write_states,
 )
-from physics.shapes.filter import Filter
-from physics.tables.counters import CANDIDATES, COUNTERS
-from physics.tables.proxy import PROXY
-from physics.tables.shape import PART
-from physics.tables.step_state import StepState, stage
+from physics.shapes.values import Filter
+from physics.tables.shape import PART, PROXY
+from physics.tables.step_state import CANDIDATES, COUNTERS, StepState, stage
 
 SOLID, PIXEL, OUTLINE, SENSED, NOWHERE = 1, 2, 4, 8, 16
 EVERYTHING = 31

@@ -1,18 +1,468 @@
-"""A uniform grid in a hash table, with coarser grids above it for what outgrows a cell.
+"""SpatialHashGrid: a uniform grid in a hash table, with coarser grids above it for larger boxes."""
 
-A proxy sits in the level whose cells are at least as large as its box, so it touches at most four cells, whatever its
-size: a giant sits in one coarse cell and floods nothing. A box that spans more cells of a finer level than its
-outline is long walks the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2.
-O(cells touched + candidates). Suits many things of one size, moving or not.
-"""
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.cell_pairs import CHAINS, NEAR, find_in_cells, near_in_cells
-from physics.broadphase.cells import ENTRY, LEVELS, place_changed
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, overlaps, write_pair
+from physics.jit import kernel, subkernel
+from physics.tables.step_state import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
+
+# ---- cells -----------------------------------------------------------------------------------------------------------
+# The cells of a hashed hierarchy of grids: which of them a box touches, who is in them, who meets whom there.
+#
+# See spatial_hash.py for what a grid keeps, and the sources.
+
+LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
+CELL_RANGE = 1e9  # cells from the origin up to which coordinates are hashed exactly in 64 bits
+ENTRY = np.dtype(
+    [
+        ("lower_x", np.float64),
+        ("lower_y", np.float64),
+        ("upper_x", np.float64),
+        ("upper_y", np.float64),
+        ("cell_x", np.int64),
+        ("cell_y", np.int64),
+        ("next", np.int64),
+        ("level", np.int64),
+        ("bucket", np.int64),
+        ("previous", np.int64),
+    ],
+    align=True,
+)
+
+
+@subkernel
+def cell_of(coordinate, inverse_size):
+    """The cell a coordinate [px] lies in."""
+    return math.floor(coordinate * inverse_size)
+
+
+@subkernel
+def bucket_at(level, cell_x, cell_y, mask):
+    """The bucket of a cell. Products stay below 2^62 for cells within CELL_RANGE. Source: Teschner 2003."""
+    return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
+
+
+@subkernel
+def level_of(lower_x, lower_y, upper_x, upper_y, base):
+    """The finest level whose cells hold the box; LEVELS when none does or the box lies too far out."""
+    extent = max(upper_x - lower_x, upper_y - lower_y)
+    size = base
+    level = 0
+    while level < LEVELS and size < extent:
+        size *= 2.0
+        level += 1
+    reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
+    if not reach < CELL_RANGE * size:
+        return LEVELS
+    return level
+
+
+@subkernel
+def take_out(
+    # scalars
+    slot,
+    # write
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
+):
+    """Unlink a slot from its cells and from the list of its level. O(4)."""
+    level = levels_inout[slot]
+    if level < 0:
+        return
+    for k in range(4 * slot, 4 * slot + 4):
+        e = entries_inout[k]
+        if e.bucket >= 0:
+            work_inout[CELLS_TOUCHED] += 1
+            if e.previous >= 0:
+                entries_inout[e.previous].next = e.next
+            else:
+                heads_inout[e.bucket] = e.next
+            if e.next >= 0:
+                entries_inout[e.next].previous = e.previous
+            e.bucket = -1
+    before = lists_inout[slot, 0]
+    after = lists_inout[slot, 1]
+    if before >= 0:
+        lists_inout[before, 1] = after
+    else:
+        level_heads_inout[level] = after
+    if after >= 0:
+        lists_inout[after, 0] = before
+    level_counts_inout[level] -= 1
+    levels_inout[slot] = -1
+
+
+@subkernel
+def put_in(
+    # read
+    proxies,
+    # scalars
+    slot,
+    level,
+    base,
+    mask,
+    # write
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
+):
+    """Link a slot into the cells its box touches and into the list of its level. O(4)."""
+    p = proxies[slot]
+    levels_inout[slot] = level
+    lists_inout[slot, 0] = -1
+    lists_inout[slot, 1] = level_heads_inout[level]
+    if level_heads_inout[level] >= 0:
+        lists_inout[level_heads_inout[level], 0] = slot
+    level_heads_inout[level] = slot
+    level_counts_inout[level] += 1
+    if level == LEVELS:
+        return
+    inverse = 1.0 / (base * (1 << level))
+    k = 4 * slot
+    for cell_y in range(cell_of(p.lower_y, inverse), cell_of(p.upper_y, inverse) + 1):
+        for cell_x in range(cell_of(p.lower_x, inverse), cell_of(p.upper_x, inverse) + 1):
+            bucket = bucket_at(level, cell_x, cell_y, mask)
+            e = entries_inout[k]
+            e.lower_x = p.lower_x
+            e.lower_y = p.lower_y
+            e.upper_x = p.upper_x
+            e.upper_y = p.upper_y
+            e.level = level
+            e.cell_x = cell_x
+            e.cell_y = cell_y
+            e.bucket = bucket
+            e.previous = -1
+            e.next = heads_inout[bucket]
+            if e.next >= 0:
+                entries_inout[e.next].previous = k
+            heads_inout[bucket] = k
+            work_inout[CELLS_TOUCHED] += 1
+            k += 1
+
+
+@kernel
+def place_changed(
+    # read
+    proxies,
+    changed,
+    base,
+    # write
+    levels_inout,
+    heads_inout,
+    entries_inout,
+    lists_inout,
+    level_heads_inout,
+    level_counts_inout,
+    work_inout,
+):
+    """Move the changed proxies to the cells they touch now; those that stay in theirs are left alone.
+
+    changed: slots; levels_inout (slots) level or -1; heads_inout: first entry of each bucket; entries_inout four per
+    slot; lists_inout (slots, 2) previous and next of the level. Returns 1 when a box spans more than four cells,
+    which rounding alone cannot do, else 0. O(changed).
+    """
+    mask = len(heads_inout) - 1
+    for i in range(len(changed)):
+        slot = changed[i]
+        p = proxies[slot]
+        if p.row < 0:
+            take_out(
+                slot,
+                levels_inout,
+                heads_inout,
+                entries_inout,
+                lists_inout,
+                level_heads_inout,
+                level_counts_inout,
+                work_inout,
+            )
+            continue
+        level = level_of(p.lower_x, p.lower_y, p.upper_x, p.upper_y, base)
+        if level < LEVELS:
+            inverse = 1.0 / (base * (1 << level))
+            columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
+            rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
+            if columns > 2 or rows > 2:  # a box as wide as a cell, with both ends on borders
+                level += 1
+                inverse *= 0.5
+                columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
+                rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
+            if level == levels_inout[slot] and level < LEVELS:
+                first = entries_inout[4 * slot]
+                last = entries_inout[4 * slot + columns * rows - 1]
+                if (
+                    first.bucket >= 0
+                    and first.cell_x == cell_of(p.lower_x, inverse)
+                    and first.cell_y == cell_of(p.lower_y, inverse)
+                    and last.bucket >= 0
+                    and last.cell_x == cell_of(p.upper_x, inverse)
+                    and last.cell_y == cell_of(p.upper_y, inverse)
+                    and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)
+                ):
+                    for k in range(4 * slot, 4 * slot + columns * rows):
+                        e = entries_inout[k]
+                        e.lower_x = p.lower_x
+                        e.lower_y = p.lower_y
+                        e.upper_x = p.upper_x
+                        e.upper_y = p.upper_y
+                    continue
+        take_out(
+            slot,
+            levels_inout,
+            heads_inout,
+            entries_inout,
+            lists_inout,
+            level_heads_inout,
+            level_counts_inout,
+            work_inout,
+        )
+        put_in(
+            proxies,
+            slot,
+            level,
+            base,
+            mask,
+            levels_inout,
+            heads_inout,
+            entries_inout,
+            lists_inout,
+            level_heads_inout,
+            level_counts_inout,
+            work_inout,
+        )
+        work_inout[REINSERTS] += 1
+
+
+# ---- cell pairs ------------------------------------------------------------------------------------------------------
+# Who meets whom in the cells of a hashed hierarchy of grids: the pairs of what changed, and what a box may meet.
+
+CHAINS, NEAR = 8, 64  # cells whose lists are followed side by side; entries that are noted before they are looked at
+
+
+@subkernel
+def follow(entries, p, level, count, chains_inout, near_out):
+    """Follow the lists of some cells and note the entries whose boxes meet that of the PROXY row p, until they end or
+    there is no more room.
+
+    chains_inout (CHAINS, 3) int64: the next entry of each list, and its cell's column and row; near_out (NEAR,) int64.
+    Side by side, as each step waits for its memory; without a branch, as what the tests find is what no processor
+    predicts. Returns how many lists have not ended, how many entries are near, and how many were tested.
+    """
+    near = 0
+    tested = 0
+    while count > 0 and near + count <= NEAR:
+        left = 0
+        for i in range(count):
+            k = chains_inout[i, 0]
+            cell_x = chains_inout[i, 1]
+            cell_y = chains_inout[i, 2]
+            e = entries[k]  # its box stands in it: most tests read nothing else
+            near_out[near] = k
+            near += int(
+                (e.lower_x <= p.upper_x)
+                & (e.upper_x >= p.lower_x)
+                & (e.lower_y <= p.upper_y)
+                & (e.upper_y >= p.lower_y)
+                & (e.cell_x == cell_x)
+                & (e.cell_y == cell_y)
+                & (e.level == level)
+            )
+            chains_inout[left, 0] = e.next
+            chains_inout[left, 1] = cell_x
+            chains_inout[left, 2] = cell_y
+            left += int(e.next >= 0)
+        tested += count
+        count = left
+    return count, near, tested
+
+
+@kernel
+def find_in_cells(
+    # read
+    proxies,
+    changed,
+    base,
+    levels,
+    heads,
+    entries,
+    lists,
+    level_heads,
+    level_counts,
+    # write
+    chains_out,
+    near_out,
+    pairs_out,
+    work_inout,
+):
+    """List the pairs of which a side changed: per level through the cells its box touches, or through the level's list.
+
+    A pair that shares several cells is reported in the one that holds the lower corner of the shared rectangle.
+    Returns the number of pairs. O(cells + candidates); cells are at most in proportion to the outline of the box.
+    """
+    mask = len(heads) - 1
+    found = 0
+    tested = 0
+    for i in range(len(changed)):
+        a = changed[i]
+        p = proxies[a]
+        if p.row < 0:
+            continue
+        for level in range(LEVELS + 1):
+            if level_counts[level] == 0:
+                continue
+            by_list = level == LEVELS or levels[a] == LEVELS
+            first_x = 0
+            first_y = 0
+            last_x = -1
+            last_y = -1
+            inverse = 1.0
+            if not by_list:
+                inverse = 1.0 / (base * (1 << level))
+                if (p.upper_x - p.lower_x) * inverse + (p.upper_y - p.lower_y) * inverse > level_counts[level] + 4:
+                    by_list = True
+                else:
+                    first_x = cell_of(p.lower_x, inverse)
+                    last_x = cell_of(p.upper_x, inverse)
+                    first_y = cell_of(p.lower_y, inverse)
+                    last_y = cell_of(p.upper_y, inverse)
+                    columns = last_x - first_x + 1
+                    rows = last_y - first_y + 1
+                    by_list = columns * rows > 4 * (columns + rows)
+            if by_list:
+                b = level_heads[level]
+                while b >= 0:
+                    if b != a and not (proxies[b].changed and b < a) and overlaps(proxies, a, b, work_inout):
+                        found = write_pair(a, b, found, pairs_out)
+                    b = lists[b, 1]
+                continue
+            cell_x = first_x
+            cell_y = first_y
+            count = 0
+            while cell_y <= last_y or count > 0:
+                while cell_y <= last_y and count < CHAINS:
+                    work_inout[NODES_VISITED] += 1
+                    k = heads[bucket_at(level, cell_x, cell_y, mask)]
+                    chains_out[count, 0] = k
+                    chains_out[count, 1] = cell_x
+                    chains_out[count, 2] = cell_y
+                    count += int(k >= 0)
+                    cell_x += 1
+                    if cell_x > last_x:
+                        cell_x = first_x
+                        cell_y += 1
+                count, near, met = follow(entries, p, level, count, chains_out, near_out)
+                tested += met
+                for i in range(near):
+                    e = entries[near_out[i]]
+                    b = near_out[i] // 4
+                    if (
+                        b != a
+                        and not (b < a and proxies[b].changed)
+                        and cell_of(max(p.lower_x, e.lower_x), inverse) == e.cell_x
+                        and cell_of(max(p.lower_y, e.lower_y), inverse) == e.cell_y
+                        and may_meet(proxies, a, b, work_inout)
+                    ):
+                        found = write_pair(a, b, found, pairs_out)
+    work_inout[PAIRS_TESTED] += tested
+    return found
+
+
+@kernel
+def near_in_cells(
+    # read
+    base,
+    heads,
+    entries,
+    lists,
+    level_heads,
+    level_counts,
+    proxies,
+    lower_x,
+    lower_y,
+    upper_x,
+    upper_y,
+    # write
+    slots_out,
+    work_inout,
+):
+    """List the slots whose box meets a closed box [px], by the cells or the list of each level. Returns their number.
+
+    A slot that stands in several cells is taken from the one that holds the lower corner of the shared rectangle.
+    O(cells + boxes in them); cells are at most in proportion to the outline of the box.
+    """
+    mask = len(heads) - 1
+    reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
+    found = 0
+    for level in range(LEVELS + 1):
+        if level_counts[level] == 0:
+            continue
+        inverse = 1.0
+        by_list = level == LEVELS
+        if not by_list:
+            size = base * (1 << level)
+            inverse = 1.0 / (base * (1 << level))
+            by_list = (
+                not reach < CELL_RANGE * size
+                or (upper_x - lower_x) * inverse + (upper_y - lower_y) * inverse > level_counts[level] + 4
+            )
+        if not by_list:
+            columns = cell_of(upper_x, inverse) - cell_of(lower_x, inverse) + 1
+            rows = cell_of(upper_y, inverse) - cell_of(lower_y, inverse) + 1
+            by_list = columns * rows > level_counts[level] + 4
+        if by_list:
+            slot = level_heads[level]
+            while slot >= 0:
+                p = proxies[slot]
+                work_inout[PAIRS_TESTED] += 1
+                if p.lower_x <= upper_x and p.upper_x >= lower_x and p.lower_y <= upper_y and p.upper_y >= lower_y:
+                    slots_out[found] = slot
+                    found += 1
+                slot = lists[slot, 1]
+            continue
+        for cell_y in range(cell_of(lower_y, inverse), cell_of(upper_y, inverse) + 1):
+            for cell_x in range(cell_of(lower_x, inverse), cell_of(upper_x, inverse) + 1):
+                work_inout[NODES_VISITED] += 1
+                k = heads[bucket_at(level, cell_x, cell_y, mask)]
+                while k >= 0:
+                    e = entries[k]
+                    work_inout[PAIRS_TESTED] += 1
+                    if (
+                        e.level == level
+                        and e.cell_x == cell_x
+                        and e.cell_y == cell_y
+                        and e.lower_x <= upper_x
+                        and e.upper_x >= lower_x
+                        and e.lower_y <= upper_y
+                        and e.upper_y >= lower_y
+                        and cell_of(max(lower_x, e.lower_x), inverse) == cell_x
+                        and cell_of(max(lower_y, e.lower_y), inverse) == cell_y
+                    ):
+                        slots_out[found] = k // 4
+                        found += 1
+                    k = e.next
+    return found
+
+
+# ---- spatial hash ----------------------------------------------------------------------------------------------------
+# A uniform grid in a hash table, with coarser grids above it for what outgrows a cell.
+#
+# A proxy sits in the level whose cells are at least as large as its box, so it touches at most four cells, whatever its
+# size: a giant sits in one coarse cell and floods nothing. A box that spans more cells of a finer level than its
+# outline is long walks the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2.
+# O(cells touched + candidates). Suits many things of one size, moving or not.
 
 CELL_OF_MEDIAN = 2.0  # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
 SMALLEST_CELL = 2.0**-1000  # its inverse is still finite

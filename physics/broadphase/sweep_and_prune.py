@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
 from physics.jit import kernel
-from physics.tables.counters import NODES_VISITED, PAIRS_TESTED, SWAPS
+from physics.tables.step_state import NODES_VISITED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0  # the other axis must vary this much more before the order is sorted anew
 AXIS_INTERVAL = 32  # updates between two looks at how the bodies are spread

@@ -1,22 +1,15 @@
-"""The sweep of a hull that moves and turns about its centre of mass: one rule for whatever it may meet.
-
-Nothing is gone into deeper than the mover stands in it already, and a slop more: then it is put back to where it was no
-deeper than at the start. So what rests or slides is never held, no seam between two pieces of ground is felt (a piece
-that lies flush is no deeper under the mover than the whole), and what breaks through is stopped, wherever it was at
-the start. What stands so deep that its core, a quarter of its smallest half extent about its centre of mass, would
-go in too, has this core swept instead: a centre never gets across (Box2D v3's core circle). One-sided ground is met
-only while the mover is in front of it.
-"""
+"""Rotational continuous collision: a hull that moves and turns, against hulls, tiles, chains and parts."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from physics.ccd.advance import (
+from physics.ccd.time_of_impact import (
     ANGLE,
     CENTER_X,
     CENTER_Y,
+    MISS,
     MOVE_X,
     MOVE_Y,
     TOLERANCE,
@@ -26,15 +19,31 @@ from physics.ccd.advance import (
     advance,
     approach_at,
     new_advance_workspace,
+    place_at,
     reach_of,
     separate_at,
 )
-from physics.ccd.closed_form import MISS
-from physics.jit import subkernel
+from physics.collision.chains import lies_across
+from physics.collision.hulls import ALL_EDGES, part_feature
+from physics.collision.tiles import tile_at
+from physics.distance.gjk import FIRST_A, FIRST_B, NX, NY, copy_part
+from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned
-from physics.proximity.gjk import FIRST_A, FIRST_B, NX, NY
-from physics.shapes.placement import hull_at
-from physics.tables.shape import BOUNDS
+from physics.shapes.placement import hull_at, is_hull, rounding
+from physics.tables.body import DYNAMIC, RAY
+from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
+from physics.tables.shape import BOUNDS, CHAIN, PART, TILES
+from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
+
+# ---- rotational ------------------------------------------------------------------------------------------------------
+# The sweep of a hull that moves and turns about its centre of mass: one rule for whatever it may meet.
+#
+# Nothing is gone into deeper than the mover stands in it already, and a slop more: then it is put back to where it was
+# no deeper than at the start. So what rests or slides is never held, no seam between two pieces of ground is felt (a
+# piece that lies flush is no deeper under the mover than the whole), and what breaks through is stopped, wherever it
+# was at the start. What stands so deep that its core, a quarter of its smallest half extent about its centre of mass,
+# would go in too, has this core swept instead: a centre never gets across (Box2D v3's core circle). One-sided ground is
+# met only while the mover is in front of it.
 
 BEFORE = 2.0**-20  # of the way
 BACKWARDS = 6  # rounds of Newton's method: two or three do
@@ -174,3 +183,519 @@ def swept_box(reach, motion_a, motion_b):
     dx = motion_a[MOVE_X] - motion_b[MOVE_X]
     dy = motion_a[MOVE_Y] - motion_b[MOVE_Y]
     return (x + min(0.0, dx) - reach, y + min(0.0, dy) - reach, x + max(0.0, dx) + reach, y + max(0.0, dy) + reach)
+
+
+# ---- rotational ground -----------------------------------------------------------------------------------------------
+# The sweep of a hull against tiles and chains: piece by piece, all by the rule of rotational.py.
+
+
+@subkernel
+def feet_of(count, radius, local_y, workspace):
+    """How far down [px] the mover reaches before it moves, seen from the origin of a grid."""
+    motion = workspace.advance.motion_a
+    cosine = math.cos(motion[ANGLE])
+    sine = math.sin(motion[ANGLE])
+    feet = -math.inf
+    for k in range(count):
+        u, v = turned(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
+        feet = max(feet, v + radius)
+    return feet + motion[CENTER_Y] - workspace.advance.motion_b[CENTER_Y] + local_y
+
+
+@subkernel
+def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace):
+    """Write what of a tile stops the mover to workspace.advance.local_b. Returns its number of corners, 0: nothing.
+
+    Of a tile that is open from below it is its top, for a mover whose feet are no lower than `stood` [px].
+    """
+    g = geometry.grids[grid]
+    kind = geometry.cells[g.offset + line * g.columns + column].kind
+    if kind == EMPTY or (kind == ONE_WAY and stood > line * g.tile_size):
+        return 0
+    corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, workspace.advance.local_b)
+    if kind == ONE_WAY:
+        return 2
+    return 0 if edges == ALL_EDGES else corners  # covered all round: nothing gets there first
+
+
+@subkernel
+def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, but, workspace):
+    """(fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
+
+    O(cells in it). local_x, local_y [px]: the grid's centre of mass in its body space; a grid does not turn. half,
+    slack: see sweep_part; one_way: whether tiles open from below take part; they stop what falls from above them; but:
+    the feature that does not count, or -1.
+    """
+    g = geometry.grids[grid]
+    size = g.tile_size
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    left, top, right, bottom = swept_box(reach, motion, other)
+    falls = one_way and motion[MOVE_Y] > other[MOVE_Y]
+    stood = feet_of(count, radius, local_y, workspace) - slack if falls else math.inf
+    first_row = max(0, math.ceil((top + local_y) / size) - 1)
+    last_row = min(g.rows - 1, math.floor((bottom + local_y) / size))
+    first_column = max(0, math.ceil((left + local_x) / size) - 1)
+    last_column = min(g.columns - 1, math.floor((right + local_x) / size))
+    x = motion[CENTER_X] - other[CENTER_X] + local_x
+    y = motion[CENTER_Y] - other[CENTER_Y] + local_y
+    high_row = min(last_row, math.floor((y + reach) / size))
+    low = max(first_column, math.floor((x - reach) / size))
+    high = min(last_column, math.floor((x + reach) / size))
+    depth = 0.0
+    for line in range(max(first_row, math.floor((y - reach) / size)), high_row + 1):
+        for column in range(low, high + 1):
+            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            if corners > 0:
+                depth = max(depth, depth_at_start(count, radius, corners, 0.0, workspace))
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    feature = -1
+    for line in range(first_row, last_row + 1):
+        for column in range(first_column, last_column + 1):
+            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            if corners == 0:
+                continue
+            first = geometry.cells[g.offset + line * g.columns + column].first
+            part = part_feature(line * g.columns + first, 0)
+            if part == but:
+                continue
+            fraction, core = sweep_part(count, radius, corners, 0.0, half, depth, slack, workspace)
+            if fraction < best:
+                best = fraction
+                best_x = -workspace.advance.gap.gap[NX]
+                best_y = -workspace.advance.gap.gap[NY]
+                feature = part
+    return best, best_x, best_y, feature
+
+
+@subkernel
+def place_link(link, local_x, local_y, workspace):
+    """Write the ends of a link to workspace.advance.local_b."""
+    workspace.advance.local_b[0, 0] = link.ax - local_x
+    workspace.advance.local_b[0, 1] = link.ay - local_y
+    workspace.advance.local_b[1, 0] = link.bx - local_x
+    workspace.advance.local_b[1, 1] = link.by - local_y
+
+
+@subkernel
+def ahead_of(ax, ay, bx, by, u, v):
+    """How far a point is in front of the line from a to b, times its length."""
+    return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
+
+
+@subkernel
+def middle_of(count, corners):
+    """The middle of so many corners [px]."""
+    x = 0.0
+    y = 0.0
+    for k in range(count):
+        x += corners[k, 0] / count
+        y += corners[k, 1] / count
+    return x, y
+
+
+@subkernel
+def is_before(link, local_x, local_y, middle, fraction, core, workspace):
+    """Whether the mover's middle [px from its centre of mass], or its centre of mass, is in front of a link at a
+    fraction of both motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well.
+    """
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    middle_x = 0.0
+    middle_y = 0.0
+    if not core:
+        angle = motion[ANGLE] + fraction * motion[TURN]
+        middle_x, middle_y = turned(middle[0], middle[1], math.cos(angle), math.sin(angle))
+    angle = other[ANGLE] + fraction * other[TURN]
+    x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
+    y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
+    u, v = turned(x, y, math.cos(angle), -math.sin(angle))
+    u += local_x
+    v += local_y
+    if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
+        return False
+    tx = link.bx - link.ax
+    ty = link.by - link.ay
+    if link.has_after and tx * (u - link.bx) + ty * (v - link.by) > 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.after_x, link.after_y) > 0.0:
+            return ahead_of(link.bx, link.by, link.after_x, link.after_y, u, v) >= 0.0
+    if link.has_before and tx * (u - link.ax) + ty * (v - link.ay) < 0.0:
+        if ahead_of(link.ax, link.ay, link.bx, link.by, link.before_x, link.before_y) > 0.0:
+            return ahead_of(link.before_x, link.before_y, link.ax, link.ay, u, v) >= 0.0
+    return True
+
+
+@subkernel
+def misses_block(box, local_x, local_y, left, top, right, bottom):
+    """Whether the links of a block lie beside a box [px], seen from the chain's own moving point."""
+    return (
+        box.min_x - local_x > right
+        or box.max_x - local_x < left
+        or box.min_y - local_y > bottom
+        or box.max_y - local_y < top
+    )
+
+
+@subkernel
+def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace):
+    """How deep [px] the mover stands in the links that its middle is in front of, before it moves."""
+    span = geometry.chains[chain]
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    x, y = turned(
+        motion[CENTER_X] - other[CENTER_X],
+        motion[CENTER_Y] - other[CENTER_Y],
+        math.cos(other[ANGLE]),
+        -math.sin(other[ANGLE]),
+    )
+    depth = 0.0
+    for block in range(span.blocks):
+        box = geometry.link_blocks[span.first_block + block]
+        if misses_block(box, local_x, local_y, x - reach, y - reach, x + reach, y + reach):
+            continue
+        first = span.offset + block * BLOCK_LINKS
+        for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
+            link = geometry.links[k]
+            place_link(link, local_x, local_y, workspace)
+            if is_before(link, local_x, local_y, middle, 0.0, False, workspace):
+                depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
+    return depth
+
+
+@subkernel
+def starts_across(geometry, chain, local_x, local_y, count, radius, slack, workspace):
+    """Whether the mover lies deeper than slack [px] across a surface before it moves, so that it passes."""
+    motion = workspace.advance.motion_a
+    other = workspace.advance.motion_b
+    u, v = turned(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
+    place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
+    return lies_across(
+        geometry,
+        chain,
+        other[CENTER_X] - motion[CENTER_X] - u,
+        other[CENTER_Y] - motion[CENTER_Y] - v,
+        other[ANGLE],
+        workspace.advance.a,
+        count,
+        radius,
+        slack,
+        workspace.advance.b,
+    )
+
+
+@subkernel
+def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, but, workspace):
+    """(fraction or MISS, normal from the chain, feature) of the mover against the links of a chain within reach, from
+    their front. half, slack: see sweep_part; but: the feature that does not count, or -1. O(links near the way)."""
+    middle = middle_of(count, workspace.mover)
+    return sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace)
+
+
+@subkernel
+def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace):
+    """As sweep_chain, of a mover that is a piece of something: the middle of the whole, (x, y) [px] from its centre of
+    mass at angle 0, decides which links it is in front of."""
+    span = geometry.chains[chain]
+    other = workspace.advance.motion_b
+    reach = reach_of(workspace.mover, count) + radius
+    turns = other[ANGLE] != 0.0 or other[TURN] != 0.0
+    left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, other)
+    depth = depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace)
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    feature = -1
+    for block in range(span.blocks):
+        box = geometry.link_blocks[span.first_block + block]
+        if not turns and misses_block(box, local_x, local_y, left, top, right, bottom):
+            continue
+        first = span.offset + block * BLOCK_LINKS
+        for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
+            part = part_feature(k - span.offset, 0)
+            if part == but:
+                continue
+            link = geometry.links[k]
+            place_link(link, local_x, local_y, workspace)
+            fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
+            # The point of a ray is on the link when it meets it: what counts is where it comes from.
+            when = 0.0 if count == 1 and radius == 0.0 else fraction
+            if fraction < best and is_before(link, local_x, local_y, middle, when, core, workspace):
+                best = fraction
+                best_x = -workspace.advance.gap.gap[NX]
+                best_y = -workspace.advance.gap.gap[NY]
+                feature = part
+    return best, best_x, best_y, feature
+
+
+# ---- rotational pairs ------------------------------------------------------------------------------------------------
+# Rotational continuous collision of one shape with any other, along the paths of their bodies.
+
+
+@subkernel
+def shrink_to_middle(count, mover_inout):
+    """Leave of a hull the middle of its corners: what is swept as a ray. Returns 1, the number of corners left."""
+    x = 0.0
+    y = 0.0
+    for k in range(count):
+        x += mover_inout[k, 0] / count
+        y += mover_inout[k, 1] / count
+    mover_inout[0, 0] = x
+    mover_inout[0, 1] = y
+    return 1
+
+
+@subkernel
+def sweep_hull(count, radius, half, core_b, n, radius_b, slack, workspace):
+    """(fraction or MISS, normal from the other) of the mover against the hull in workspace.advance.local_b.
+
+    core_b [px]: radius of the other's core, 0: it has none.
+    """
+    depth = depth_at_start(count, radius, n, radius_b, workspace)
+    fraction, core = sweep_part(count, radius, n, radius_b, half, depth, slack, workspace)
+    if core and fraction > 1.0 and core_b > 0.0:
+        # Deep in each other: at least their cores do not change places.
+        workspace.advance.local_b[0, 0] = 0.0
+        workspace.advance.local_b[0, 1] = 0.0
+        fraction = sweep_core(CORE * half, 1, core_b, workspace)
+    return fraction, -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY]
+
+
+@subkernel
+def stands_deep(geometry, bodies, shapes, motions, row, other, slack, workspace):
+    """Whether a hull stands deeper than slack [px] in another before both go their ways: see sweep_rotational."""
+    write_motion(motions, shapes[row].body_row, workspace.advance.motion_a)
+    write_motion(motions, shapes[other].body_row, workspace.advance.motion_b)
+    count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
+    n = write_local(geometry, bodies, shapes, other, workspace.advance.motion_b, workspace.advance.local_b)
+    return depth_at_start(count, rounding(shapes, row), n, rounding(shapes, other), workspace) > slack
+
+
+@subkernel
+def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, but, workspace, work_inout):
+    """Shape `row` against shape `other`, both on their way through a step:
+    (fraction or MISS, normal from other to row, feature: which tiles or link, -1 of a hull).
+
+    motions (bodies, 6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step.
+    row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: see sweep_part;
+    one_way: whether what is open from below takes part; but: the feature, of tiles or links, that does not count, or -1
+    """
+    s = shapes[row]
+    o = shapes[other]
+    if not is_hull(s.kind) or not (is_hull(o.kind) or o.kind == TILES or o.kind == CHAIN):
+        return MISS, 0.0, -1.0, -1
+    work_inout[TOI_CALLS] += 1
+    a = bodies[s.body_row]
+    b = bodies[o.body_row]
+    half = a.smallest_half
+    radius = rounding(shapes, row)
+    write_motion(motions, s.body_row, workspace.advance.motion_a)
+    write_motion(motions, o.body_row, workspace.advance.motion_b)
+    count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
+    if a.continuous == RAY:
+        count = shrink_to_middle(count, workspace.mover)
+        radius = 0.0
+        half = 0.0
+    workspace.advance.totals[0] = 0.0
+    workspace.advance.totals[1] = 0.0
+    if o.kind == TILES:
+        fraction, nx, ny, feature = sweep_tiles(
+            geometry,
+            o.geometry,
+            b.local_center_x,
+            b.local_center_y,
+            count,
+            radius,
+            half,
+            slack,
+            one_way,
+            but,
+            workspace,
+        )
+    elif (
+        o.role == PART
+        and o.kind == CHAIN
+        and (
+            not one_way
+            or starts_across(geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, slack, workspace)
+        )
+    ):
+        return MISS, 0.0, -1.0, -1
+    elif o.kind == CHAIN:
+        fraction, nx, ny, feature = sweep_chain(
+            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, but, workspace
+        )
+    else:
+        feature = -1
+        n = write_local(geometry, bodies, shapes, other, workspace.advance.motion_b, workspace.advance.local_b)
+        core_b = CORE * b.smallest_half if b.kind == DYNAMIC else 0.0
+        fraction, nx, ny = sweep_hull(count, radius, half, core_b, n, rounding(shapes, other), slack, workspace)
+    work_inout[GJK_ITERATIONS] += int(workspace.advance.totals[0])
+    work_inout[CAP_HITS] += int(workspace.advance.totals[1])
+    return fraction, nx, ny, feature
+
+
+# ---- parts -----------------------------------------------------------------------------------------------------------
+# The first impact of shapes made of parts, on their way between two poses.
+
+
+@subkernel
+def begin_sweep(motion_a, motion_b, workspace, impact_out):
+    """Take in two motions, with nothing met yet. Returns the way of the one as seen from the other [px]."""
+    r = workspace.advance
+    for k in range(6):
+        r.motion_a[k] = motion_a[k]
+        r.motion_b[k] = motion_b[k]
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
+    impact_out[0] = MISS
+    impact_out[1] = 1.0
+    impact_out[2] = 0.0
+    return length_of(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
+
+
+@subkernel
+def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
+    """At least so far [px] are the hulls in local_a and local_b apart before they move; below 0 they may touch."""
+    r = workspace.advance
+    place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
+    place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
+    spread = 0.0
+    for k in range(1, a_count):
+        spread = max(spread, length_of(r.a[k, 0] - r.a[0, 0], r.a[k, 1] - r.a[0, 1]))
+    wide = 0.0
+    for k in range(1, b_count):
+        wide = max(wide, length_of(r.b[k, 0] - r.b[0, 0], r.b[k, 1] - r.b[0, 1]))
+    return length_of(r.b[0, 0] - r.a[0, 0], r.b[0, 1] - r.a[0, 1]) - spread - wide - a_radius - b_radius
+
+
+@kernel
+def advance_parts(
+    # read
+    a,
+    b,
+    motion_a,
+    motion_b,
+    # write
+    workspace,
+    impact_out,
+    totals_out,
+):
+    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with one of B to impact_out (3,).
+
+    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceWorkspace; workspace: RotationalWorkspace;
+    totals_out (2,): rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are
+    skipped. O(parts of A · parts of B).
+    """
+    r = workspace.advance
+    path = begin_sweep(motion_a, motion_b, workspace, impact_out)
+    for i in range(len(a.counts)):
+        copy_part(a.corners, i, a.counts[i], r.local_a)
+        reach_a = reach_of(r.local_a, a.counts[i])
+        for j in range(len(b.counts)):
+            copy_part(b.corners, j, b.counts[j], r.local_b)
+            apart = gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace)
+            travel = path + abs(motion_a[TURN]) * reach_a + abs(motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
+            if apart > travel * min(1.0, impact_out[0]):
+                continue
+            fraction = advance(a.counts[i], a.radii[i], b.counts[j], b.radii[j], r)
+            if fraction < impact_out[0]:
+                impact_out[0] = fraction
+                impact_out[1] = r.gap.gap[NX]
+                impact_out[2] = r.gap.gap[NY]
+    totals_out[0] = r.totals[0]
+    totals_out[1] = r.totals[1]
+
+
+@kernel
+def sweep_unions(
+    # read
+    a,
+    b,
+    motion_a,
+    motion_b,
+    # write
+    workspace,
+    impact_out,
+    totals_out,
+):
+    """As advance_parts, for shapes that are the union of their parts, which may lie flush: masks.
+
+    By the rule of rotational.py: what gets no deeper than the two stand in each other at the start meets nothing, so no
+    seam between two parts is felt, and what only grazes is not met. O(parts of A · parts of B).
+    """
+    r = workspace.advance
+    path = begin_sweep(motion_a, motion_b, workspace, impact_out)
+    depth = 0.0
+    for i in range(len(a.counts)):
+        copy_part(a.corners, i, a.counts[i], r.local_a)
+        copy_part(a.corners, i, a.counts[i], workspace.mover)
+        for j in range(len(b.counts)):
+            copy_part(b.corners, j, b.counts[j], r.local_b)
+            if gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace) <= 0.0:
+                depth = max(depth, depth_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace))
+    for i in range(len(a.counts)):
+        copy_part(a.corners, i, a.counts[i], workspace.mover)
+        reach_a = place_mover(a.counts[i], workspace)
+        for j in range(len(b.counts)):
+            place_mover(a.counts[i], workspace)
+            copy_part(b.corners, j, b.counts[j], r.local_b)
+            apart = gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace)
+            travel = path + abs(motion_a[TURN]) * reach_a + abs(motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
+            if apart > travel * min(1.0, impact_out[0]):
+                continue
+            fraction, _ = sweep_part(a.counts[i], a.radii[i], b.counts[j], b.radii[j], 0.0, depth, 0.0, workspace)
+            if fraction < impact_out[0]:
+                impact_out[0] = fraction
+                impact_out[1] = r.gap.gap[NX]
+                impact_out[2] = r.gap.gap[NY]
+    totals_out[0] = r.totals[0]
+    totals_out[1] = r.totals[1]
+
+
+@kernel
+def advance_on_ground(
+    # read
+    geometry,
+    ground,
+    is_chain,
+    a,
+    motion_a,
+    motion_b,
+    # write
+    workspace,
+    impact_out,
+    totals_out,
+):
+    """As advance_parts, against tiles (is_chain 0), through no covered side, or a chain (1), from its front.
+
+    ground: row of the grid or chain.
+    """
+    r = workspace.advance
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
+    impact_out[0] = MISS
+    impact_out[1] = 1.0
+    impact_out[2] = 0.0
+    for i in range(len(a.counts)):
+        for k in range(6):
+            r.motion_a[k] = motion_a[k]
+            r.motion_b[k] = motion_b[k]
+        copy_part(a.corners, i, a.counts[i], workspace.mover)
+        if is_chain == 1:
+            fraction, nx, ny, _ = sweep_chain(
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radii[i], 0.0, 0.0, -1, workspace
+            )
+        else:
+            fraction, nx, ny, _ = sweep_tiles(
+                geometry, ground, 0.0, 0.0, a.counts[i], a.radii[i], 0.0, 0.0, True, -1, workspace
+            )
+        if fraction < impact_out[0]:
+            impact_out[0] = fraction
+            impact_out[1] = -nx
+            impact_out[2] = -ny
+    totals_out[0] = r.totals[0]
+    totals_out[1] = r.totals[1]

@@ -1,30 +1,124 @@
-"""The stages that stop fast bodies at what they meet on their way.
+"""The stages of continuous collision: fast bodies stop at what they meet on their way."""
 
-Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the
-solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it first
-met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
-"""
+import math
 
 import numpy as np
 
-from physics.ccd.impacts import find_rotational_impacts, move_back, write_impacts
-from physics.ccd.linear import find_impacts, stop_at_impacts
-from physics.ccd.paths import find_fast, find_outgrown, foresee_paths, list_paths
-from physics.ccd.pixels import NO_SQUARES, find_shared_areas, squares_of
-from physics.ccd.push_ahead import push_ahead
-from physics.ccd.rotational import new_rotational_workspace
-from physics.collision.anchors import anchors_of
-from physics.collision.approach import measure_approach
-from physics.collision.detect import detect, touch_where_they_are
+from physics.ccd.impacts import (
+    cut_path,
+    find_fast,
+    find_outgrown,
+    find_rotational_impacts,
+    foresee_paths,
+    list_paths,
+    move_back,
+    write_impacts,
+)
+from physics.ccd.mask_sweep import NO_SQUARES, find_shared_areas, squares_of
+from physics.ccd.rotational import BEFORE, new_rotational_workspace, sweep_rotational
+from physics.ccd.time_of_impact import find_impacts, stop_at_impacts
+from physics.collision.cache import anchors_of
+from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import new_workspace
+from physics.collision.narrow_phase import detect, touch_where_they_are
 from physics.dynamics.integrate import place_shapes, shift_bodies
-from physics.dynamics.sleepers import in_order, order_of
+from physics.islands.sleep import in_order, order_of
+from physics.jit import kernel
+from physics.math2d import turned
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
-from physics.tables.counters import CAP_HITS
-from physics.tables.manifold import MANIFOLD
-from physics.tables.rows import joined
-from physics.tables.shape import MASK
-from physics.tables.step_state import StepState, stage
+from physics.tables.body import DYNAMIC, KINEMATIC
+from physics.tables.contact import MANIFOLD
+from physics.tables.shape import CHAIN, MASK, TILES
+from physics.tables.step_state import CAP_HITS, StepState, stage
+from physics.tables.table import joined
+
+# ---- push ahead ------------------------------------------------------------------------------------------------------
+# What kinematic bodies run into stays in front of them for the rest of the step.
+#
+# A body that was stopped on its way waits there for the next step; what moves by its script does not wait. So the rest
+# of the step is swept once more, piece by piece: wherever the scripted surface would go into the body, it takes it
+# along.
+
+MEETINGS = 2  # parts of one pusher that are looked at in a round: the two sides of a corner
+
+
+@kernel
+def push_ahead(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    slack,
+    one_way,
+    paths,
+    # write
+    cuts_out,
+    workspace,
+    moves_inout,
+    work_inout,
+):
+    """Lengthen the moves of stopped bodies so that nothing kinematic goes into them until the end of the step.
+
+    paths (bodies, 6) from list_paths; slack [px]: see rotational.sweep_part; moves_inout (bodies, 2) [px]: how far each
+    is taken along from where it was stopped, in its body's fraction of the step. Returns how many pushes were added: as
+    each takes a body along a line, a corner needs two and the next look at it finds none. O(candidates).
+    """
+    found = 0
+    for i in range(count):
+        for side in range(2):
+            mover = candidates[i, side]
+            other = candidates[i, 1 - side]
+            row = shapes[mover].body_row
+            pusher = shapes[other].body_row
+            b = bodies[row]
+            if b.kind != DYNAMIC or bodies[pusher].kind != KINEMATIC or not b.fraction < 1.0:
+                continue
+            kind = shapes[mover].kind
+            if kind == TILES or kind == CHAIN or kind == MASK or shapes[mover].sensor or shapes[other].sensor:
+                continue
+            cut_path(paths, pusher, b.fraction, 1.0, cuts_out)
+            for k in range(0, 6, 3):
+                share = 0.0 if k == 0 else 1.0
+                cuts_out[row, k] = b.center_x + share * moves_inout[row, 0]
+                cuts_out[row, k + 1] = b.center_y + share * moves_inout[row, 1]
+                cuts_out[row, k + 2] = b.angle
+            but = -1
+            for _ in range(MEETINGS):
+                fraction, nx, ny, feature = sweep_rotational(
+                    geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, but, workspace, work_inout
+                )
+                if fraction >= 1.0:
+                    break
+                # Where the point of the pusher that is now at the body's centre of mass will be, beyond its own move.
+                left = 1.0 - fraction
+                x = cuts_out[row, 0] + fraction * moves_inout[row, 0]
+                y = cuts_out[row, 1] + fraction * moves_inout[row, 1]
+                u = x - (cuts_out[pusher, 3] - left * (cuts_out[pusher, 3] - cuts_out[pusher, 0]))
+                v = y - (cuts_out[pusher, 4] - left * (cuts_out[pusher, 4] - cuts_out[pusher, 1]))
+                turn = left * (cuts_out[pusher, 5] - cuts_out[pusher, 2])
+                w, z = turned(u, v, math.cos(turn), math.sin(turn))
+                dx = cuts_out[pusher, 3] + w - x - left * moves_inout[row, 0]
+                dy = cuts_out[pusher, 4] + z - y - left * moves_inout[row, 1]
+                ahead = nx * dx + ny * dy
+                if ahead > BEFORE * slack:
+                    moves_inout[row, 0] += ahead * nx
+                    moves_inout[row, 1] += ahead * ny
+                    found += 1
+                    break
+                if feature < 0:
+                    break
+                but = feature  # what pushes no further hides what is met after it: the other side of a corner
+    return found
+
+
+# ---- sweep -----------------------------------------------------------------------------------------------------------
+# The stages that stop fast bodies at what they meet on their way.
+#
+# Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the
+# solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it
+# first met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
 
 SAME_FRACTION = 1e-9  # of a step
 NO_IMPACTS, NO_ROWS = np.zeros((0, 8)), np.zeros(0, np.int64)

@@ -1,29 +1,357 @@
-"""Moving solids carry the characters that ride them and push those in their way, one axis after the other.
-
-A character that cannot give way is squeezed: it stays, overlapping, and its next `move` says so. Source: Thorson,
-Celeste and TowerFall Physics, 2018.
-"""
+"""Moving solids carry the characters that ride them, and push those in their way."""
 
 import math
 
 import numpy as np
 
-from physics.character.ground import FREE
-from physics.character.meet import box_corners, meet_hull, place_outline
-from physics.character.near import near_characters
-from physics.character.push import press, tell_weight
-from physics.character.ride import give_way, note_feet, ride_bodies, take_back
-from physics.character.shift import carried_by, carry_riders, shift
-from physics.character.solids import aabb_of, in_shape, is_box, is_loose, round_half_up
-from physics.character.workspace import character_of, find_own_rows, walk_for
-from physics.collision.clipping import ALL_EDGES
-from physics.dynamics.sleep import disturb
+from physics.character.solids import (
+    FEET,
+    FREE,
+    GIVE,
+    aabb_of,
+    blocked_at,
+    box_corners,
+    character_of,
+    find_own_rows,
+    gather,
+    in_shape,
+    is_box,
+    is_loose,
+    is_walkable,
+    meet_hull,
+    place_body,
+    place_outline,
+    round_half_up,
+    settle,
+    walk_for,
+)
+from physics.character.walk import depth_in, drop_onto, foot_of, is_crushed, press, tell_weight, way_aside, whole_pixels
+from physics.collision.hulls import ALL_EDGES
+from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
+from physics.math2d import turned
 from physics.shapes.placement import aabb_at, refresh_aabbs
-from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.rows import rows_of
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.shape import PIXELS
 from physics.tables.step_state import StepState, stage
+from physics.tables.table import row_of, rows_of
+
+# ---- near ------------------------------------------------------------------------------------------------------------
+# What may carry, push or stop each character in a step: what is near those that something may have stirred.
+
+
+@subkernel
+def motion_of(b):
+    """How far [px] any point of a body was moved by the step, at most."""
+    turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
+    return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
+
+
+@kernel
+def find_stirred(
+    # read
+    bodies,
+    shapes,
+    characters,
+    pairs,
+    count,
+    # write
+    stirred_out,
+):
+    """Flag the characters that ride something, or stand on a belt, or that something which is not static may have met.
+
+    pairs (count, 2): shape rows out of the broad phase; stirred_out (characters,). Returns how far [px] any point of
+    what is ridden or may have been met was moved by the step. O(pairs · log characters).
+    """
+    most = 0.0
+    for me in range(len(characters)):
+        c = characters[me]
+        stirred_out[me] = c.riding >= 0 or c.belt != 0.0
+        row = row_of(bodies, c.riding) if c.riding >= 0 else -1
+        if row >= 0:
+            most = max(most, motion_of(bodies[row]))
+    for k in range(count):
+        for side in range(2):
+            me = character_of(characters, shapes[pairs[k, side]].body)
+            b = bodies[shapes[pairs[k, 1 - side]].body_row]
+            if me >= 0 and b.kind != STATIC:
+                stirred_out[me] = True
+                most = max(most, motion_of(b))
+    return most
+
+
+def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
+    """(near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
+    rows, pairs = state.characters, state.pairs.rows
+    stirred = np.zeros(len(rows), bool)
+    motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), stirred)
+    near, spans, start = [], np.zeros((len(rows), 2), np.int64), 0
+    for me in np.flatnonzero(stirred).tolist():
+        if not near:
+            state.queries.begin(state)
+        row = rows[me]
+        # Carried as far as anything moved, or pressed out of it; up and down a slope on the way.
+        reach = 2.0 * motion + abs(float(row["belt"])) * state.dt + 8.0
+        climb = reach * float(row["climb"])
+        left, top = float(row["left"]), float(row["top"])
+        right, bottom = left + float(row["width"]), top + float(row["height"])
+        found = state.queries.rows_in(
+            state, (left - reach, top - reach - climb), (right + reach, bottom + reach + climb)
+        )
+        near.append(found)
+        spans[me] = start, len(found)
+        start += len(found)
+    return np.concatenate(near) if near else np.zeros(0, np.int64), spans
+
+
+# ---- shift -----------------------------------------------------------------------------------------------------------
+# A character that something else moves: shifted pixel by pixel, as far as nothing keeps it.
+
+
+@subkernel
+def shift_aside(me, without, pixels, walk_inout, rows_out):
+    """Move a character along x by up to so many pixels. Returns those that something kept it from moving."""
+    c = walk_inout.characters[me]
+    reach = 2.0 + abs(pixels)
+    along_slope = c.climb * abs(pixels)
+    gather(walk_inout, me, without, reach, reach + along_slope, reach + along_slope, rows_out)
+    direction = 1 if pixels > 0 else -1
+    for done in range(abs(pixels)):
+        what, by, slope = blocked_at(walk_inout, me, rows_out, c.left + direction, c.top, direction, 0, GIVE)
+        lift = 0
+        if what != FREE:
+            lift, by, slope = way_aside(walk_inout, me, rows_out, direction)
+        if lift < 0:
+            return abs(pixels) - done
+        if lift == 0 and without < 0 and c.grounded:
+            drop, onto = drop_onto(walk_inout, me, rows_out, c.left + direction, c.slope)
+            c.top += drop
+        c.left += direction
+        c.top -= lift
+    return 0
+
+
+@subkernel
+def shift_along_y(me, without, pixels, walk_inout, rows_out):
+    """Move a character along y by up to so many pixels. Returns those that something kept it from moving."""
+    c = walk_inout.characters[me]
+    reach = 2.0 + abs(pixels)
+    gather(walk_inout, me, without, 2.0, reach, reach, rows_out)
+    direction = 1 if pixels > 0 else -1
+    for done in range(abs(pixels)):
+        what, by, slope = blocked_at(walk_inout, me, rows_out, c.left, c.top + direction, 0, direction, GIVE)
+        if what != FREE:
+            return abs(pixels) - done
+        c.top += direction
+    return 0
+
+
+@subkernel
+def shift(me, without, pixels, along_x, walk_inout, rows_out):
+    """Move a character up to so many pixels along an axis, up and down the slopes it walks.
+
+    without: body row that does not count, or -1; rows_out: room for the solids near. Returns the pixels that something
+    kept it from moving.
+    """
+    if along_x == 1:
+        stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
+    else:
+        stopped = shift_along_y(me, without, pixels, walk_inout, rows_out)
+    settle(me, walk_inout)
+    return stopped
+
+
+@subkernel
+def carried_by(way, stopped):
+    """The pixels of a way that were gone when some of them were not."""
+    return way - stopped if way > 0 else way + stopped
+
+
+@subkernel
+def carry_riders(along_x, walk_inout):
+    """Carry on to what stands on what was carried: the hero on a crate on a platform, whatever the pile's height."""
+    characters = walk_inout.characters
+    for _ in range(len(characters)):
+        again = False
+        for me in range(len(characters)):
+            c = characters[me]
+            under = character_of(characters, c.riding) if c.riding >= 0 and c.carried == 0 else -1
+            if under < 0 or characters[under].carried == 0 or walk_inout.bodies[c.body_row].quarantined:
+                continue
+            u = characters[under]
+            stopped = shift(me, u.body_row, u.carried, along_x, walk_inout, walk_inout.found)
+            c.carried = carried_by(u.carried, stopped)
+            if stopped > 0 and along_x == 0 and u.carried < 0:
+                c.squeezed = True
+            again = again or c.carried != 0
+        if not again:
+            return
+
+
+# ---- ride ------------------------------------------------------------------------------------------------------------
+# Characters on what turns, is pushed or is no box: carried by the point under the feet, moved out of what came in.
+
+
+@subkernel
+def loose_under(walk, me):
+    """The shape row that carries a character by the motion of the point under its feet, or -1."""
+    c = walk.characters[me]
+    row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
+    if row < 0 or walk.shapes[row].sensor or not is_loose(walk, row):
+        return -1
+    kind = walk.bodies[walk.shapes[row].body_row].kind
+    return -1 if kind == DYNAMIC and walk.settings.stacking == 0 else row
+
+
+@kernel
+def note_feet(shapes, characters_inout):
+    """Remember the point under the feet of those that ride: where it is before the step. O(characters · log shapes)."""
+    for me in range(len(characters_inout)):
+        c = characters_inout[me]
+        row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
+        if row >= 0:
+            c.foot_x, c.foot_y = foot_of(c, shapes[row])
+
+
+@kernel
+def take_back(characters_inout, bodies_inout):
+    """Put the bodies of characters, which the solver has moved along, back where their boxes are. O(characters)."""
+    for me in range(len(characters_inout)):
+        c = characters_inout[me]
+        if not bodies_inout[c.body_row].quarantined:
+            place_body(c, bodies_inout[c.body_row])
+        c.push_vx = 0.0
+        c.push_vy = 0.0
+
+
+@subkernel
+def motion_under(c, body):
+    """How far [px] the point under a character's feet was moved by the body it stands on."""
+    u, v = turned(
+        c.foot_x - body.previous_x,
+        c.foot_y - body.previous_y,
+        math.cos(body.angle - body.previous_angle),
+        math.sin(body.angle - body.previous_angle),
+    )
+    return body.x + u - c.foot_x, body.y + v - c.foot_y
+
+
+@subkernel
+def pixels_carried(me, row, along_x, walk_inout):
+    """Whole pixels that a character is carried along an axis by what is under it (shape row or -1) and by its belt."""
+    c = walk_inout.characters[me]
+    way = 0
+    if row < 0:
+        c.carry_x = 0.0
+        c.carry_y = 0.0
+    else:
+        # x is carried first; the point's motion is the same for both axes.
+        x, y = motion_under(c, walk_inout.bodies[walk_inout.shapes[row].body_row])
+        if along_x == 1:
+            c.carry_x += x
+            way = whole_pixels(c.carry_x)
+            c.carry_x -= way
+        else:
+            c.carry_y += y
+            way = whole_pixels(c.carry_y)
+            c.carry_y -= way
+    if walk_inout.settings.conveyor == 1 and along_x == 1:
+        c.belt_x = c.belt_x + c.belt * walk_inout.settings.dt if c.belt != 0.0 else 0.0
+        run = whole_pixels(c.belt_x)
+        c.belt_x -= run
+        way += run
+    return way
+
+
+@subkernel
+def step_down(me, walk_inout):
+    """Down to a ground that has gone down by less than it may fall on a pixel along."""
+    c = walk_inout.characters[me]
+    gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
+    drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
+    if drop > 0:
+        c.top += drop
+        settle(me, walk_inout)
+
+
+@subkernel
+def ride_bodies(walk_inout):
+    """Carry characters by what the point under their feet was moved by, in whole pixels with the remainder kept.
+
+    walk_inout: a Walk for the step. They step down to where what turns or is pushed went. O(characters · solids near).
+    """
+    for axis in range(2):
+        along_x = 1 - axis
+        for me in range(len(walk_inout.characters)):
+            c = walk_inout.characters[me]
+            c.carried = 0
+            if walk_inout.bodies[c.body_row].quarantined:
+                continue
+            row = loose_under(walk_inout, me)
+            way = pixels_carried(me, row, along_x, walk_inout)
+            if way != 0:
+                without = walk_inout.shapes[row].body_row if row >= 0 else -1
+                stopped = shift(me, without, way, along_x, walk_inout, walk_inout.found)
+                c.carried = carried_by(way, stopped)
+        carry_riders(along_x, walk_inout)
+    for me in range(len(walk_inout.characters)):
+        if loose_under(walk_inout, me) >= 0 and not walk_inout.bodies[walk_inout.characters[me].body_row].quarantined:
+            step_down(me, walk_inout)
+
+
+@subkernel
+def move_out(me, row, walk_inout):
+    """Move a character out of one loose shape, as far as nothing keeps it, and note how deep it stays."""
+    c = walk_inout.characters[me]
+    depth, nx, ny = depth_in(me, row, walk_inout)
+    body_row = walk_inout.shapes[row].body_row
+    along_x = 1 if abs(nx) > abs(ny) and not is_walkable(c, nx, ny) else 0
+    into = nx if along_x == 1 else ny
+    speed = walk_inout.bodies[body_row].vx
+    if along_x == 1 and depth > 0.5 * walk_inout.settings.slop and speed * into < 0.0:
+        c.push_vx = speed  # what is pressed against it need not stop: it goes along
+    too_deep = depth - 1.5 * FEET
+    if along_x == 0 and abs(nx) > ny > 0.0:
+        too_deep /= ny  # up a slope steeper than 45 degrees, which he walks
+    pixels = math.ceil(too_deep)
+    if pixels <= 0:
+        return
+    way = -pixels if into > 0.0 else pixels
+    stopped = shift(me, body_row, way, along_x, walk_inout, walk_inout.found_beside)
+    if stopped > 0 and along_x == 1:
+        c.push_vx = 0.0
+    depth, nx, ny = depth_in(me, row, walk_inout)
+    c.deep = max(c.deep, depth)
+    c.wedged = c.wedged or (depth > GIVE and ny > abs(nx))
+
+
+@subkernel
+def give_way(walk_inout):
+    """Move characters out of the loose bodies that came into them; squeezed are those in which something stays.
+
+    walk_inout: a Walk for the step. What has just fallen into one is deep for a moment, until the solver has pushed it
+    out: it squeezes when it is no less deep after that. O(characters · solids near).
+    """
+    for me in range(len(walk_inout.characters)):
+        c = walk_inout.characters[me]
+        c.wedged = False
+        before = c.deep
+        c.deep = 0.0
+        if walk_inout.bodies[c.body_row].quarantined:
+            continue
+        gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
+        for k in range(1, walk_inout.found[0] + 1):
+            if walk_inout.found[k] < 0:
+                move_out(me, -1 - walk_inout.found[k], walk_inout)
+        if (before > GIVE and c.deep >= before) or is_crushed(me, False, walk_inout):
+            c.squeezed = True
+
+
+# ---- carry -----------------------------------------------------------------------------------------------------------
+# Moving solids carry the characters that ride them and push those in their way, one axis after the other.
+#
+# A character that cannot give way is squeezed: it stays, overlapping, and its next `move` says so. Source: Thorson,
+# Celeste and TowerFall Physics, 2018.
 
 
 @subkernel

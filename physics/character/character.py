@@ -6,17 +6,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics import checks
-from physics.character.ground import STEEPEST_CLIMB
-from physics.character.walk import is_stopped, walk
-from physics.character.way_out import lead_out
-from physics.character.workspace import can_walk, find_own_rows, walk_for
+from physics.character.solids import STEEPEST_CLIMB, can_walk, find_own_rows, walk_for
+from physics.character.walk import is_stopped, lead_out, walk
 from physics.checks import Pair
-from physics.dynamics.sleep import disturb
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.filter import Filter
+from physics.islands.sleep import disturb
 from physics.shapes.kinds import Shape
-from physics.shapes.mask import PixelMask
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.values import Capsule, Circle, Filter, Polygon
 
 LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
 PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6

@@ -1,23 +1,602 @@
-"""What stands in the way of a character: tiles, static and kinematic shapes, characters that can be pushed, bodies.
-
-A character that is a box meets boxes that are not turned, and tiles, on the pixel grid, as they are drawn: touching
-never blocks, one shared pixel does. Everything else is met as it is: what stands still blocks what would be deeper in
-it than the slop. What is pushed, or moves and is no box, is loose: it may have come into the character by itself, so
-it blocks only a way that leads deeper, and nothing that moves ever traps it.
-"""
+"""What stands in the way of a character: tiles, chains, static and kinematic shapes, characters, bodies."""
 
 import math
+from typing import NamedTuple
 
-from physics.character.chains import in_chain
-from physics.character.ground import BLOCKED, FREE, allowed_depth, judge
-from physics.character.meet import meet, meet_hull, place_outline
-from physics.character.tiles import in_tile_outlines, in_tiles, on_pixels
-from physics.character.workspace import character_of
-from physics.collision.clipping import ALL_EDGES, LEFT
-from physics.jit import subkernel
-from physics.shapes.placement import aabb_at, corners_at
+import numpy as np
+
+from physics.collision.chains import (
+    box_in_body,
+    collide_link_circle,
+    collide_link_hull,
+    lies_across,
+    link_at,
+    misses_box,
+)
+from physics.collision.hulls import (
+    ALL_EDGES,
+    COVERED,
+    LEFT,
+    collide_circles,
+    collide_hull_circle,
+    collide_hulls,
+    faces_of,
+)
+from physics.collision.manifold import POINTS
+from physics.collision.tiles import edges_facing, run_at, tile_at
+from physics.dynamics.non_finite import is_sound_walk
+from physics.jit import kernel, subkernel
+from physics.math2d import turned
+from physics.shapes.placement import aabb_at, corners_at, hull_at, rounding
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
-from physics.tables.shape import BOUNDS, CHAIN, PIXELS, POLYGON, TILES
+from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, Geometry
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, PART, PIXELS, POLYGON, TILES
+from physics.tables.step_state import WorldTables
+from physics.tables.table import row_of
+
+# ---- ground ----------------------------------------------------------------------------------------------------------
+# What a place is to a character: free, ground that it walks or slides down, or a wall.
+#
+# One rule for all grounds: the normal where the character would stand in the ground, against the steepest that it
+# walks.
+
+FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of what counts most where several are met
+GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
+FEET = 0.5  # [px] feet stand on the whole pixel nearest to a surface that moves
+LEADS_DEEPER = 0.02  # cosine between a way and a normal from which the way leads into a body that is pushed
+SHEER = 1e-9  # cosine between a wall's normal and down below which it bears nothing
+EVEN = 1e-9  # by how much rounding may make a slope steeper
+STEEPEST_CLIMB = 16.0  # [px] rise per px along (86 degrees): steeper ground is never walked, so a pixel costs few tests
+
+
+@subkernel
+def pixels_along(slope):
+    """The most whole pixels that a surface of a slope rises or falls on one pixel along."""
+    return math.floor(abs(slope) + 1.0 + 1e-6)
+
+
+@subkernel
+def is_walkable(c, nx, ny):
+    """Whether ground can be walked; (nx, ny): unit normal into it."""
+    return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
+
+
+@subkernel
+def verdict(c, nx, ny):
+    """(what ground is to a character that is in it, rise per px to the right); (nx, ny): unit, into the ground."""
+    if ny <= SHEER:
+        return BLOCKED, 0.0
+    slope = nx / ny + 0.0
+    return ON_SLOPE if is_walkable(c, nx, ny) else STEEP, slope
+
+
+@subkernel
+def allowed_depth(c, loose, nx, ny, give, slop):
+    """How deep [px] a character may be in a surface. give [px]: more of that in what is loose, see solids.is_loose."""
+    if not loose:
+        return slop
+    return give + (FEET if is_walkable(c, nx, ny) else 0.1 * slop)
+
+
+@subkernel
+def deepest_of(b, slop, dt):
+    """How deep [px] a character may have come into an outline: by a pixel, or as far as that moved into it.
+
+    What is deeper behind an edge of one part is told by a neighbour, see hulls.collide_hulls.
+    """
+    if b.kind == STATIC:
+        return 1.0 + 2.0 * slop
+    return 1.0 + 2.0 * slop + GIVE + (abs(b.vx) + abs(b.vy) + abs(b.angular_velocity) * b.extent) * dt
+
+
+@subkernel
+def judge(c, kind, beyond, nx, ny, way_x, way_y):
+    """As `verdict`, for a surface that the character is in by so much more than allowed [px].
+
+    kind: of its body. What moves may have come into the character by itself: it blocks only a way that leads deeper.
+    """
+    if beyond <= 0.0:
+        return FREE, 0.0
+    if kind != STATIC and nx * way_x + ny * way_y <= (LEADS_DEEPER if kind == DYNAMIC else EVEN):
+        return FREE, 0.0
+    return verdict(c, nx, ny)
+
+
+# ---- meet ------------------------------------------------------------------------------------------------------------
+# How deep a character is in one shape, and which way that lies: its outline against hulls, discs and links.
+
+
+@subkernel
+def box_corners(left, top, width, height, corners_out):
+    """The corners of a box of pixels."""
+    corners_out[0, 0] = left
+    corners_out[0, 1] = top
+    corners_out[1, 0] = left + width
+    corners_out[1, 1] = top
+    corners_out[2, 0] = left + width
+    corners_out[2, 1] = top + height
+    corners_out[3, 0] = left
+    corners_out[3, 1] = top + height
+
+
+@subkernel
+def place_outline(walk, me, left, top):
+    """Write the character's corners, its box at a pixel, to scratch.mine. Returns their number and their rounding."""
+    c = walk.characters[me]
+    if c.is_box:
+        box_corners(left, top, c.width, c.height, walk.scratch.mine)
+        return 4, 0.0
+    x = left + c.offset_x
+    y = top + c.offset_y
+    count = hull_at(walk.geometry, walk.shapes, c.shape_row, x, y, 0.0, walk.scratch.mine)
+    return count, rounding(walk.shapes, c.shape_row)
+
+
+@subkernel
+def manifold_depth(points, manifold):
+    """(depth [px], normal, the middle of the points) of a manifold with so many points; depth 0: apart."""
+    if points == 0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    depth = -manifold[5]
+    x = manifold[3]
+    y = manifold[4]
+    if points == 2:
+        depth = max(depth, -manifold[9])
+        x = 0.5 * (x + manifold[7])
+        y = 0.5 * (y + manifold[8])
+    return max(depth, 0.0), manifold[1], manifold[2], x, y
+
+
+@subkernel
+def meet_disc(scratch, count, radius, x, y, other):
+    """As meet, for a disc of radius `other` [px] at (x, y)."""
+    mine = scratch.mine
+    if count == 1:
+        nx, ny, px, py, separation = collide_circles(mine[0, 0], mine[0, 1], radius, x, y, other)
+        return max(-separation, 0.0), nx, ny, px, py
+    hit, nx, ny, px, py, separation, feature = collide_hull_circle(mine, count, ALL_EDGES, radius, x, y, other)
+    return -separation if hit and separation < 0.0 else 0.0, nx, ny, px, py
+
+
+@subkernel
+def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
+    """As meet, for the hull in scratch.theirs, of so many corners and that rounding [px].
+
+    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is LEFT where a neighbour is to tell it.
+    """
+    mine = scratch.mine
+    scratch.points[0] = 0.0
+    if count == 1:
+        hit, nx, ny, x, y, separation, feature = collide_hull_circle(
+            scratch.theirs, corners, edges, rounded, mine[0, 0], mine[0, 1], radius
+        )
+        depth = -separation if hit and separation < 0.0 else 0.0
+        if feature == COVERED or (edges != ALL_EDGES and depth > deepest):
+            scratch.points[0] = LEFT
+            return 0.0, -nx, -ny, x, y
+        scratch.points[0] = 1.0 if depth > 0.0 else 0.0
+        return depth, -nx, -ny, x, y
+    own = faces_of(mine, count, scratch.theirs, corners, edges) if edges != ALL_EDGES else ALL_EDGES
+    points = collide_hulls(
+        mine, count, radius, own, scratch.theirs, corners, rounded, edges, 0.0, 0.0, deepest, scratch.points
+    )
+    return manifold_depth(points, scratch.points)
+
+
+@subkernel
+def meet_link(links, link, scratch, count, radius):
+    """As meet, for one link of a chain, with its ends in scratch.theirs; from its back it is not met."""
+    if count == 1:
+        hit, nx, ny, x, y, separation, feature = collide_link_circle(
+            links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
+        )
+        return -separation if hit and separation < 0.0 else 0.0, -nx, -ny, x, y
+    points = collide_link_hull(
+        links[link], scratch.theirs, scratch.mine, count, radius, 0.0, 0.0, False, scratch.points
+    )
+    depth, nx, ny, x, y = manifold_depth(points, scratch.points)
+    return depth, -nx, -ny, x, y
+
+
+@subkernel
+def meet(walk, row, count, radius):
+    """(depth [px], normal from the character, the middle of what touches) of scratch.mine in a hull or a disc.
+
+    count, radius: of the character, see place_outline. Depth 0: apart; or a neighbour in its mask's outline has the
+    nearer surface, which scratch.points[0] says: LEFT.
+    """
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+        walk.scratch.points[0] = 0.0
+        return meet_disc(walk.scratch, count, radius, b.x + u, b.y + v, s.radius)
+    corners = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
+    deepest = math.inf if s.inner == 0 else deepest_of(b, walk.settings.slop, walk.settings.dt)
+    return meet_hull(walk.scratch, count, radius, corners, rounding(walk.shapes, row), ALL_EDGES ^ s.inner, deepest)
+
+
+# ---- chains ----------------------------------------------------------------------------------------------------------
+# Chains under a character, link by link.
+
+
+@subkernel
+def deepest_on(walk, body):
+    """How deep [px] a character may stand in a link of a body's chain that it came to from its front."""
+    most = 1.0 + 2.0 * walk.settings.slop
+    if body.kind == KINEMATIC:
+        most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
+    return most
+
+
+@subkernel
+def link_depth(walk, row, link, drops, count, radius):
+    """(depth [px], normal from the character) of scratch.mine in a link of a chain that holds it, else depth 0.
+
+    A character moves by pixels and starts free, so what is deeper than that in a link came from its back, and passes;
+    so does what drops through a level link, or through a surface.
+    """
+    b = walk.bodies[walk.shapes[row].body_row]
+    scratch = walk.scratch
+    link_at(walk.geometry.links, link, b.x, b.y, math.cos(b.angle), math.sin(b.angle), scratch.theirs)
+    run = scratch.theirs[1, 0] - scratch.theirs[0, 0]
+    rise = scratch.theirs[1, 1] - scratch.theirs[0, 1]
+    if drops and (walk.shapes[row].role == PART or (run > 0.0 and abs(rise) <= 1e-9 * run)):
+        return 0.0, 0.0, 0.0
+    depth, nx, ny, x, y = meet_link(walk.geometry.links, link, scratch, count, radius)
+    return depth if depth <= deepest_on(walk, b) else 0.0, nx, ny
+
+
+@subkernel
+def is_across(walk, me, row, left, top):
+    """Whether a character lies across a surface, and so passes it; any other chain it meets."""
+    s = walk.shapes[row]
+    if s.role != PART:
+        return False
+    b = walk.bodies[s.body_row]
+    count, radius = place_outline(walk, me, left, top)
+    # In what stands it was free before it moved: what is deeper came from elsewhere, or dropped.
+    most = walk.settings.slop
+    if b.kind == KINEMATIC:
+        most = deepest_on(walk, b)
+        # What goes down comes no nearer to who stands on it, and does not take up whom it passes.
+        most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
+    return lies_across(
+        walk.geometry, s.geometry, b.x, b.y, b.angle, walk.scratch.mine, count, radius, most, walk.scratch.theirs
+    )
+
+
+@subkernel
+def in_chain(walk, me, row, left, top, way_x, way_y, give):
+    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a chain: see solids.in_shape."""
+    c = walk.characters[me]
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
+    if is_across(walk, me, row, c.left, c.top):
+        return FREE, 0.0
+    links = walk.geometry.links
+    span = walk.geometry.chains[s.geometry]
+    low_x, low_y, high_x, high_y = box_in_body(
+        float(left),
+        float(top),
+        float(left + c.width),
+        float(top + c.height),
+        b.x,
+        b.y,
+        math.cos(b.angle),
+        math.sin(b.angle),
+    )
+    count, radius = place_outline(walk, me, left, top)
+    result = FREE
+    slope = 0.0
+    for block in range(span.blocks):
+        box = walk.geometry.link_blocks[span.first_block + block]
+        if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, low_x, low_y, high_x, high_y):
+            continue
+        for k in range(span.offset + block * BLOCK_LINKS, span.offset + min(span.count, (block + 1) * BLOCK_LINKS)):
+            link = links[k]
+            if misses_box(link.ax, link.ay, link.bx, link.by, low_x, low_y, high_x, high_y):
+                continue
+            depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
+            allowed = allowed_depth(c, b.kind == KINEMATIC, nx, ny, give, walk.settings.slop)
+            # Open from its back, a link blocks only what leads deeper, like something that moves.
+            what, rise = judge(c, KINEMATIC, depth - allowed, nx, ny, way_x, way_y)
+            if what == BLOCKED:
+                return BLOCKED, 0.0
+            if what != FREE and what >= result:
+                result = what
+                slope = rise
+    return result, slope
+
+
+@subkernel
+def deepest_link(walk, me, row, left, top):
+    """(depth [px], normal from the character) in the link of a chain that a character is deepest in."""
+    c = walk.characters[me]
+    span = walk.geometry.chains[walk.shapes[row].geometry]
+    if is_across(walk, me, row, left, top):
+        return 0.0, 0.0, 0.0
+    count, radius = place_outline(walk, me, left, top)
+    deepest = 0.0
+    best_x = 0.0
+    best_y = 0.0
+    for k in range(span.offset, span.offset + span.count):
+        depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
+        if depth > deepest:
+            deepest = depth
+            best_x = nx
+            best_y = ny
+    return deepest, best_x, best_y
+
+
+# ---- tiles -----------------------------------------------------------------------------------------------------------
+# Tiles under a character. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
+#
+# On the pixel grid touching never blocks, and one shared pixel does. What counts most of the tiles decides.
+
+
+@subkernel
+def on_pixels(kind, coordinate):
+    """Where a grid [px] stands for characters: one that moves, on the whole pixel nearest to it."""
+    return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
+
+
+@subkernel
+def is_falling(c, way_x, way_y):
+    """1 when a character that came this way is held by what is open from below."""
+    return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
+
+
+@subkernel
+def slope_tile_verdict(c, slope, depth):
+    """What a slope tile is to a box that reaches `depth` [px] below its surface."""
+    if depth > pixels_along(slope):
+        return BLOCKED  # its side, or from inside
+    return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
+
+
+@subkernel
+def in_tiles(walk, me, row, left, top, way_x, way_y):
+    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a box of pixels in a tile grid: see solids.in_shape."""
+    c = walk.characters[me]
+    b = walk.bodies[walk.shapes[row].body_row]
+    g = walk.geometry.grids[walk.shapes[row].geometry]
+    grid_x = on_pixels(b.kind, b.x)
+    grid_y = on_pixels(b.kind, b.y)
+    size = g.tile_size
+    falling = is_falling(c, way_x, way_y)
+    first_column = max(0, math.floor((left - grid_x) / size))
+    last_column = min(g.columns - 1, math.ceil((left + c.width - grid_x) / size) - 1)
+    first_row = max(0, math.floor((top - grid_y) / size))
+    last_row = min(g.rows - 1, math.ceil((top + c.height - grid_y) / size) - 1)
+    result = FREE
+    slope = 0.0
+    for line in range(first_row, last_row + 1):
+        for column in range(first_column, last_column + 1):
+            cell = walk.geometry.cells[g.offset + line * g.columns + column]
+            if cell.kind == EMPTY:
+                continue
+            if cell.kind == ONE_WAY:
+                if falling == 1 and top + c.height - 1 <= grid_y + line * size:
+                    return BLOCKED, 0.0
+            elif cell.kind == SLOPE:
+                tile_x = grid_x + column * size
+                start = max(0.0, (left - tile_x) / size)
+                end = min(1.0, (left + c.width - tile_x) / size)
+                rise = max(cell.left + start * (cell.right - cell.left), cell.left + end * (cell.right - cell.left))
+                depth = top + c.height - (grid_y + (line + 1) * size - rise * size)
+                if depth > 0.0:
+                    what = slope_tile_verdict(c, cell.right - cell.left, depth)
+                    if what == BLOCKED:
+                        return BLOCKED, 0.0
+                    if what >= result:
+                        result = what
+                        slope = cell.right - cell.left
+            else:
+                return BLOCKED, 0.0
+    return result, slope
+
+
+@subkernel
+def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
+    """(depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free edges."""
+    mine = scratch.mine
+    if count == 1:
+        hit, nx, ny, x, y, separation, feature = collide_hull_circle(
+            scratch.theirs, corners, edges, 0.0, mine[0, 0], mine[0, 1], radius
+        )
+        return -separation if hit and separation < 0.0 else 0.0, -nx, -ny
+    if edges == ALL_EDGES:
+        facing = edges
+    elif is_slope:
+        facing = faces_of(mine, count, scratch.theirs, corners, edges)
+    else:
+        facing = edges_facing(mine, count, edges)
+    points = collide_hulls(
+        scratch.theirs, corners, 0.0, edges, mine, count, radius, facing, 0.0, 0.0, deepest, scratch.points
+    )
+    depth, nx, ny, x, y = manifold_depth(points, scratch.points)
+    return depth, -nx, -ny
+
+
+@subkernel
+def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
+    """As in_tiles, for a character that is no box, by the outlines of the runs of tiles and of the slopes."""
+    c = walk.characters[me]
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
+    g = walk.geometry.grids[s.geometry]
+    cells = walk.geometry.cells
+    scratch = walk.scratch
+    grid_x = on_pixels(b.kind, b.x)
+    grid_y = on_pixels(b.kind, b.y)
+    first_column = max(0, math.floor((left - grid_x) / g.tile_size))
+    last_column = min(g.columns - 1, math.ceil((left + c.width - grid_x) / g.tile_size) - 1)
+    first_row = max(0, math.floor((top - grid_y) / g.tile_size))
+    last_row = min(g.rows - 1, math.ceil((top + c.height - grid_y) / g.tile_size) - 1)
+    count, radius = place_outline(walk, me, left, top)
+    result = FREE
+    slope = 0.0
+    for attempt in range(2):
+        # What lies deep inside may be left to a neighbour by each of them: once more, by every edge.
+        deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
+        met = False
+        for line in range(first_row, last_row + 1):
+            next_column = first_column
+            while next_column <= last_column:
+                column = next_column
+                cell = cells[g.offset + line * g.columns + column]
+                next_column = cell.last + 1
+                if cell.kind == EMPTY:
+                    continue
+                if cell.kind == ONE_WAY and (
+                    is_falling(c, way_x, way_y) == 0 or top + c.height - 1 > grid_y + line * g.tile_size
+                ):
+                    continue
+                if cell.kind == SLOPE:
+                    next_column = column + 1
+                    corners, edges = tile_at(walk.geometry, s.geometry, grid_x, grid_y, line, column, scratch.theirs)
+                else:
+                    corners, edges = run_at(
+                        walk.geometry.grids,
+                        cells,
+                        s.geometry,
+                        grid_x,
+                        grid_y,
+                        line,
+                        column,
+                        first_column,
+                        last_column,
+                        scratch.theirs,
+                    )
+                depth, nx, ny = meet_tile(
+                    scratch, count, radius, corners, edges if attempt == 0 else ALL_EDGES, deepest, cell.kind == SLOPE
+                )
+                met = met or depth > 0.0
+                what, rise = judge(c, b.kind, depth - walk.settings.slop, nx, ny, way_x, way_y)
+                if what == BLOCKED:
+                    return BLOCKED, 0.0
+                if what != FREE and what >= result:
+                    result = what
+                    slope = rise
+        if met:
+            break
+    return result, slope
+
+
+# ---- workspace -------------------------------------------------------------------------------------------------------
+# Walk: all that the kernels of a character read and write, in one named context.
+
+
+class Scratch(NamedTuple):
+    """Room for one test in flight."""
+
+    mine: np.ndarray  # (16, 2) corners of the character [px]
+    theirs: np.ndarray  # (16, 2) corners of what it may meet
+    points: np.ndarray  # (POINTS,) a manifold in flight, see collision/hulls.py
+
+
+class Settings(NamedTuple):
+    """What of the world a walk depends on."""
+
+    stacking: int  # 1: dynamic bodies stop, carry and squeeze characters
+    rotation: int  # 1: they turn
+    conveyor: int  # 1: surfaces run
+    dt: float  # [s] that a move, or the step, stands for
+    slop: float  # [px]
+
+
+class Walk(NamedTuple):
+    """Tables, what is near each character, and scratch room."""
+
+    geometry: Geometry
+    bodies: np.ndarray  # BODY, written: forces, and where the characters are
+    shapes: np.ndarray  # SHAPE
+    characters: np.ndarray  # CHARACTER, written
+    near: np.ndarray  # shape rows, in order, of one character after the other
+    spans: np.ndarray  # (characters, 2) where those of each start, and how many there are
+    found: np.ndarray  # solids in reach of a character, see solids.gather
+    found_beside: np.ndarray  # the same, for a character that is moved by another
+    scratch: Scratch
+    settings: Settings
+
+
+def new_scratch() -> Scratch:
+    """Scratch room for the walks of one world."""
+    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS))
+
+
+def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
+    """The context of a world, or of its StepState, for dt [s]. characters: CHARACTER rows; near, spans: as in Walk."""
+    effects = tables.effects
+    room = len(near) + 1
+    rows = tables.workspace.rows_for(2 * room)
+    return Walk(
+        tables.library.tables,
+        tables.bodies,
+        tables.shapes,
+        characters,
+        near,
+        spans,
+        rows[:room],
+        rows[room : 2 * room],
+        tables.workspace.walk,
+        Settings(int(effects.stacking), int(effects.rotation), int(effects.conveyor), dt, tables.tolerances.slop),
+    )
+
+
+@subkernel
+def character_of(characters, body):
+    """The row of the character with that body id, or -1. O(log characters)."""
+    low = 0
+    high = len(characters)
+    while low < high:
+        middle = (low + high) // 2
+        if characters[middle].body < body:
+            low = middle + 1
+        else:
+            high = middle
+    return low if low < len(characters) and characters[low].body == body else -1
+
+
+@kernel
+def can_walk(me, characters):
+    """Whether the numbers of a character are such as it can be moved with."""
+    return is_sound_walk(characters[me])
+
+
+@kernel
+def find_own_rows(bodies, shapes, characters_inout):
+    """Write the rows of the characters' bodies and shapes. O(characters · log shapes)."""
+    for me in range(len(characters_inout)):
+        c = characters_inout[me]
+        c.body_row = row_of(bodies, c.body)
+        c.shape_row = row_of(shapes, c.shape)
+
+
+@subkernel
+def place_body(c, body_inout):
+    """Put the body of a character (row c) where its box is."""
+    body_inout.x = c.left + c.offset_x
+    body_inout.y = c.top + c.offset_y
+    body_inout.center_x = body_inout.x + body_inout.local_center_x
+    body_inout.center_y = body_inout.y + body_inout.local_center_y
+
+
+@subkernel
+def settle(me, walk_inout):
+    """Put the character's body where its box is."""
+    c = walk_inout.characters[me]
+    place_body(c, walk_inout.bodies[c.body_row])
+
+
+# ---- solids ----------------------------------------------------------------------------------------------------------
+# What stands in the way of a character: tiles, static and kinematic shapes, characters that can be pushed, bodies.
+#
+# A character that is a box meets boxes that are not turned, and tiles, on the pixel grid, as they are drawn: touching
+# never blocks, one shared pixel does. Everything else is met as it is: what stands still blocks what would be deeper in
+# it than the slop. What is pushed, or moves and is no box, is loose: it may have come into the character by itself, so
+# it blocks only a way that leads deeper, and nothing that moves ever traps it.
 
 
 @subkernel

@@ -1,22 +1,535 @@
-"""Moves one character, pixel by pixel, one axis after the other.
-
-Whole pixels with the remainder carried over, as in Celeste and TowerFall: a character never overlaps a solid and never
-misses one (Thorson, Celeste and TowerFall Physics, 2018). Added here: slopes, pushing, and in worlds that stack the
-impulses that it gives to the bodies it runs into and lands on.
-"""
+"""Moves one character pixel by pixel: slopes, what it touches, what it pushes."""
 
 import math
 
-from physics.character.climb import drop_onto, is_wedged, slide_gently, slide_of, steep_below, way_aside
-from physics.character.crush import is_crushed
-from physics.character.feel import feel
-from physics.character.ground import FREE, STEEP, STEEPEST_CLIMB
-from physics.character.push import knock, shove
-from physics.character.solids import blocked_at, gather
-from physics.character.way_out import is_inside
-from physics.character.workspace import character_of, settle
+from physics.character.solids import (
+    BLOCKED,
+    FREE,
+    GIVE,
+    ON_SLOPE,
+    STEEP,
+    STEEPEST_CLIMB,
+    blocked_at,
+    character_of,
+    deepest_link,
+    gather,
+    in_shape,
+    meet,
+    on_pixels,
+    pixels_along,
+    place_outline,
+    settle,
+)
+from physics.dynamics.non_finite import LARGEST
 from physics.jit import kernel, subkernel
-from physics.tables.body import DYNAMIC
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
+from physics.tables.geometry import SLOPE
+from physics.tables.shape import CHAIN, TILES
+from physics.tables.table import row_of
+
+# ---- climb -----------------------------------------------------------------------------------------------------------
+# Up and down with the ground: how far a character rises onto a slope it walks into, or drops to one it walks down.
+
+
+@subkernel
+def rise_onto(walk, me, rows, direction, slope):
+    """Pixels up by which a character is free one pixel to a side, where it is on ground of a slope; -1: by too many.
+
+    Half a pixel more than the slope rises: for corners of outlines on steps of pixels. Not onto what only holds it by
+    ground that is too steep.
+    """
+    c = walk.characters[me]
+    most = pixels_along(abs(slope) + 0.5)
+    lift = 1
+    before = ON_SLOPE
+    while lift <= most:
+        what, by, rise = blocked_at(walk, me, rows, c.left + direction, c.top - lift, direction, -lift, 0.0)
+        if what == FREE:
+            return lift if before == ON_SLOPE else -1
+        if what == BLOCKED:
+            return -1
+        most = max(most, pixels_along(rise)) if what == ON_SLOPE else most
+        before = what
+        lift += 1
+    return -1
+
+
+@subkernel
+def way_aside(walk, me, rows, direction):
+    """(pixels up by which a character can go one pixel to a side, or -1; the shape row that blocks it or -1; slope)."""
+    c = walk.characters[me]
+    what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
+    if what == FREE:
+        return 0, -1, 0.0
+    if what != ON_SLOPE:
+        return -1, by, 0.0
+    return rise_onto(walk, me, rows, direction, slope), -1, slope
+
+
+@subkernel
+def drop_onto(walk, me, rows, left, onto):
+    """(pixels down at a pixel column until a character stands on ground it walks, 0: none is near; its slope).
+
+    onto: the slope it comes from; 0: from the flat, off which it drops onto slopes only. Slopes may be as steep as it
+    walks; a flat is one pixel and as much lower as the slope it comes from.
+    """
+    c = walk.characters[me]
+    for drop in range(pixels_along(c.climb) + 1):
+        what, by, slope = blocked_at(walk, me, rows, left, c.top + drop + 1, 0, 1, 0.0)
+        if what == FREE:
+            continue
+        most = max(pixels_along(slope), pixels_along(onto))
+        if what == ON_SLOPE and walk.bodies[walk.shapes[by].body_row].kind != STATIC:
+            most += (
+                1  # feet stand on the pixel nearest to what moves: up to half a pixel in it before, and above it now
+            )
+        if what == ON_SLOPE and drop <= most:
+            return drop, slope
+        if what == BLOCKED and onto != 0.0 and drop <= pixels_along(onto):
+            return drop, 0.0
+        return 0, 0.0
+    return 0, 0.0
+
+
+@subkernel
+def is_wedged(walk, me, rows, slope):
+    """Whether a character on ground too steep cannot slide down it: something stands at the foot of the slope."""
+    c = walk.characters[me]
+    side = -1 if slope > 0.0 else 1
+    what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
+    return what != FREE
+
+
+@subkernel
+def steep_below(walk, me, rows, slope):
+    """The slope of the ground a character slides down, as far below as that falls on one pixel along; 0: none."""
+    c = walk.characters[me]
+    for drop in range(1, pixels_along(slope) + 1):
+        what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
+        if what != FREE:
+            return found if what == STEEP else 0.0
+    return 0.0
+
+
+@subkernel
+def slide_of(slope):
+    """(pixels along x, pixels down) of a slide along a slope for each pixel of a way straight down."""
+    length = math.sqrt(1.0 + slope * slope)
+    sine = slope / length
+    return -sine / length, sine * sine
+
+
+@subkernel
+def slide_gently(me, rows, pixels, slope, walk_inout):
+    """Slide down ground that rises by less than it runs, for so many pixels of a way down, pixel by pixel along x.
+
+    Returns whether nothing stopped it.
+    """
+    c = walk_inout.characters[me]
+    aside, down = slide_of(slope)
+    c.remainder_x += pixels * aside
+    steps = math.floor(c.remainder_x + 0.5)
+    c.remainder_x -= steps
+    side = 1 if steps > 0 else -1
+    for _ in range(abs(steps)):
+        what, by, rise = blocked_at(walk_inout, me, rows, c.left + side, c.top, side, 0, 0.0)
+        if what != FREE:
+            c.remainder_x = 0.0
+            return False
+        c.left += side
+        for _ in range(pixels_along(slope)):
+            what, by, rise = blocked_at(walk_inout, me, rows, c.left, c.top + 1, 0, 1, 0.0)
+            if what != FREE:
+                break
+            c.top += 1
+    return True
+
+
+# ---- feel ------------------------------------------------------------------------------------------------------------
+# What a character touches after a move: ground, its slope, what carries it and how fast its surface runs, walls.
+
+
+@subkernel
+def tile_slope(walk, row, x, y):
+    """Rise per px to the right of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
+    s = walk.shapes[row]
+    b = walk.bodies[s.body_row]
+    g = walk.geometry.grids[s.geometry]
+    column = math.floor((x - on_pixels(b.kind, b.x)) / g.tile_size)
+    line = math.floor((y - on_pixels(b.kind, b.y)) / g.tile_size)
+    if not (0 <= column < g.columns and 0 <= line < g.rows):
+        return 0.0
+    cell = walk.geometry.cells[g.offset + line * g.columns + column]
+    return cell.right - cell.left if cell.kind == SLOPE else 0.0
+
+
+@subkernel
+def slope_under_box(walk, me, row):
+    """The slope of the tile under the middle of a box's feet; at its ends a foot beside it still stands on it."""
+    c = walk.characters[me]
+    bottom = c.top + c.height + 0.5
+    slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
+    if slope == 0.0:
+        slope = tile_slope(walk, row, c.left + 0.5, bottom)
+    if slope == 0.0:
+        slope = tile_slope(walk, row, c.left + c.width - 0.5, bottom)
+    return slope
+
+
+@subkernel
+def speed_under(walk, row, x, y):
+    """Speed [px/s] at which a surface runs to the right under a point [px] that stands on it.
+
+    Source: engines' conveyor materials (Box2D's tangent speed): along the tangent, to the right on a floor.
+    """
+    s = walk.shapes[row]
+    if s.kind != CHAIN:
+        return s.surface_speed
+    b = walk.bodies[s.body_row]
+    cosine = math.cos(b.angle)
+    sine = math.sin(b.angle)
+    span = walk.geometry.chains[s.geometry]
+    nearest = math.inf
+    speed = s.surface_speed
+    for k in range(span.offset, span.offset + span.count):
+        link = walk.geometry.links[k]
+        ax = b.x + cosine * link.ax - sine * link.ay
+        ay = b.y + sine * link.ax + cosine * link.ay
+        bx = b.x + cosine * link.bx - sine * link.by
+        by = b.y + sine * link.bx + cosine * link.by
+        if ax <= x < bx:
+            off = abs(ay + (by - ay) * (x - ax) / (bx - ax) - y)
+            if off < nearest:
+                nearest = off
+                speed = link.surface_speed if link.friction >= 0.0 else s.surface_speed
+    return speed
+
+
+@subkernel
+def feel_ground(me, walk_inout):
+    """Write whether a character stands, on what, and how that slopes and runs."""
+    c = walk_inout.characters[me]
+    what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
+    was_grounded = c.grounded
+    c.grounded = what != FREE and (what != STEEP or is_wedged(walk_inout, me, walk_inout.found, slope))
+    c.riding = -1
+    c.riding_shape = -1
+    c.belt = 0.0
+    if what == FREE:
+        # Sliding, it is above its ground for a moment, by less than that goes down on one pixel along.
+        sliding = abs(c.slope) >= 1.0 and not was_grounded
+        c.slope = steep_below(walk_inout, me, walk_inout.found, c.slope) if sliding else 0.0
+        return
+    c.slope = slope
+    s = walk_inout.shapes[by]
+    belt = speed_under(walk_inout, by, c.left + 0.5 * c.width, float(c.top + c.height))
+    c.belt = belt if abs(belt) < LARGEST else 0.0  # whose surface runs at no speed is put aside by the next step
+    if s.kind == TILES and c.is_box:
+        c.slope = slope_under_box(walk_inout, me, by)
+    if walk_inout.bodies[s.body_row].kind != STATIC:
+        c.riding = s.body
+        c.riding_shape = s.id
+
+
+@subkernel
+def feel(me, walk_inout):
+    """Write what a character touches; walk_inout.found: what is near it."""
+    c = walk_inout.characters[me]
+    feel_ground(me, walk_inout)
+    c.wall = 0
+    for side in range(-1, 2, 2):
+        what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
+        if (what == BLOCKED or what == STEEP) and c.wall == 0:
+            c.wall = side
+
+
+# ---- crush -----------------------------------------------------------------------------------------------------------
+# Whether what moves stands in a character that could not give way: it is squeezed as long as that is so.
+
+
+@subkernel
+def depth_in(me, row, walk_inout):
+    """(depth [px], normal from the character) of a character where it is, in a loose shape."""
+    c = walk_inout.characters[me]
+    if walk_inout.shapes[row].kind == CHAIN:
+        return deepest_link(walk_inout, me, row, c.left, c.top)
+    count, radius = place_outline(walk_inout, me, c.left, c.top)
+    depth, nx, ny, x, y = meet(walk_inout, row, count, radius)
+    return depth, nx, ny
+
+
+@subkernel
+def is_in_drawn(me, row, walk_inout):
+    """Whether a character is, where it is, in a shape that keeps to the pixel grid: some way there leads deeper."""
+    c = walk_inout.characters[me]
+    for side in range(-1, 2, 2):
+        what, slope = in_shape(walk_inout, me, row, c.left, c.top, side, 0, 0.0)
+        if what != FREE:
+            return True
+        what, slope = in_shape(walk_inout, me, row, c.left, c.top, 0, side, 0.0)
+        if what != FREE:
+            return True
+    return False
+
+
+@subkernel
+def is_crushed(me, all_kinds, walk_inout):
+    """Whether something that moves stands in a character by more than what is loose may. O(solids near).
+
+    all_kinds: also what the solver pushes on, else only what goes its way by itself.
+    """
+    gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
+    for k in range(1, walk_inout.found[0] + 1):
+        loose = walk_inout.found[k] < 0
+        row = -1 - walk_inout.found[k] if loose else walk_inout.found[k]
+        s = walk_inout.shapes[row]
+        kind = walk_inout.bodies[s.body_row].kind
+        if kind == STATIC or (kind != KINEMATIC and not all_kinds) or character_of(walk_inout.characters, s.body) >= 0:
+            continue
+        if loose:
+            depth, nx, ny = depth_in(me, row, walk_inout)
+            if depth > GIVE:
+                return True
+        elif is_in_drawn(me, row, walk_inout):
+            return True
+    return False
+
+
+# ---- way out ---------------------------------------------------------------------------------------------------------
+# The way out of a still solid that a character has come to stand in: put there, or the ground was changed around it.
+#
+# Walking never leads into one, so who is in one was placed so: it is let out by the shortest of eight straight ways,
+# some pixels in each move, whatever it was told to do. What moves and stands in a character is none of this: see
+# "crush" below.
+
+PACE = 2  # [px] of a way out in one move: about what overlapping bodies are pushed apart by in a step
+
+
+@subkernel
+def keep_still(walk, rows_inout):
+    """Keep of the rows that gather listed those of static bodies."""
+    kept = 0
+    for k in range(1, rows_inout[0] + 1):
+        row = rows_inout[k]
+        if row >= 0 and walk.bodies[walk.shapes[row].body_row].kind == STATIC:
+            kept += 1
+            rows_inout[kept] = row
+    rows_inout[0] = kept
+
+
+@subkernel
+def is_inside(me, walk_inout):
+    """Whether a character stands in a still solid; walk_inout.found: what is near it, of which the still is kept.
+    O(solids near)."""
+    c = walk_inout.characters[me]
+    keep_still(walk_inout, walk_inout.found)
+    what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
+    return what != FREE
+
+
+@kernel
+def lead_out(
+    # read
+    me,
+    reach,
+    # write
+    walk_inout,
+    moved_inout,
+):
+    """Move a character that stands in a still solid towards the nearest free place, up rather than aside rather than
+    down, no further than `reach` [px] off; without one it stays. O(reach · solids near).
+
+    walk_inout: a Walk with what is near as far as that; moved_inout: as walk writes it, with what this adds.
+    """
+    c = walk_inout.characters[me]
+    rows = walk_inout.found
+    gather(walk_inout, me, -1, reach + 1.0, reach + 1.0, reach + 1.0, rows)
+    way_x = 0
+    way_y = 0
+    nearest = 2 * reach * reach + 1
+    for turn in range(8):
+        # Up, left, right, the slants upwards, down, those downwards.
+        dx = 0 if turn == 0 or turn == 5 else (-1 if turn == 1 or turn == 3 or turn == 6 else 1)
+        dy = -1 if turn == 0 or turn == 3 or turn == 4 else (0 if turn < 3 else 1)
+        for far in range(1, reach + 1):
+            if far * far * (dx * dx + dy * dy) >= nearest:
+                break
+            what, by, slope = blocked_at(walk_inout, me, rows, c.left + far * dx, c.top + far * dy, 0, 0, GIVE)
+            if what == FREE:
+                nearest = far * far * (dx * dx + dy * dy)
+                pixels = min(far, PACE)
+                way_x = pixels * dx
+                way_y = pixels * dy
+                break
+    c.left += way_x
+    c.top += way_y
+    moved_inout[0] += way_x
+    moved_inout[1] += way_y
+    if way_x != 0 or way_y != 0:
+        settle(me, walk_inout)
+        feel(me, walk_inout)
+
+
+# ---- push ------------------------------------------------------------------------------------------------------------
+# Impulses between characters and the bodies of a world that stacks: shoving, landing, weight.
+#
+# A character has a mass but no velocity that a solver could change: it is moved by the game. So it acts on bodies by
+# impulses of its own, and the solver leaves out what lies under its feet: to that it is a weight and no ceiling.
+
+
+@subkernel
+def push_body(me, row, direction, speed, left, walk_inout):
+    """Push one body in the way towards a speed [px/s], by at most the impulse left. Returns what is left of that."""
+    c = walk_inout.characters[me]
+    b = walk_inout.bodies[walk_inout.shapes[row].body_row]
+    settings = walk_inout.settings
+    count, radius = place_outline(walk_inout, me, c.left + direction, c.top)
+    depth, nx, ny, x, y = meet(walk_inout, row, count, radius)
+    arm = (x - b.center_x) * ny - (y - b.center_y) * nx
+    turning = b.inverse_inertia if settings.rotation == 1 else 0.0
+    now = b.vx * nx + b.vy * ny + settings.dt * b.inverse_mass * (b.force_x * nx + b.force_y * ny)
+    if settings.rotation == 1:
+        now += (b.angular_velocity + settings.dt * turning * b.torque) * arm
+    weight = b.inverse_mass + turning * arm * arm
+    if weight <= 0.0:
+        return left
+    impulse = min((speed * nx - now) / weight, left)
+    if impulse <= 0.0 or settings.dt <= 0.0:
+        return left
+    b.force_x += impulse / settings.dt * nx
+    b.force_y += impulse / settings.dt * ny
+    b.torque += impulse / settings.dt * arm
+    return left - impulse
+
+
+@subkernel
+def shove(me, direction, speed, walk_inout):
+    """Push what is in the way sideways towards the speed [px/s] of a move, as far as the character's strength allows.
+
+    As a force over the coming step, not as a jolt before it: friction that is strong enough then holds a body in place.
+    """
+    c = walk_inout.characters[me]
+    speed += walk_inout.bodies[c.body_row].vx  # of what carries it
+    left = c.mass * c.push * walk_inout.settings.dt
+    for k in range(1, walk_inout.found[0] + 1):
+        row = -1 - walk_inout.found[k]
+        if row < 0:
+            continue
+        b = walk_inout.bodies[walk_inout.shapes[row].body_row]
+        if b.kind != DYNAMIC or b.inverse_mass == 0.0:
+            continue
+        what, slope = in_shape(walk_inout, me, row, c.left + direction, c.top, direction, 0, 0.0)
+        if what == BLOCKED or what == STEEP:
+            left = push_body(me, row, direction, speed, left, walk_inout)
+
+
+@subkernel
+def foot_of(c, s):
+    """The point [px] of a character's feet that stands on a shape: their middle, or the nearest to it that does."""
+    return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
+
+
+@subkernel
+def knock(me, row, direction, speed, walk_inout):
+    """Pass on the momentum of a landing (direction 1), or of a head that hits (-1), as two lumps of clay do."""
+    c = walk_inout.characters[me]
+    x, y = foot_of(c, walk_inout.shapes[row])
+    b = walk_inout.bodies[walk_inout.shapes[row].body_row]
+    if b.inverse_mass == 0.0 or c.mass <= 0.0:
+        return
+    rotation = walk_inout.settings.rotation
+    arm = (x - b.center_x) * direction
+    turning = b.inverse_inertia if rotation == 1 else 0.0
+    now = b.vy * direction + (b.angular_velocity * arm if rotation == 1 else 0.0)
+    closing = (speed + walk_inout.bodies[c.body_row].vy) * direction - now
+    if closing > 0.0:
+        impulse = closing / (1.0 / c.mass + b.inverse_mass + turning * arm * arm)
+        b.vy += impulse * b.inverse_mass * direction
+        b.angular_velocity += impulse * turning * arm
+
+
+@kernel
+def press(
+    # read
+    shapes,
+    gravity_x,
+    gravity_y,
+    slow,
+    # write
+    characters_inout,
+    bodies_inout,
+):
+    """Let characters weigh on the awake bodies that they ride, and give their bodies the velocity of what carries them.
+
+    gravity [px/s2]; slow [px/s]: what carries them by less is about to rest, and they must not keep it awake. Remembers
+    the point under their feet [px]. O(characters · log shapes).
+    """
+    for me in range(len(characters_inout)):
+        c = characters_inout[me]
+        b = bodies_inout[c.body_row]
+        if b.quarantined:
+            continue
+        b.vx = c.push_vx
+        b.vy = c.push_vy
+        row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
+        if row < 0:
+            continue
+        s = shapes[row]
+        r = bodies_inout[s.body_row]
+        c.foot_x, c.foot_y = foot_of(c, s)
+        arm_x = c.foot_x - r.center_x
+        arm_y = c.foot_y - r.center_y
+        vx = r.vx - r.angular_velocity * arm_y
+        vy = r.vy + r.angular_velocity * arm_x
+        if r.kind != STATIC and abs(vx) + abs(vy) > slow:
+            b.vx = vx
+            b.vy = vy
+        if r.kind == DYNAMIC and r.awake:
+            r.force_x += c.mass * gravity_x
+            r.force_y += c.mass * gravity_y
+            r.torque += c.mass * (arm_x * gravity_y - arm_y * gravity_x)
+
+
+@subkernel
+def is_between(manifold, first, second):
+    """Whether a manifold is between two bodies, by id."""
+    m = manifold
+    return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
+
+
+@kernel
+def tell_weight(
+    # read
+    characters,
+    weight_rate,
+    # write
+    manifolds_inout,
+):
+    """Write the weight that characters have put on what they ride into the manifolds with it.
+
+    weight_rate [px/s]: gravity times the step; the points between the two share it. O(characters · manifolds).
+    """
+    for me in range(len(characters)):
+        c = characters[me]
+        if c.riding < 0:
+            continue
+        points = 0
+        for k in range(len(manifolds_inout)):
+            if is_between(manifolds_inout[k], c.body, c.riding):
+                points += manifolds_inout[k].count
+        for k in range(len(manifolds_inout)):
+            m = manifolds_inout[k]
+            if points > 0 and is_between(m, c.body, c.riding):
+                m.normal_impulse_1 = c.mass * weight_rate / points
+                m.normal_impulse_2 = c.mass * weight_rate / points
+
+
+# ---- walk ------------------------------------------------------------------------------------------------------------
+# Moves one character, pixel by pixel, one axis after the other.
+#
+# Whole pixels with the remainder carried over, as in Celeste and TowerFall: a character never overlaps a solid and
+# never misses one (Thorson, Celeste and TowerFall Physics, 2018). Added here: slopes, pushing, and in worlds that stack
+# the impulses that it gives to the bodies it runs into and lands on.
 
 
 @subkernel
@@ -156,7 +669,7 @@ def walk(
     moved_out,
 ):
     """Move a character by (dx, dy) [px], x first, and write what it touches then. Returns whether it stands in a still
-    solid, see way_out.py.
+    solid; see "way out" above.
 
     me: its row; walk_inout: a Walk; moved_out (4,): pixels moved along x and y, 1 where it was stopped along x, along
     y. O(pixels · solids near).

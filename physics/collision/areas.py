@@ -7,26 +7,27 @@ import math
 
 import numpy as np
 
-from physics.collision.chain_pairs import BACKING
-from physics.collision.chains import link_at
-from physics.collision.clipping import ALL_EDGES
-from physics.collision.dispatch import no_work
-from physics.collision.features import part_of
-from physics.collision.manifold import circle_at, copy_manifold, corners_of
-from physics.collision.mask_exact import exact_area, meet_polygon
-from physics.collision.mask_exact_pairs import exact_mask_area
-from physics.collision.mask_hulls import collide_mask_circle, collide_mask_line, collide_mask_polygon, thick_line
-from physics.collision.mask_rounded import collide_mask_rounded
-from physics.collision.owners import by_owner
+from physics.collision.chains import BACKING, link_at
+from physics.collision.hulls import ALL_EDGES, part_of
+from physics.collision.manifold import by_owner, circle_at, copy_manifold, corners_of
+from physics.collision.masks import (
+    collide_mask_circle,
+    collide_mask_line,
+    collide_mask_polygon,
+    collide_mask_rounded,
+    thick_line,
+)
+from physics.collision.masks_exact import exact_area, exact_mask_area, meet_polygon
+from physics.collision.narrow_phase import no_work
 from physics.collision.tiles import tile_at
 from physics.jit import kernel, subkernel
-from physics.raster.overlap import shared_area
+from physics.raster.bits import shared_area
+from physics.shapes.library import draw_masks
 from physics.shapes.placement import rounding
-from physics.shapes.rasters import draw_masks
 from physics.tables.geometry import SLOPE
-from physics.tables.rows import rows_of
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PIXELS, TILES
-from physics.tables.world_tables import WorldTables
+from physics.tables.step_state import WorldTables
+from physics.tables.table import rows_of
 
 
 @subkernel

@@ -1,22 +1,46 @@
-"""One link of a chain, met from its front, against a disc and a hull.
+"""Chains against discs and hulls, link by link, and the upper sides of one-way masks."""
 
-        before
-           \\
-            a ------------> b          front: the side of (dy, -dx), up here
-                             \\
-                              after    a convex corner: the solid side bends away
+import math
 
-What is pushed goes along the link's own normal, or, at a convex corner, along one between the normals of both links: so
-a corner between two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one
-reports it, unless what meets it is behind that one. An open end may push up to a quarter turn around. Names as in
-tables.LINK.
-"""
-
-from physics.collision.clipping import ALL_EDGES, best_edge, clip_edges, support_manifold
-from physics.collision.features import CIRCLE_CORNER, OPEN_END
-from physics.collision.hulls import corner_manifold, least_separation, nearest_corners, segments_gap, slack_of
-from physics.jit import subkernel
+from physics.collision.hulls import (
+    ALL_EDGES,
+    CIRCLE_CORNER,
+    OPEN_END,
+    best_edge,
+    clip_edges,
+    corner_manifold,
+    edge_gap,
+    least_separation,
+    nearest_corners,
+    part_feature,
+    segments_gap,
+    slack_of,
+    support_manifold,
+    upright_corners,
+)
+from physics.collision.manifold import CHAIN_ANY, NOTHING, SURFACE_ANY, add_point, add_points
+from physics.collision.masks import thick_line
+from physics.collision.masks_exact import meet_polygon
+from physics.jit import kernel, subkernel
 from physics.math2d import length_of, turned, unit
+from physics.shapes.placement import box_as_tested, hull_at, polygon_at, rounding
+from physics.tables.geometry import BLOCK_LINKS
+from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON
+from physics.tables.step_state import MASK_TESTS
+
+# ---- chains ----------------------------------------------------------------------------------------------------------
+# One link of a chain, met from its front, against a disc and a hull.
+#
+#         before
+#            \
+#             a ------------> b          front: the side of (dy, -dx), up here
+#                              \
+#                               after    a convex corner: the solid side bends away
+#
+# What is pushed goes along the link's own normal, or, at a convex corner, along one between the normals of both links:
+# so a corner between two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one
+# reports it, unless what meets it is behind that one. An open end may push up to a quarter turn around. Names as in
+# tables.LINK.
 
 STRAIGHT = 1e-9  # sine of a bend between two links that counts as none
 ADMIT, SNAP, SKIP = 0, 1, 2  # a normal that a link may have; that of the link instead; a neighbour's
@@ -297,3 +321,291 @@ def collide_link_hull(link, points, hull, count, radius, margin, bias, alone, ma
     if own == 0 and not apart:
         return support_manifold(points, 2, 0.0, 0, hull, count, radius, False, manifold_out)
     return own
+
+
+# ---- chain pairs -----------------------------------------------------------------------------------------------------
+# The pass over the candidate pairs with a chain, link by link;
+# links far from the other shape are skipped in blocks.
+
+BACKING = 2.0  # [px] how thick a link is for masks, behind its front: a line has no area to share
+
+
+@subkernel
+def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
+    """The AABB [px] in a body's space of a box in the world; the body stands at (x, y)."""
+    middle_x, middle_y = turned(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
+    half_x = 0.5 * (max_x - min_x)
+    half_y = 0.5 * (max_y - min_y)
+    reach_x = abs(cosine) * half_x + abs(sine) * half_y
+    reach_y = abs(sine) * half_x + abs(cosine) * half_y
+    return middle_x - reach_x, middle_y - reach_y, middle_x + reach_x, middle_y + reach_y
+
+
+@subkernel
+def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
+    """Whether the box of a and b lies beside another."""
+    return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
+
+
+@kernel
+def collide_chain_pairs(
+    # read
+    batch,
+    # write
+    workspace,
+    manifolds_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of a chain and a hull or mask, appended at `found`. Returns the new count.
+
+    O(links near the other shape).
+    """
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    margin = batch.margin
+    links = geometry.links
+    polygons = geometry.polygons
+    table = geometry.corners
+    points = workspace.a
+    manifold = workspace.points
+    for i in range(batch.count):
+        if kinds[i] != CHAIN_ANY:
+            continue
+        sign = 1.0 if shapes[candidates[i, 0]].kind == CHAIN else -1.0
+        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
+        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
+        o = shapes[other]
+        p = bodies[shapes[row].body_row]
+        q = bodies[o.body_row]
+        span = geometry.chains[shapes[row].geometry]
+        cosine = math.cos(p.angle)
+        sine = math.sin(p.angle)
+        min_x = o.min_x
+        min_y = o.min_y
+        max_x = o.max_x
+        max_y = o.max_y
+        if o.kind == MASK:
+            min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
+        n = 0
+        if o.kind == POLYGON:
+            n = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b)
+        elif o.kind == BOUNDS:
+            n = upright_corners(o, workspace.b)
+        elif o.kind != MASK:
+            n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
+        middle_x = 0.5 * (min_x + max_x)
+        middle_y = 0.5 * (min_y + max_y)
+        # Some digits more than the margin: turning the box must not lose what touches.
+        rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
+        min_x, min_y, max_x, max_y = box_in_body(
+            min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
+        )
+        radius = 0.0
+        if o.kind == MASK:
+            work_inout[MASK_TESTS] += 1
+        else:
+            radius = rounding(shapes, other)
+        start = found
+        near = 0
+        for attempt in range(2):
+            # A hull that each link leaves to its neighbour: once more, and then only where it overlaps.
+            if attempt == 1 and (near == 0 or found > start):
+                break
+            reach = margin if attempt == 0 else 0.0
+            for block in range(span.blocks):
+                box = geometry.link_blocks[span.first_block + block]
+                if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+                    continue
+                for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+                    link = links[span.offset + k]
+                    if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
+                        continue
+                    link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
+                    if o.kind == MASK:
+                        if in_front(points, 0, 1, middle_x, middle_y) < 0.0:
+                            continue
+                        thick_line(points, 0.0, BACKING, workspace.b)
+                        area, nx, ny, x, y, separation, which = meet_polygon(
+                            geometry, q, o, workspace.b, 4, 1, points, workspace.depths
+                        )
+                        if area > 0.0:
+                            found = add_point(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                -sign * nx,
+                                -sign * ny,
+                                x,
+                                y,
+                                separation,
+                                area,
+                                part_feature(k, 0),
+                                manifolds_out,
+                            )
+                    elif n == 1:
+                        hit, nx, ny, x, y, separation, which = collide_link_circle(
+                            link, points, workspace.b[0, 0], workspace.b[0, 1], radius
+                        )
+                        if hit and separation <= margin:
+                            found = add_point(
+                                shapes,
+                                candidates,
+                                i,
+                                found,
+                                sign * nx,
+                                sign * ny,
+                                x,
+                                y,
+                                separation,
+                                0.0,
+                                part_feature(k, which),
+                                manifolds_out,
+                            )
+                    else:
+                        near += 1
+                        met = collide_link_hull(
+                            link, points, workspace.b, n, radius, reach, batch.bias, attempt == 1, manifold
+                        )
+                        found = add_points(
+                            shapes, candidates, i, found, sign, manifold, met, part_feature(k, 0), manifolds_out
+                        )
+    return found
+
+
+# ---- surfaces --------------------------------------------------------------------------------------------------------
+# Who may stand on the upper side of a mask that is open from below: who stood on it, or was above it.
+#
+# Such a side is a chain, and chains are open from their backs for what has its centre behind them. That is not enough
+# for a platform: what jumps half through it and falls again would be lifted out once its centre is above. So a pair
+# counts only if it touched in the step before, or if before the last motion nothing of the body was across the line.
+# The line goes on level beyond both ends, so that what comes from a side passes as well (for tiles: tiles.py).
+
+
+@subkernel
+def line_gap(line, hull, count, radius):
+    """Separation [px] of a hull of so many corners and rounding from the line of two points: below 0 it lies across."""
+    if count > 1:
+        _, _, own = best_edge(line, 2, ALL_EDGES, hull, count)
+        _, _, other = best_edge(hull, count, ALL_EDGES, line, 2)
+        if max(own, other) < 0.0:
+            return max(own, other) - radius
+    gap = math.inf
+    for k in range(count):
+        gap = min(gap, edge_gap(line[0, 0], line[0, 1], line[1, 0], line[1, 1], hull[k, 0], hull[k, 1]))
+        if count > 1:
+            after = k + 1 if k + 1 < count else 0
+            for end in range(2):
+                gap = min(
+                    gap, edge_gap(hull[k, 0], hull[k, 1], hull[after, 0], hull[after, 1], line[end, 0], line[end, 1])
+                )
+    return gap - radius
+
+
+@subkernel
+def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_out):
+    """Whether a hull reaches deeper than `most` [px] across a chain that goes on level beyond its ends.
+
+    chain: its row; x, y, angle: where its body is; hull (count, 2) [px] as seen from there, grown by radius;
+    line_out (16, 2): room for a link. O(links near).
+    """
+    span = geometry.chains[chain]
+    cosine = math.cos(angle)
+    sine = math.sin(angle)
+    min_x = math.inf
+    min_y = math.inf
+    max_x = -math.inf
+    max_y = -math.inf
+    for k in range(count):
+        u, v = turned(hull[k, 0] - x, hull[k, 1] - y, cosine, -sine)
+        min_x = min(min_x, u - radius)
+        min_y = min(min_y, v - radius)
+        max_x = max(max_x, u + radius)
+        max_y = max(max_y, v + radius)
+    for block in range(span.blocks):
+        box = geometry.link_blocks[span.first_block + block]
+        if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+            continue
+        first = span.offset + block * BLOCK_LINKS
+        for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
+            link = geometry.links[k]
+            if not misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
+                link_at(geometry.links, k, x, y, cosine, sine, line_out)
+                if line_gap(line_out, hull, count, radius) < -most:
+                    return True
+    for end in range(2):
+        link = geometry.links[span.offset if end == 0 else span.offset + span.count - 1]
+        u = link.ax if end == 0 else link.bx
+        v = link.ay if end == 0 else link.by
+        beyond = min_x - (max_x - min_x) if end == 0 else max_x + (max_x - min_x)
+        if (beyond < u) == (end == 0) and min_y <= v <= max_y:
+            for k in range(2):
+                du, dv = turned(u if k == 0 else beyond, v, cosine, sine)
+                line_out[k, 0] = x + du
+                line_out[k, 1] = y + dv
+            if line_gap(line_out, hull, count, radius) < -most:
+                return True
+    return False
+
+
+@subkernel
+def was_across(batch, surface, other, most, workspace):
+    """Whether a shape lay across a surface before the last motion of both; surface, other: rows of SHAPE."""
+    s = batch.shapes[surface]
+    o = batch.shapes[other]
+    p = batch.bodies[s.body_row]
+    q = batch.bodies[o.body_row]
+    radius = 0.0
+    if o.kind == BOUNDS:
+        count = upright_corners(o, workspace.b)
+        for k in range(count):
+            workspace.b[k, 0] += q.previous_x - q.x
+            workspace.b[k, 1] += q.previous_y - q.y
+    else:
+        count = hull_at(batch.geometry, batch.shapes, other, q.previous_x, q.previous_y, q.previous_angle, workspace.b)
+        radius = rounding(batch.shapes, other)
+    return lies_across(
+        batch.geometry,
+        s.geometry,
+        p.previous_x,
+        p.previous_y,
+        p.previous_angle,
+        workspace.b,
+        count,
+        radius,
+        most,
+        workspace.a,
+    )
+
+
+@kernel
+def admit_to_surfaces(
+    # read
+    batch,
+    known,
+    # write
+    workspace,
+    kinds_inout,
+    counts_inout,
+):
+    """Let the pairs of a surface and a hull that may touch go on as pairs with a chain, and drop the others.
+
+    known: whether workspace.memory tells of the step before; kinds_inout: the batch's. O(candidates + links near).
+    """
+    for i in range(batch.count):
+        if kinds_inout[i] != SURFACE_ANY:
+            continue
+        kind = CHAIN_ANY
+        if not (known and workspace.memory[i, 1] > 0):
+            first = batch.shapes[batch.candidates[i, 0]].kind == CHAIN
+            surface = batch.candidates[i, 0] if first else batch.candidates[i, 1]
+            other = batch.candidates[i, 1] if first else batch.candidates[i, 0]
+            if was_across(batch, surface, other, batch.margin, workspace):
+                kind = NOTHING
+        kinds_inout[i] = kind
+        counts_inout[SURFACE_ANY] -= 1
+        counts_inout[kind] += 1

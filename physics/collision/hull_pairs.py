@@ -1,24 +1,23 @@
-"""Passes over the candidate pairs of circles and other hulls.
-
-Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
-"""
+"""Passes over the candidate pairs of circles and other hulls, with contacts that are expected within the step."""
 
 import math
 
-from physics.collision.ahead import (
-    bring_together,
-    reach_of,
-    set_back,
-    time_of_disc,
-    time_of_discs,
-    time_of_nearest,
-    way_back,
+from physics.collision.hulls import (
+    ALL_EDGES,
+    CIRCLE_CORNER,
+    CORNERS,
+    COVERED,
+    LEFT,
+    best_edge,
+    collide_circles,
+    collide_hull_circle,
+    collide_hulls,
+    collide_upright,
+    edge_normal,
+    faces_of,
+    passes_by,
+    upright_corners,
 )
-from physics.collision.approach import closing, nearing
-from physics.collision.circles import COVERED, collide_circles
-from physics.collision.clipping import ALL_EDGES, LEFT
-from physics.collision.features import CIRCLE_CORNER, CORNERS
-from physics.collision.hulls import collide_hull_circle, collide_hulls, faces_of, passes_by
 from physics.collision.manifold import (
     CIRCLES,
     POLYGON_CIRCLE,
@@ -29,11 +28,240 @@ from physics.collision.manifold import (
     corners_of,
     leave,
 )
-from physics.collision.upright import collide_upright, upright_corners
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
+from physics.math2d import length_of
 from physics.shapes.placement import polygon_at, rounding
-from physics.tables.body import DYNAMIC
+from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
+
+# ---- approach --------------------------------------------------------------------------------------------------------
+# How fast two bodies close in on each other at a contact: what hits report and bounces are made of.
+
+
+@subkernel
+def velocity_at(body, x, y):
+    """Velocity [px/s] of a point of a BODY row."""
+    return (
+        body.vx - body.angular_velocity * (y - body.center_y),
+        body.vy + body.angular_velocity * (x - body.center_x),
+    )
+
+
+@subkernel
+def closing(p, q, ax, ay, bx, by):
+    """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
+    px, py = velocity_at(p, ax, ay)
+    qx, qy = velocity_at(q, bx, by)
+    return qx - px, qy - py
+
+
+@subkernel
+def nearing(a, b):
+    """Velocity [px/s] of B seen from A, BODY rows, at the centre of the smaller, and how fast that is."""
+    x = a.center_x if a.extent < b.extent else b.center_x
+    y = a.center_y if a.extent < b.extent else b.center_y
+    vx, vy = closing(a, b, x, y, x, y)
+    return vx, vy, length_of(vx, vy)
+
+
+@subkernel
+def most_nearing(a, b):
+    """What neither of two bodies, BODY rows, nor one as `nearing` sees it from the other, is faster than [px/s]."""
+    way = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
+    turning = abs(a.angular_velocity) + abs(b.angular_velocity)
+    return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * way
+
+
+@inlined
+def closing_speed(a, b, x, y, nx, ny, lead):
+    """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows;
+    lead [px]: see MANIFOLD."""
+    ax = x - a.center_x
+    ay = y - a.center_y
+    bx = x - b.center_x + lead * ny
+    by = y - b.center_y - lead * nx
+    vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
+    vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
+    return -(nx * vx + ny * vy)
+
+
+@inlined
+def approach(a, b, manifold_inout):
+    """Write the closing speed of both points of a MANIFOLD row of two bodies, BODY rows, before any response."""
+    m = manifold_inout
+    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
+    if m.count == 2:
+        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.lead)
+
+
+@kernel
+def measure_approach(bodies, manifolds_inout):
+    """Write the closing speed of every point before any response. manifolds_inout MANIFOLD rows. O(manifolds)."""
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        approach(bodies[m.body_row_a], bodies[m.body_row_b], m)
+
+
+# ---- ahead -----------------------------------------------------------------------------------------------------------
+# Pairs that meet within the step: found where they will touch, not where the step begins.
+#
+# What nears by more than the margin in a step would be seen first when it overlaps, and be pushed along where it came
+# from. So B is moved against A, in a straight line, to where they touch or are nearest, and the manifold found there;
+# its gap is what they have to go along that normal. A margin that is fixed is Box2D's b2_speculativeDistance (Catto);
+# the search is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996).
+
+ADVANCES = 16  # of one pair; what is still on its way then is found when it is nearer
+NEVER = -1.0
+
+
+@subkernel
+def is_swept(body, way):
+    """Whether a body, BODY row, moves by more than half its size on a way [px]: that is left to the sweeps, or passes
+    where there are none."""
+    return body.kind != STATIC and way > body.thin_half
+
+
+@subkernel
+def reach_of(a, b, speed, margin, ahead):
+    """How far apart [px] two bodies, BODY rows, that near each other at a speed [px/s] may be and still be told to
+    meet: the margin, or as far as that takes them in `ahead` [s], or would if one of them were stopped."""
+    way = ahead * max(speed, length_of(a.vx, a.vy), length_of(b.vx, b.vy))
+    return margin if is_swept(a, way) or is_swept(b, way) else max(margin, way)
+
+
+@subkernel
+def reach_turning(a, b, speed, margin, ahead):
+    """The same, as far as their corners get by turning: half the size of the smaller at most."""
+    way = ahead * speed
+    if is_swept(a, way) or is_swept(b, way):
+        return margin
+    turn = ahead * (abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent)
+    return max(margin, min(turn, 0.5 * min(a.extent, b.extent)))
+
+
+@subkernel
+def time_of_discs(dx, dy, radii, vx, vy):
+    """When [s] two discs touch whose centres lie dx, dy apart [px], the second moving at vx, vy [px/s]; NEVER."""
+    along = dx * vx + dy * vy
+    square = vx * vx + vy * vy
+    rest = dx * dx + dy * dy - radii * radii
+    root = along * along - square * rest
+    if along >= 0.0 or root < 0.0 or square == 0.0:
+        return NEVER
+    # The root that does not cancel.
+    return rest / (-along + math.sqrt(root))
+
+
+@subkernel
+def time_of_nearest(dx, dy, vx, vy):
+    """When [s] two centres that lie dx, dy apart [px] are nearest, the second moving at vx, vy [px/s]."""
+    square = vx * vx + vy * vy
+    return -(dx * vx + dy * vy) / square if square > 0.0 else 0.0
+
+
+@subkernel
+def move_corners(count, x, y, corners_inout):
+    """Move corners by x, y [px]."""
+    for k in range(count):
+        corners_inout[k, 0] += x
+        corners_inout[k, 1] += y
+
+
+@subkernel
+def time_of_hulls(a, a_count, b_count, radii, vx, vy, target, most, b_inout):
+    """When [s] two hulls are within the target [px] of each other, B moving at vx, vy [px/s]; NEVER within `most` [s].
+
+    a, b_inout: world corners, grown by the radii together; B's are left where they are then. O(corners²) a round.
+    """
+    time = 0.0
+    for _ in range(ADVANCES):
+        a_edge, _, of_a = best_edge(a, a_count, ALL_EDGES, b_inout, b_count)
+        b_edge, _, of_b = best_edge(b_inout, b_count, ALL_EDGES, a, a_count)
+        gap = max(of_a, of_b) - radii
+        if gap <= target:
+            return time
+        if of_a >= of_b:
+            nx, ny = edge_normal(a, a_count, a_edge)
+        else:
+            nx, ny = edge_normal(b_inout, b_count, b_edge)
+            nx = -nx
+            ny = -ny
+        speed = -(vx * nx + vy * ny)
+        if speed <= 0.0:
+            return time  # nearest: what turns them aside must not drive them into each other
+        if gap - target > speed * (most - time):
+            return NEVER
+        # To the middle of what is left to the target, which no rounding can miss.
+        span = (gap - 0.5 * target) / speed
+        move_corners(b_count, span * vx, span * vy, b_inout)
+        time += span
+    return NEVER
+
+
+@subkernel
+def bring_together(margin, ahead, p, q, a, a_count, b_count, radii, b_inout):
+    """Move B's corners to where two hulls touch in this step, where they meet faster than the margin allows for.
+
+    p, q: BODY rows of A and B; a, b_inout: world corners, grown by the radii together [px]. Returns (when [s], or
+    NEVER; B's velocity seen from A [px/s]; how far apart [px] their points may be then: who turns nears too).
+    """
+    if ahead == 0.0:
+        return 0.0, 0.0, 0.0, margin
+    vx, vy, speed = nearing(p, q)
+    far = reach_of(p, q, speed, margin, ahead)
+    reach = max(far, reach_turning(p, q, speed, margin, ahead))
+    if far <= margin or ahead * speed <= margin:
+        return 0.0, 0.0, 0.0, reach
+    return time_of_hulls(a, a_count, b_count, radii, vx, vy, margin, ahead, b_inout), vx, vy, reach
+
+
+@subkernel
+def time_of_disc(corners, count, rounding, x, y, radius, vx, vy, target, most):
+    """When [s] a disc at x, y [px] that moves at vx, vy [px/s] is within the target [px] of a hull, world corners grown
+    by the rounding [px]; NEVER within `most` [s]. O(corners) a round."""
+    time = 0.0
+    for _ in range(ADVANCES):
+        hit, nx, ny, _, _, gap, _ = collide_hull_circle(
+            corners, count, ALL_EDGES, rounding, x + time * vx, y + time * vy, radius
+        )
+        if not hit or gap <= target:
+            return time
+        speed = -(vx * nx + vy * ny)
+        if speed <= 0.0:
+            return time
+        if gap - target > speed * (most - time):
+            return NEVER
+        time += (gap - 0.5 * target) / speed
+    return NEVER
+
+
+@subkernel
+def way_back(time, vx, vy, nx, ny):
+    """What B, found where it had moved for a time [s] at vx, vy [px/s], has to go along the normal until then, and
+    slides along the tangent (-ny, nx) [px]."""
+    return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
+
+
+@subkernel
+def set_back(time, vx, vy, points_inout):
+    """Tell a manifold in flight, found where B had moved for a time [s] at vx, vy [px/s], for where B is. Returns how
+    far [px] B slides along the face until then."""
+    nx = points_inout[1]
+    ny = points_inout[2]
+    way, lead = way_back(time, vx, vy, nx, ny)
+    for k in range(int(points_inout[0])):
+        at = 3 + 4 * k
+        # Midway between the two surfaces, as they are now.
+        points_inout[at] += 0.5 * way * nx
+        points_inout[at + 1] += 0.5 * way * ny
+        points_inout[at + 2] += way
+    return lead
+
+
+# ---- hull pairs ------------------------------------------------------------------------------------------------------
+# Passes over the candidate pairs of circles and other hulls.
+#
+# Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
 
 
 @subkernel

@@ -1,29 +1,425 @@
-"""Rounded convex hulls against each other: corners by separating axes and clipping, the radii added afterwards.
-
-A hull of two corners (capsule, segment) is a polygon with two edges back to back. While the cores overlap, the least
-way out leads across a face and both radii. While they are apart the nearest features decide: a face and what stands
-over it, or, where nothing stands over the faces, two corners, whose distance less the radii is exact.
-
-Degenerate cases have one answer each: among faces that push equally the first of A wins; cores that cross without depth
-(a segment on a segment's line) push along that face's normal; coincident corners push along (0, -1).
-"""
+"""Rounded convex hulls and circles against each other: separating axes, clipping, feature ids."""
 
 import math
 
-from physics.collision.circles import collide_polygon_circle
-from physics.collision.clipping import (
-    ALL_EDGES,
-    LEFT,
-    best_edge,
-    clip_edges,
-    edge_normal,
-    meets_corner,
-    support_manifold,
-)
-from physics.collision.features import CIRCLE_CORNER, corners_feature
+from physics.distance.gjk import support
 from physics.jit import subkernel
 from physics.math2d import length_of, unit
-from physics.proximity.gjk import support
+from physics.tables.shape import TURNS
+
+# ---- features --------------------------------------------------------------------------------------------------------
+# Feature ids: by what a point of a manifold is known again in the next step.
+#
+# A feature is a whole number that says which edge, corner, tile, link or pixel met which. It is the same in the next
+# step as long as the same parts meet, whatever the poses; a point that finds its feature among those of the step before
+# goes on with its impulses. One layout for all colliders:
+#
+#     hulls, a face     ((edge * 16 + corner) * 2 + side) * 2 + flipped           0 .. 1023
+#     hulls, a support  (edge * 16 + corner) * 4 + flipped                        0 .. 1023
+#     hulls, corners    CORNERS + corner of A * 16 + corner of B               2048 .. 2303
+#     a link's open end OPEN_END + end                                         3000 .. 3001
+#     a disc            the edge, or CIRCLE_CORNER + corner                       0 .. 47
+#     tiles, links      the number of the run or link * PART + one of the above
+#     masks             the pixel: row * width + column
+
+CIRCLE_CORNER = 32  # a disc on a corner, + its number
+CORNERS = 2048  # two corners of hulls, + i * 16 + j
+OPEN_END = 3000  # the face across an open end of a chain, + 0 at a or 1 at b
+PART = 4096  # features of one tile run or one link
+
+
+@subkernel
+def clipped_feature(edge, corner, side, flipped):
+    """A point clipped against a face: reference edge, incident corner, which end, 1 where the face is B's."""
+    return ((edge * 16 + corner) * 2 + side) * 2 + flipped
+
+
+@subkernel
+def support_feature(edge, corner, flipped):
+    """The deepest corner under a face."""
+    return (edge * 16 + corner) * 4 + flipped
+
+
+@subkernel
+def corners_feature(i, j):
+    """A corner of A against a corner of B."""
+    return CORNERS + i * 16 + j
+
+
+@subkernel
+def part_feature(part, feature):
+    """A feature of one run of tiles, or of one link."""
+    return part * PART + feature
+
+
+@subkernel
+def part_of(feature):
+    """The run of tiles, or the link, that a feature belongs to."""
+    return feature // PART
+
+
+@subkernel
+def pixel_feature(row, column, width):
+    """A pixel of a mask."""
+    return row * width + column
+
+
+# ---- clipping --------------------------------------------------------------------------------------------------------
+# Convex polygons by the separating axis theorem, with a manifold of at most two points clipped from the edges.
+#
+# Corners go clockwise on the screen (y down), so the outward normal of the edge from p to q is (dy, -dx):
+#
+#         0 ---e0--- 1
+#         |          |
+#         e3         e1          normal of e0 = (0, -1): up
+#         |          |
+#         3 ---e2--- 2
+#
+# Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds, GDC 2007.
+
+TURN = 1.0 / TURNS  # [rad]
+# A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
+LEFT = -1.0  # in place of the count: they overlap, and a neighbour that covers the nearer edges is to tell it
+ALL_EDGES = 0xFFFFFFFF  # 16 bits: edges that may be touched; next 16: corners that may be; beyond: as SHAPE's inner
+
+
+@subkernel
+def edge_normal(corners, count, k):
+    """Outward unit normal of edge k."""
+    n = k + 1 if k + 1 < count else 0
+    dx = corners[n, 0] - corners[k, 0]
+    dy = corners[n, 1] - corners[k, 1]
+    length = math.sqrt(dx * dx + dy * dy)
+    if length == 0.0:
+        return 0.0, -1.0
+    return dy / length, -dx / length
+
+
+@subkernel
+def meets_corner(corners, count, edges, corner, nx, ny):
+    """Whether what lies in the direction (nx, ny), unit, of a corner has it as the nearest point of the outline.
+
+    Of a corner that other parts cover a neighbour tells. At a blunt one the part seems sharper than the outline is: its
+    inner side is not the outline's, which turns there only so far from the side that may be touched.
+    """
+    if (edges >> (16 + corner)) & 1 == 0:
+        return False
+    if (edges >> (32 + corner)) & 1 == 0:
+        return True
+    least = math.cos((edges >> 48) * TURN)
+    for back in range(2):
+        side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
+        if (edges >> side) & 1:
+            own_x, own_y = edge_normal(corners, count, side)
+            return nx * own_x + ny * own_y >= least
+    return False
+
+
+@subkernel
+def best_edge(corners, count, allowed, other, other_count):
+    """The edge of the first polygon that separates most, and its separation [px].
+
+    allowed: bits of the edges that may serve as a reference face. Returns (edge, separation over the allowed edges,
+    separation over all edges). O(count · other_count).
+    """
+    best = -1
+    best_separation = -math.inf
+    overall = -math.inf
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        least = math.inf
+        for i in range(other_count):
+            least = min(least, nx * (other[i, 0] - corners[k, 0]) + ny * (other[i, 1] - corners[k, 1]))
+        overall = max(overall, least)
+        if (allowed >> k) & 1 and least > best_separation:
+            best = k
+            best_separation = least
+    return best, best_separation, overall
+
+
+@subkernel
+def clip_edges(
+    reference,
+    reference_count,
+    reference_radius,
+    edge,
+    incident,
+    incident_count,
+    incident_radius,
+    limit,
+    flipped,
+    manifold_out,
+):
+    """Manifold of a reference face and the edge of the other polygon that faces it most, each grown by a radius [px].
+
+    limit [px]: points further apart are dropped; flipped: the reference belongs to B, so the normal is turned round.
+    manifold_out: see above. Feature: bits of reference edge, incident corner, side. Returns the number of points.
+    """
+    following = edge + 1 if edge + 1 < reference_count else 0
+    nx, ny = edge_normal(reference, reference_count, edge)
+    facing = 0
+    most = math.inf
+    for k in range(incident_count):
+        mx, my = edge_normal(incident, incident_count, k)
+        if mx * nx + my * ny < most:
+            most = mx * nx + my * ny
+            facing = k
+    far = facing + 1 if facing + 1 < incident_count else 0
+    tx = -ny
+    ty = nx
+    start = tx * reference[edge, 0] + ty * reference[edge, 1]
+    end = tx * reference[following, 0] + ty * reference[following, 1]
+    # The incident edge runs against the reference edge.
+    px = incident[far, 0]
+    py = incident[far, 1]
+    qx = incident[facing, 0]
+    qy = incident[facing, 1]
+    p_along = tx * px + ty * py
+    q_along = tx * qx + ty * qy
+    span = q_along - p_along
+    count = 0
+    sign = -1.0 if flipped else 1.0
+    for side in range(2):
+        along = p_along if side == 0 else q_along
+        x = px if side == 0 else qx
+        y = py if side == 0 else qy
+        if p_along > end or q_along < start:
+            break
+        clipped = along < start or along > end
+        if clipped and span > 0.0:
+            bound = start if along < start else end
+            t = (bound - p_along) / span
+            x = px + t * (qx - px)
+            y = py + t * (qy - py)
+        height = nx * (x - reference[edge, 0]) + ny * (y - reference[edge, 1])
+        separation = height - reference_radius - incident_radius
+        if separation <= limit:
+            at = 3 + 4 * count
+            down = 0.5 * (height + incident_radius - reference_radius)
+            manifold_out[at] = x - down * nx
+            manifold_out[at + 1] = y - down * ny
+            manifold_out[at + 2] = separation
+            corner = far if side == 0 else facing
+            manifold_out[at + 3] = float(clipped_feature(edge, corner, side, 1 if flipped else 0))
+            count += 1
+    manifold_out[0] = float(count)
+    manifold_out[1] = sign * nx
+    manifold_out[2] = sign * ny
+    return count
+
+
+@subkernel
+def support_manifold(
+    reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, flipped, manifold_out
+):
+    """One point: the corner of the other polygon deepest under the reference face, radii [px]. Always finds it."""
+    nx, ny = edge_normal(reference, reference_count, edge)
+    deepest = 0
+    least = math.inf
+    for k in range(incident_count):
+        separation = nx * (incident[k, 0] - reference[edge, 0]) + ny * (incident[k, 1] - reference[edge, 1])
+        if separation < least:
+            least = separation
+            deepest = k
+    sign = -1.0 if flipped else 1.0
+    manifold_out[0] = 1.0
+    manifold_out[1] = sign * nx
+    manifold_out[2] = sign * ny
+    down = 0.5 * (least + incident_radius - reference_radius)
+    manifold_out[3] = incident[deepest, 0] - down * nx
+    manifold_out[4] = incident[deepest, 1] - down * ny
+    manifold_out[5] = least - reference_radius - incident_radius
+    manifold_out[6] = float(support_feature(edge, deepest, 1 if flipped else 0))
+    return 1
+
+
+# ---- circles ---------------------------------------------------------------------------------------------------------
+# Circles against circles and convex polygons, in closed form.
+
+COVERED = -1  # in place of a feature: the centre is inside, and no edge may be touched
+
+
+@subkernel
+def collide_circles(ax, ay, a_radius, bx, by, b_radius):
+    """Two discs [px]: (normal from A to B, point midway, separation). Equal centres push along +x. O(1)."""
+    dx = bx - ax
+    dy = by - ay
+    nx, ny = unit(dx, dy, 1.0, 0.0)
+    distance = length_of(dx, dy)
+    separation = distance - (a_radius + b_radius)
+    along = 0.5 * (a_radius + (distance - b_radius))
+    return nx, ny, ax + along * nx, ay + along * ny, separation
+
+
+@subkernel
+def collide_polygon_circle(corners, count, edges, x, y, radius):
+    """A convex polygon against a disc [px]: (found, normal to the disc, point midway, separation, feature).
+
+    edges: bits of the edges and corners that may be touched. What may not is covered by a neighbour, so nothing is
+    found where it is the nearest: the neighbour finds it. With the centre inside, the
+    nearest touchable edge decides; without any, which the feature COVERED says, a neighbour. A centre on the outline
+    takes the edge's normal. O(count).
+    """
+    best = -1
+    inner = -1
+    best_separation = -math.inf
+    inner_separation = -math.inf
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        separation = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1])
+        if separation > best_separation:
+            best_separation = separation
+            best = k
+        if (edges >> k) & 1 and separation > inner_separation:
+            inner_separation = separation
+            inner = k
+    if best_separation <= 0.0:
+        best = inner
+        best_separation = inner_separation
+        if best < 0:
+            return False, 0.0, -1.0, x, y, 0.0, COVERED
+    nx, ny = edge_normal(corners, count, best)
+    if best_separation > 0.0:
+        following = best + 1 if best + 1 < count else 0
+        ex = corners[following, 0] - corners[best, 0]
+        ey = corners[following, 1] - corners[best, 1]
+        from_start = ex * (x - corners[best, 0]) + ey * (y - corners[best, 1])
+        from_end = ex * (x - corners[following, 0]) + ey * (y - corners[following, 1])
+        # Right over a corner the face decides: of two tiles that share a covered corner one has to tell.
+        if from_start < 0.0 or from_end > 0.0:
+            corner = best if from_start < 0.0 else following
+            dx = x - corners[corner, 0]
+            dy = y - corners[corner, 1]
+            distance = length_of(dx, dy)
+            nx, ny = unit(dx, dy, nx, ny)
+            if not meets_corner(corners, count, edges, corner, nx, ny):
+                return False, 0.0, -1.0, x, y, 0.0, 0
+            separation = distance - radius
+            along = 0.5 * separation
+            return (
+                True,
+                nx,
+                ny,
+                corners[corner, 0] + along * nx,
+                corners[corner, 1] + along * ny,
+                separation,
+                CIRCLE_CORNER + corner,
+            )
+        if not (edges >> best) & 1:
+            return False, 0.0, -1.0, x, y, 0.0, 0
+    separation = best_separation - radius
+    along = best_separation - 0.5 * separation
+    return True, nx, ny, x - along * nx, y - along * ny, separation, best
+
+
+# ---- upright ---------------------------------------------------------------------------------------------------------
+# Boxes along the axes, as their AABBs stand in the table of shapes: no corner is turned, no axis but theirs is tried.
+#
+# The answer is that of hulls.collide_hulls for the same boxes: points, separations, features.
+
+
+@subkernel
+def upright_corners(shape, corners_out):
+    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Returns their number."""
+    corners_out[0, 0] = shape.min_x
+    corners_out[0, 1] = shape.min_y
+    corners_out[1, 0] = shape.max_x
+    corners_out[1, 1] = shape.min_y
+    corners_out[2, 0] = shape.max_x
+    corners_out[2, 1] = shape.max_y
+    corners_out[3, 0] = shape.min_x
+    corners_out[3, 1] = shape.max_y
+    return 4
+
+
+@subkernel
+def between(value, low, high):
+    """The value, or the bound that it is beyond."""
+    return max(low, min(high, value))
+
+
+@subkernel
+def corner_of_upright(a, b, margin, manifold_out):
+    """One point between the nearest corners of two boxes that lie apart along both axes. Returns the number."""
+    right = b.min_x > a.max_x
+    below = b.min_y > a.max_y
+    ax = a.max_x if right else a.min_x
+    ay = a.max_y if below else a.min_y
+    dx = (b.min_x if right else b.max_x) - ax
+    dy = (b.min_y if below else b.max_y) - ay
+    distance = length_of(dx, dy)
+    if distance > margin:
+        return 0
+    nx, ny = unit(dx, dy, 0.0, -1.0)
+    i = (2 if right else 3) if below else (1 if right else 0)
+    manifold_out[0] = 1.0
+    manifold_out[1] = nx
+    manifold_out[2] = ny
+    manifold_out[3] = ax + 0.5 * distance * nx
+    manifold_out[4] = ay + 0.5 * distance * ny
+    manifold_out[5] = distance
+    manifold_out[6] = float(corners_feature(i, (i + 2) % 4))
+    return 1
+
+
+@subkernel
+def collide_upright(a, b, margin, manifold_out):
+    """Manifold of the AABBs of two SHAPE rows, normal from A to B. Returns the number of points, 0 when apart by more
+    than margin [px]. manifold_out: see "clipping" above."""
+    up = a.min_y - b.max_y
+    right = b.min_x - a.max_x
+    down = b.min_y - a.max_y
+    left = a.min_x - b.max_x
+    manifold_out[0] = 0.0
+    edge = 0
+    separation = up
+    if right > separation:
+        edge = 1
+        separation = right
+    if down > separation:
+        edge = 2
+        separation = down
+    if left > separation:
+        edge = 3
+        separation = left
+    if separation > margin:
+        return 0
+    if max(up, down) > 0.0 and max(left, right) > 0.0:
+        return corner_of_upright(a, b, margin, manifold_out)
+    manifold_out[0] = 2.0
+    manifold_out[5] = separation
+    manifold_out[9] = separation
+    half = 0.5 * separation
+    if edge == 0 or edge == 2:
+        y = a.min_y - half if edge == 0 else a.max_y + half
+        manifold_out[1] = 0.0
+        manifold_out[2] = -1.0 if edge == 0 else 1.0
+        manifold_out[3] = between(b.min_x if edge == 0 else b.max_x, a.min_x, a.max_x)
+        manifold_out[4] = y
+        manifold_out[7] = between(b.max_x if edge == 0 else b.min_x, a.min_x, a.max_x)
+        manifold_out[8] = y
+    else:
+        x = a.min_x - half if edge == 3 else a.max_x + half
+        manifold_out[1] = -1.0 if edge == 3 else 1.0
+        manifold_out[2] = 0.0
+        manifold_out[3] = x
+        manifold_out[4] = between(b.min_y if edge == 1 else b.max_y, a.min_y, a.max_y)
+        manifold_out[7] = x
+        manifold_out[8] = between(b.max_y if edge == 1 else b.min_y, a.min_y, a.max_y)
+    manifold_out[6] = float(clipped_feature(edge, (edge + 3) % 4, 0, 0))
+    manifold_out[10] = float(clipped_feature(edge, (edge + 2) % 4, 1, 0))
+    return 2
+
+
+# ---- hulls -----------------------------------------------------------------------------------------------------------
+# Rounded convex hulls against each other: corners by separating axes and clipping, the radii added afterwards.
+#
+# A hull of two corners (capsule, segment) is a polygon with two edges back to back. While the cores overlap, the least
+# way out leads across a face and both radii. While they are apart the nearest features decide: a face and what stands
+# over it, or, where nothing stands over the faces, two corners, whose distance less the radii is exact.
+#
+# Degenerate cases have one answer each: among faces that push equally the first of A wins; cores that cross without
+# depth (a segment on a segment's line) push along that face's normal; coincident corners push along (0, -1).
 
 
 @subkernel

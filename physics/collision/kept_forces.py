@@ -6,16 +6,14 @@ the spot, and each new point takes over from the old one that stood where it sta
 
 import numpy as np
 
-from physics.collision.box_pairs import SOLIDS
-from physics.collision.carry_over import carry_over
-from physics.collision.detect import BIAS
-from physics.collision.dispatch import no_work
-from physics.dynamics.sleepers import order_of
+from physics.collision.cache import carry_over
+from physics.collision.narrow_phase import BIAS, SOLIDS, no_work
+from physics.islands.sleep import order_of
 from physics.shapes.placement import refresh_aabbs
-from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.rows import joined, rows_of
+from physics.tables.contact import ANCHOR, MANIFOLD
 from physics.tables.shape import CHAIN, PIXELS
-from physics.tables.world_tables import WorldTables
+from physics.tables.step_state import WorldTables
+from physics.tables.table import joined, rows_of
 
 ALIKE = 0.9  # cosine between normals that push the same way: what an outline turns by where it is smoothed anew
 

@@ -1,25 +1,106 @@
-"""Rows of the manifold table: written by the passes over pairs, then put in the order of the candidates."""
+"""Rows of the MANIFOLD table, their materials, and the order in which they are reported."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.owners import by_owner
-from physics.collision.upright import upright_corners
-from physics.jit import kernel, subkernel
+from physics.collision.hulls import part_of, upright_corners
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import heading, turned
 from physics.shapes.placement import corners_at
-from physics.tables.contact import CONTACT
+from physics.tables.contact import CONTACT, MANIFOLD
 from physics.tables.geometry import Geometry
-from physics.tables.manifold import MANIFOLD
-from physics.tables.shape import BOUNDS
+from physics.tables.shape import BOUNDS, CHAIN, MASK, TILES
+
+# ---- owners ----------------------------------------------------------------------------------------------------------
+# What is told of manifolds: the shapes that touch, whichever parts of them do.
+
+SIDES = ("body_", "shape_", "owner_", "body_row_", "row_")
+
+
+@kernel
+def are_whole(manifolds):
+    """Whether no side of any manifold is a part of another shape. O(manifolds)."""
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        if m.owner_a != m.shape_a or m.owner_b != m.shape_b:
+            return False
+    return True
+
+
+def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    """(MANIFOLD rows that name the shapes whose parts touch, in the order of these; their rows before, None: the same).
+
+    That a mask has parts is nobody's business, nor that they may have come later than what they touch: A is the shape
+    with the smaller id here too.
+    """
+    if are_whole(manifolds):
+        return manifolds, None
+    a, b = manifolds["owner_a"], manifolds["owner_b"]
+    order = np.lexsort((np.maximum(a, b), np.minimum(a, b)))
+    found = manifolds[order]
+    found["shape_a"], found["shape_b"] = found["owner_a"], found["owner_b"]
+    turned = np.flatnonzero(found["owner_a"] > found["owner_b"])
+    if len(turned):
+        for name in SIDES:
+            found[name + "a"][turned], found[name + "b"][turned] = (
+                found[name + "b"][turned],
+                found[name + "a"][turned],
+            )
+        for name in ("normal_x", "normal_y"):
+            found[name][turned] = 0.0 - found[name][turned]
+    return found, order
+
+
+# ---- materials -------------------------------------------------------------------------------------------------------
+# What two materials are together: friction, restitution, rolling resistance, surface speed of a contact.
+
+
+@inlined
+def mixed(geometry, a, b, manifold):
+    """(friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold of two shapes, SHAPE rows; a
+    chain's link has its own.
+
+    Friction is the geometric mean, restitution and rolling resistance the greater, surface speeds add up. Rolling
+    resistance is a length here: the coefficient times the greater radius (Catto, Box2D v3.1).
+    """
+    friction = 1.0
+    restitution = 0.0
+    rolling = 0.0
+    radius = 0.0
+    speed = 0.0
+    for side in range(2):
+        s = a if side == 0 else b
+        own_friction = s.friction
+        own_restitution = s.restitution
+        own_rolling = s.rolling_resistance
+        own_speed = s.surface_speed
+        if s.kind == CHAIN:
+            link = geometry.links[geometry.chains[s.geometry].offset + part_of(manifold.feature_1)]
+            if link.friction >= 0.0:
+                own_friction = link.friction
+                own_restitution = link.restitution
+                own_rolling = link.rolling_resistance
+                own_speed = link.surface_speed
+        friction *= own_friction
+        restitution = max(restitution, own_restitution)
+        rolling = max(rolling, own_rolling)
+        speed += own_speed
+        if s.kind != TILES and s.kind != CHAIN and s.kind != MASK:
+            radius = max(radius, s.radius)
+    return math.sqrt(friction), restitution, rolling * radius, speed
+
+
+# ---- manifold --------------------------------------------------------------------------------------------------------
+# Rows of the manifold table: written by the passes over pairs, then put in the order of the candidates.
 
 # Kinds of pairs, by which the candidates are dealt to the passes.
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON = range(6)
 MASKS_EXACT, MASK_HULL_EXACT, GRID_ANY, CHAIN_ANY = range(6, 10)  # exact: with a mask that is not snapped
 SURFACE_ANY, NOTHING = 10, 11  # surface: a chain that is the upper side of a mask open from below
 BLOCK = 64  # pairs of masks that are looked at together
-POINTS = 11  # floats of a manifold in flight: see clipping.py
+POINTS = 11  # floats of a manifold in flight: see hulls.py
 
 
 class Batch(NamedTuple):
@@ -34,7 +115,7 @@ class Batch(NamedTuple):
     margin: float  # [px] pairs apart by at most that are found too
     bias: float  # [px] see hulls.collide_hulls
     graze: float = 0.0  # [px] who would overlap by no more in passing does not meet: see hull_pairs
-    ahead: float = 0.0  # [s] in which what meets is found: see ahead.py
+    ahead: float = 0.0  # [s] in which what meets is found: see hull_pairs.py
 
 
 class Workspace(NamedTuple):
@@ -42,7 +123,7 @@ class Workspace(NamedTuple):
 
     a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
-    points: np.ndarray  # (POINTS,), see clipping.py
+    points: np.ndarray  # (POINTS,), see hulls.py
     depths: np.ndarray  # (16,)
     previous: (
         np.ndarray
@@ -129,7 +210,7 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
     """Add a point to the last manifold, if that is of this pair, with this normal and one point; else begin one.
 
     Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
-    area [px2]. What depends on the bodies' motion is left to approach.py.
+    area [px2]. What depends on the bodies' motion is left to hull_pairs.py.
     """
     if 0 < found <= len(manifolds_out):
         m = manifolds_out[found - 1]
@@ -146,7 +227,7 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
 
 @subkernel
 def add_points(shapes, candidates, pair, found, sign, points, count, part, manifolds_out):
-    """Add the points of a manifold in flight (see clipping.py). sign: -1.0 where it was asked the other way round;
+    """Add the points of a manifold in flight (see hulls.py). sign: -1.0 where it was asked the other way round;
     part: what is added to its features. Returns the number of manifolds."""
     for k in range(count):
         at = 3 + 4 * k

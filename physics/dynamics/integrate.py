@@ -11,11 +11,10 @@ import numpy as np
 
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, turned
+from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rasters import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.counters import BODIES_INTEGRATED
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
 
 BOTH = (False, True)
 

@@ -1,7 +1,7 @@
 """Compiles kernels, or runs them as they are; numba is imported nowhere else, and only when a kernel is called.
 
 A kernel is a plain function over tables and scalars. With numba it is compiled at its first call and kept on disk.
-Without numba the same source runs, over views of the tables and arrays (views.py). In a program that opted in
+Without numba the same source runs, over views of the tables and arrays (plain.py). In a program that opted in
 (tiers.py) it runs as plain Python until its compiled form is there; both give the same bits.
 
 Five decorators: `kernel` for functions that a stage calls with arrays, `generic` for those among them that are called
@@ -13,11 +13,9 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-from physics.jit.calls import StageKernel
-from physics.jit.compiler import JIT
 from physics.jit.kernels import Part, registry
-from physics.jit.views import view_of
-from physics.jit.words import Builtin, popcount, put_in, word
+from physics.jit.plain import JIT, Builtin, popcount, put_in, view_of, word
+from physics.jit.tiers import StageKernel
 
 __all__ = [
     "Builtin",

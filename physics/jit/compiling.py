@@ -1,10 +1,6 @@
-"""Compiled forms of kernels: loaded from the store, or compiled and kept there. Imported only where numba is.
+"""Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and kept there.
 
-A stage's kernel is kept as machine code, and linked straight into numba's engine when it is loaded: that takes no types
-and none of numba's tables (measured: 1 to 3 ms, where numba's own way takes 9 to 53). A part is kept as code for
-linking (parts.py). Both are named by content (content.py), and so are their symbols: numba's own hold a counter of the
-process, with which parts of two processes can be linked to the wrong code.
-"""
+Imported only where numba is."""
 
 import hashlib
 import importlib
@@ -17,19 +13,123 @@ from time import perf_counter
 from typing import Any
 
 import llvmlite.binding as llvm
-from numba.core import bytecode, caching, types
+from numba.core import bytecode, caching, codegen, typed_passes, types
+from numba.core.compiler import CompilerBase, DefaultPassBuilder, compile_result
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.compiler_machinery import register_pass
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import cpu_target
 
-from physics.jit import parts, totals
-from physics.jit.compiler import compiler
+from physics.jit import kernels
 from physics.jit.content import NotHashable, content_of_library, fingerprint
-from physics.jit.kernels import Form, Kernel, Keys
-from physics.jit.signatures import text_of, type_of
+from physics.jit.kernels import Form, Kernel, Keys, text_of, type_of
+from physics.jit.plain import Builtin, compiler, rebound
 from physics.jit.store import store
-from physics.jit.twins import rebound
-from physics.jit.words import Builtin
+
+# ---- parts -----------------------------------------------------------------------------------------------------------
+# Kernels that only kernels call are parts: kept as code for linking, never made into machine code by themselves.
+#
+# Whatever calls one links its code, and all that it calls, into its own and optimizes the whole. Numba optimizes and
+# generates machine code for every part as well, which nobody runs. Measured without: the kernels of the platformer take
+# 81 s of processor time to compile, with 141, in one run.
+#
+# Numba's ways to do so: a pipeline of the dispatcher's own (numba.core.compiler.CompilerBase) whose last pass lowers
+# into a library of its own (numba.core.codegen.CodeLibrary). Imported only where there is a compiler.
+
+
+class PartLibrary(codegen.JITCodeLibrary):
+    """Code that is linked into others: the calls in it are resolved, but nothing is optimized or can be run."""
+
+    def _optimize_final_module(self):
+        pass
+
+    def _finalize_final_module(self):
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    def bitcode(self) -> bytes:
+        """What a cache keeps."""
+        return self._get_module_for_linking().as_bitcode()
+
+    @classmethod
+    def from_bitcode(cls, generator: Any, name: str, code: bytes) -> "PartLibrary":
+        """The library that was kept; generator: a numba CPUCodegen."""
+        library = cls(generator, name)
+        library._final_module = library._shared_module = llvm.parse_bitcode(code)
+        library._finalized = True
+        return library
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class PartLowering(typed_passes.NativeLowering):
+    """Lowers a part into a library of its own kind."""
+
+    _name = "part_lowering"
+
+    def run_pass(self, state: Any) -> bool:
+        """As numba's, which would go on to ask for the address of the machine code."""
+        state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.flags.no_compile = True
+        state.flags.noalias = getattr(state.func_id.func, "noalias", False)
+        super().run_pass(state)
+        state.library.finalize()
+        lowered = state["cr"]
+        entry = entry_of(lowered.fndesc, lowered.env, state.library)
+        state.targetctx.insert_user_function(entry, lowered.fndesc, [state.library])
+        state["cr"] = lowered._replace(cfunc=entry)
+        return True
+
+
+class PartCompiler(CompilerBase):
+    """Numba's pipeline for compiled functions, but for its last pass."""
+
+    def define_pipelines(self) -> list:
+        """One pipeline."""
+        manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        manager.add_pass_after(PartLowering, typed_passes.NativeLowering)
+        manager.passes = [each for each in manager.passes if each[0] is not typed_passes.NativeLowering]
+        manager.finalize()
+        return [manager]
+
+
+def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
+    """What numba knows a compiled function by: a function of no address, as nobody calls it."""
+    name = descriptor.qualname.split(".")[-1]
+    return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
+
+
+def reduce(result: Any) -> tuple:
+    """What is kept of a CompileResult."""
+    descriptor = result.fndesc
+    descriptor.typemap = descriptor.calltypes = None  # may not be pickled
+    return result.library.name, result.library.bitcode(), descriptor, result.environment, result.signature
+
+
+def rebuild(target_context: Any, kept: tuple) -> Any:
+    """A CompileResult of what reduce() kept."""
+    name, code, descriptor, environment, signature = kept
+    library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
+    return compile_result(
+        target_context=target_context,
+        typing_context=target_context.typing_context,
+        library=library,
+        environment=environment,
+        entry_point=entry_of(descriptor, environment, library),
+        fndesc=descriptor,
+        signature=signature,
+        objectmode=False,
+        reload_init=(),
+        referenced_envs=[],
+    )
+
+
+# ---- compiling -------------------------------------------------------------------------------------------------------
+# Compiled forms of kernels: loaded from the store, or compiled and kept there. Imported only where numba is.
+#
+# A stage's kernel is kept as machine code, and linked straight into numba's engine when it is loaded: that takes no
+# types and none of numba's tables (measured: 1 to 3 ms, where numba's own way takes 9 to 53). A part is kept as code
+# for linking (parts.py). Both are named by content (content.py), and so are their symbols: numba's own hold a counter
+# of the process, with which parts of two processes can be linked to the wrong code.
 
 # Of numba's modules in C, which declare no types.
 _dynfunc, _nrt_python = map(importlib.import_module, ("numba._dynfunc", "numba.core.runtime._nrt_python"))
@@ -57,8 +157,8 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
         return None
     started = perf_counter()
     form = _link(pickle.loads(zlib.decompress(content)))
-    totals.loaded += 1
-    totals.loading += perf_counter() - started
+    kernels.loaded += 1
+    kernels.loading += perf_counter() - started
     return form
 
 
@@ -73,7 +173,7 @@ def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
 
 def _compile(kernel, keys):
     found = tuple(map(type_of, keys))
-    with totals.compiling(), global_compiler_lock, stable_symbols(), _claims():
+    with kernels.compiling(), global_compiler_lock, stable_symbols(), _claims():
         made = dispatcher_of(kernel)
         made.compile(found)
         result = made.overloads[found]
@@ -163,7 +263,7 @@ def dispatcher_of(kernel: Kernel) -> Any:
         raise TypeError(f"{kernel.name} calls itself, which kernels do not")
     if kernel.dispatcher is None:
         kernel.dispatcher = _UNDER_WAY
-        more = LEANER | ({"pipeline_class": parts.PartCompiler} if kernel.is_part else {})
+        more = LEANER | ({"pipeline_class": PartCompiler} if kernel.is_part else {})
         twin = rebound(kernel.py_func, _compiled_form_of)
         twin.noalias = kernel.noalias
         twin.content = fingerprint(kernel)
@@ -240,13 +340,13 @@ class PartCache(caching._Cache):
         if name in _claimed:
             _claimed.pop(name).close()
         target_context.refresh()
-        totals.parts_loaded += 1
-        return parts.rebuild(target_context, pickle.loads(zlib.decompress(content)))
+        kernels.parts_loaded += 1
+        return rebuild(target_context, pickle.loads(zlib.decompress(content)))
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep a part."""
         name = self._name(sig)
-        store().write(name, zlib.compress(pickle.dumps(parts.reduce(data)), 1))
+        store().write(name, zlib.compress(pickle.dumps(reduce(data)), 1))
         if name in _claimed:
             _claimed.pop(name).close()
 

@@ -16,10 +16,8 @@ from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
 
 import numpy as np
 
-from physics.jit.compiler import compiler
 from physics.jit.kernels import Kernel
-from physics.jit.twins import globals_of, names_in
-from physics.jit.words import Builtin
+from physics.jit.plain import Builtin, compiler, globals_of, names_in
 
 DIGEST = 20  # bytes
 OUTSIDE = ("math", "numpy")  # modules whose contents their version stands for

@@ -1,17 +1,25 @@
-"""Which form of a kernel runs where its compiled form is not at hand: compile now, run plain, or run plain and note it.
+"""Calls of kernels from Python: which form runs, what it took, and how another process finds the same kernel."""
 
-Left alone, a kernel is loaded or compiled at its first call. `collecting()` notes what a run calls that is not on disk,
-so that several processes can compile it. `start()` opts in to tiers for the rest of the program: kernels run plain, a
-thread loads what is on disk and has the rest compiled by worker processes (workers.py), the kernels with the largest
-share of the time for their length first; take_over() lets what has arrived run from the next step on.
-"""
-
+import importlib
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
 from contextlib import contextmanager
+from functools import cache
+from time import perf_counter
+from types import CellType, CodeType, FunctionType
+from typing import Any
 
-from physics.jit.compiler import compiler
-from physics.jit.kernels import Form, Kernel, Keys, registry
+from physics.jit.content import content_of
+from physics.jit.kernels import CHECKING, Form, Kernel, Keys, Part, is_whole, key_of, registry, text_of
+from physics.jit.plain import compiler, globals_of, view_of
+
+# ---- tiers -----------------------------------------------------------------------------------------------------------
+# Which form of a kernel runs where its compiled form is not at hand: compile now, run plain, or run plain and note it.
+#
+# Left alone, a kernel is loaded or compiled at its first call. `collecting()` notes what a run calls that is not on
+# disk, so that several processes can compile it. `start()` opts in to tiers for the rest of the program: kernels run
+# plain, a thread loads what is on disk and has the rest compiled by worker processes (workers.py), the kernels with the
+# largest share of the time for their length first; take_over() lets what has arrived run from the next step on.
 
 background = False  # this program has opted in to tiers
 wanted: dict[tuple[Kernel, Keys], None] = {}  # what has run plain, in the order of the first calls
@@ -106,3 +114,162 @@ def forget() -> None:
     for each in registry:
         each.forms.clear()
         each.reset()
+
+
+# ---- calls -----------------------------------------------------------------------------------------------------------
+# Kernels that Python calls: which form runs at a call.
+#
+# At its first call a kernel is loaded from disk or compiled. In a program that opted in to tiers it runs as its plain
+# twin, is queued, and its compiled form takes over between two steps; while kernels are collected it runs plain too,
+# and what is not on disk is noted (tiers.py).
+
+
+class StageKernel(Kernel):
+    """A kernel that a stage calls. Once its compiled form is there, calling it calls that, with nothing between.
+
+    Measured: numba takes 1.07 us to look at the types of six tables, and 0.1 for the call; a step of 55 boxes makes 15.
+    A kernel that is not `generic` is called with the same types each time: a fraction for a whole number is refused,
+    another element size too (by the compiled form), other types under HITBOX_CHECK_CALLS=1.
+    """
+
+    def reset(self) -> None:
+        """Forget which form runs: the next call looks for one."""
+        self.run = self._generic_call if self.is_generic else self._first_call
+
+    def install(self, keys: Keys, form: Form) -> None:
+        """Let a compiled form run from the next call with these types on."""
+        self.forms[keys] = form
+        if self.is_generic:
+            return
+        whole = tuple(place for place, key in enumerate(keys) if is_whole(key))
+        self.run = _checked(self, keys, whole, form) if CHECKING or whole else form
+
+    def _first_call(self, *arguments):
+        keys = tuple(map(key_of, arguments))
+        form = form_of(self, keys)
+        if form is not None:
+            self.install(keys, form)
+            return form(*arguments)
+        if (self, keys) in wanted:  # its types are known, and somebody is at it
+            self.run = self._timed_plain_call
+        return self._timed_plain_call(*arguments)
+
+    def _generic_call(self, *arguments):
+        keys = tuple(map(key_of, arguments))
+        form = self.forms.get(keys)
+        if form is None:
+            form = form_of(self, keys)
+            if form is None:
+                return self._timed_plain_call(*arguments)
+            self.install(keys, form)
+        return form(*arguments)
+
+    def _timed_plain_call(self, *arguments):
+        started = perf_counter()
+        try:
+            return self.plain(*[view_of(each) for each in arguments])
+        finally:
+            self.seconds += perf_counter() - started
+
+
+def _checked(kernel, keys, whole, form):
+    """Return a call of a compiled form that refuses a fraction for a whole number; other types too, if asked for."""
+
+    def call(*arguments):
+        for place in whole:
+            if isinstance(arguments[place], float):
+                _refuse_other_types(kernel, keys, arguments)
+        if CHECKING:
+            _refuse_other_types(kernel, keys, arguments)
+        return form(*arguments)
+
+    return call
+
+
+def _refuse_other_types(kernel, keys, arguments):
+    found = tuple(map(key_of, arguments))
+    if found != keys:
+        places = enumerate(zip(keys, found, strict=True))
+        wrong = [f"{k}: {text_of(was)} before, {text_of(now)} now" for k, (was, now) in places if was != now]
+        raise TypeError(f"{kernel.name} must be called with the same types each time (got {'; '.join(wrong)})")
+
+
+# ---- specs -----------------------------------------------------------------------------------------------------------
+# Kernels by reference, so that another process can find or make the same ones: where the code stands, what it closes
+# over, and the content that must come out.
+
+Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
+
+
+def spec_of(kernel: Kernel) -> Spec:
+    """Return what another process needs to find a kernel or to make it: picklable."""
+    function = kernel.py_func
+    closed = tuple(
+        (True, spec_of(cell.cell_contents)) if isinstance(cell.cell_contents, Kernel) else (False, cell.cell_contents)
+        for cell in function.__closure__ or ()
+    )
+    flags = {"is_part": kernel.is_part, "is_inlined": kernel.is_inlined, "noalias": kernel.noalias}
+    return (
+        function.__module__,
+        function.__qualname__,
+        content_of(kernel),
+        closed,
+        {**flags, "is_generic": kernel.is_generic},
+    )
+
+
+def kernel_of(spec: Spec) -> Kernel:
+    """Return the kernel that a spec describes. Raises LookupError where the sources here are others."""
+    module, qualname, content, closed, flags = spec
+    importlib.import_module(module)
+    for each in registry:
+        if each.__qualname__ == qualname and each.__module__ == module and content_of(each) == content:
+            return each
+    for code in _codes_of(module, qualname):
+        cells = tuple(CellType(kernel_of(value) if is_kernel else value) for is_kernel, value in closed)
+        if len(cells) == len(code.co_freevars):
+            made = _make(module, code, cells, flags)
+            if content_of(made) == content:
+                return made
+    raise LookupError(f"{module}.{qualname} is another here: its sources have changed")
+
+
+def _make(module, code, cells, flags):
+    function = FunctionType(code, vars(importlib.import_module(module)), code.co_name, None, cells)
+    function.__qualname__ = code.co_qualname
+    kind = Part if flags["is_part"] else StageKernel
+    return kind(function, **{name: value for name, value in flags.items() if name != "is_part"})
+
+
+def _codes_of(module, qualname):
+    """Yield the code objects of a qualified name within a module, from the function that holds them inwards."""
+    outer: Any = getattr(importlib.import_module(module), qualname.partition(".")[0], None)
+    while hasattr(outer, "__wrapped__"):
+        outer = outer.__wrapped__
+    todo = [outer.__code__] if isinstance(outer, FunctionType) else []
+    while todo:
+        code = todo.pop()
+        if code.co_qualname == qualname:
+            yield code
+        todo += [each for each in code.co_consts if isinstance(each, CodeType)]
+
+
+def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
+    """Return how many bytes of code a kernel has with all that it calls, but for those that are known."""
+    return sum(size for part, size in parts_of(kernel).items() if part not in known)
+
+
+@cache
+def parts_of(kernel: Kernel) -> dict[Kernel, int]:
+    """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
+    found: dict[Any, int] = {}
+    todo = [kernel]
+    while todo:
+        each = todo.pop()
+        if each not in found:
+            function = each.py_func
+            found[each] = len(function.__code__.co_code)
+            values = [value for _, value in globals_of(function)]
+            values += [cell.cell_contents for cell in function.__closure__ or ()]
+            todo += [value for value in values if isinstance(value, Kernel)]
+    return found

@@ -1,23 +1,127 @@
-"""Worker processes that compile kernels, and the order in which they do.
-
-A worker is told one task at a time, as a line, and answers with a line. It ends with its standard input, so that it
-never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. Where one
-after the other dies without an answer, no more is started, and all tasks fail at once.
-"""
+"""Worker processes that compile kernels, their order of work, and how their threads share the interpreter."""
 
 import atexit
 import base64
 import contextlib
 import os
 import pickle
+import site
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import sleep, thread_time
 from typing import Any
 
-from physics.jit.processes import end_all, start_module
+from physics.jit import tiers
 from physics.jit.store import store
+
+# ---- turns -----------------------------------------------------------------------------------------------------------
+# How a thread beside the program shares the interpreter with it.
+
+SHARE = 0.2  # of a thread's time in which it imports what nobody waits for
+TURN = 0.0005  # [s] after which a thread of this process lets others go on while kernels are looked for
+
+
+@contextmanager
+def short_turns() -> Iterator[None]:
+    """While this lasts, the interpreter goes from thread to thread after TURN.
+
+    The program lets go of it in every call of NumPy's, and would wait for 5 ms each time. Measured: while the compiler
+    is imported, frames of the platformer take 80 ms with that, 55 ms with TURN.
+    """
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(TURN)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(before)
+
+
+class _Pauses:
+    """A finder of modules that finds none. Before each import in the thread that made it, it sleeps while kernels run
+    plain."""
+
+    def __init__(self):
+        self.thread, self.since = threading.get_ident(), thread_time()
+
+    def find_spec(self, name, path=None, target=None):
+        if threading.get_ident() == self.thread and tiers.wanted:
+            sleep((thread_time() - self.since) * (1.0 / SHARE - 1.0))
+            self.since = thread_time()
+
+
+@contextmanager
+def unhurried_imports() -> Iterator[None]:
+    """While this lasts, imports take SHARE of this thread's time, so that a game goes on that runs plain meanwhile.
+
+    Measured: importing the compiler takes 0.7 s of processor time, and a game showed 20 pictures in that second.
+    """
+    pauses: Any = _Pauses()
+    sys.meta_path.insert(0, pauses)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(pauses)
+
+
+# ---- processes -------------------------------------------------------------------------------------------------------
+# Processes of our own that work beside the program: modules that are told lines, and answer with lines.
+
+IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the folder that this module's name begins in
+
+
+def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
+    """Start `python -m module` with pipes for lines, of low priority, deaf to Ctrl-C in the terminal.
+
+    module: its full name, as in f"{__package__}.worker". The child imports what this program does, and nothing from the
+    current folder: a `physics.py` or `numpy.py` there is the user's own. environment: more for its own. Raises OSError,
+    ValueError where none can be started.
+    """
+    # A group, not a session: Linux weighs sessions against each other whatever the priority of their processes
+    # (autogroups, man 7 sched), so that one of its own would take as much as the program.
+    options: dict[str, Any] = {"process_group": 0}
+    if sys.platform == "win32":
+        options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
+    return subprocess.Popen(
+        [sys.executable, "-P", "-m", module],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, **search_path(), **environment},
+        **options,
+    )
+
+
+def search_path() -> dict[str, str]:
+    """Return PYTHONPATH for a process that is to find this program where this one does; {} where it does by itself."""
+    if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
+        return {}  # named again, site-packages would stand before the standard library
+    return {"PYTHONPATH": os.pathsep.join(filter(None, (str(IMPORTED_FROM), os.environ.get("PYTHONPATH"))))}
+
+
+def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
+    """Kill them, all before the first is waited for."""
+    processes = list(processes)
+    for process in processes:
+        process.kill()
+    for process in processes:
+        process.wait()
+        for pipe in (process.stdin, process.stdout):
+            with contextlib.suppress(OSError):
+                if pipe is not None:
+                    pipe.close()
+
+
+# ---- workers ---------------------------------------------------------------------------------------------------------
+# Worker processes that compile kernels, and the order in which they do.
+#
+# A worker is told one task at a time, as a line, and answers with a line. It ends with its standard input, so that it
+# never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. Where
+# one after the other dies without an answer, no more is started, and all tasks fail at once.
 
 MOST = 8  # processes: each takes 150 MB
 HUNG = 300.0  # [s] without an answer

@@ -1,5 +1,4 @@
-"""Questions to a world between steps: rays, casts, overlaps, points. They read the present poses, and go through
-the broad phase's structure; what the last one cost is in `world.queries.counters`."""
+"""Queries of a world between steps: ray and shape casts, overlaps, points and boxes."""
 
 import math
 from dataclasses import dataclass
@@ -8,32 +7,290 @@ from typing import Any
 import numpy as np
 
 from physics import checks
-from physics.ccd.closed_form import MISS
-from physics.ccd.parts import advance_parts, sweep_unions
-from physics.ccd.rotational import new_rotational_workspace
+from physics.ccd.rotational import (
+    advance_parts,
+    new_rotational_workspace,
+    place_mover,
+    starts_across,
+    sweep_chain,
+    sweep_tiles,
+    sweep_unions,
+)
+from physics.ccd.time_of_impact import (
+    ANGLE,
+    CENTER_X,
+    CENTER_Y,
+    MISS,
+    MOVE_X,
+    MOVE_Y,
+    TOUCHING_BAND,
+    TURN,
+    advance,
+    reach_of,
+)
 from physics.checks import Pair, Pose
-from physics.collision.dispatch import narrow_phase_for_queries
-from physics.proximity.gjk import AX, AY, BX, BY, new_gap_workspace
-from physics.proximity.witness import separate_parts
-from physics.queries.cast_rows import cast_hull_at_rows, cast_ray_at_parts, cast_ray_at_rows, nearest_hull
-from physics.queries.index import AskedWorld
+from physics.collision.narrow_phase import narrow_phase_for_queries
+from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, copy_part, new_gap_workspace, separate, separate_parts
+from physics.jit import kernel
+from physics.math2d import Vec2
+from physics.queries.index import AskedWorld, IndexedWorld
+from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.filter import Filter
 from physics.shapes.kinds import SHAPES, Shape
-from physics.shapes.lines import Segment
-from physics.shapes.mask import PixelMask
+from physics.shapes.library import draw_masks, place
+from physics.shapes.mask import Bounds, PixelMask
 from physics.shapes.parts import Parts, parts_near, parts_of, swept_parts
-from physics.shapes.placement import is_hull, refresh_aabbs
-from physics.shapes.rasters import draw_masks
-from physics.shapes.rows import place
-from physics.shapes.tiles import TileGrid
+from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
+from physics.shapes.values import Capsule, Circle, Filter, Polygon, Segment, TileGrid
 from physics.tables.body import BODY
-from physics.tables.counters import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
-from physics.tables.rows import joined
-from physics.tables.shape import CHAIN, MASK, PART, PIXELS, SHAPE
-from physics.vec2 import Vec2
+from physics.tables.shape import BOUNDS, CHAIN, MASK, PART, PIXELS, SHAPE, TILES
+from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TOI_CALLS
+from physics.tables.table import joined
+
+# ---- boxes -----------------------------------------------------------------------------------------------------------
+# Questions about boxes: which bodies stand in one, and which box a body stands in.
+
+
+def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
+    """Bodies with a shape whose AABB meets the closed box [px]; what holds no pixel or tile has none.
+
+    Raises ValueError for lower > upper."""
+    lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
+    if lower[0] > upper[0] or lower[1] > upper[1]:
+        raise ValueError(f"lower must be <= upper (got {lower} and {upper})")
+    world.queries.begin(world)
+    rows = with_content(world, world.queries.rows_in(world, lower, upper))
+    s = world.shapes[rows]
+    rows = rows[
+        (s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1]) & (s["max_y"] >= lower[1])
+    ]
+    return [world.body(each) for each in np.unique(world.shapes["body"][rows]).tolist()]
+
+
+def query_rect(world: AskedWorld, rect: Any) -> list:
+    """query_aabb of (x, y, width, height) or ((x, y), (width, height)). Raises TypeError, ValueError."""
+    try:
+        parts = tuple(rect)
+        x, y, width, height = (*parts[0], *parts[1]) if len(parts) == 2 else parts
+    except (TypeError, ValueError):
+        raise TypeError(f"rect must be (x, y, width, height) (got {checks.shown(rect)})") from None
+    x, y = checks.position("rect", (x, y))
+    width, height = checks.number("rect[2]", width, low=0.0), checks.number("rect[3]", height, low=0.0)
+    return query_aabb(world, (x, y), checks.vector("rect[0] + rect[2], rect[1] + rect[3]", (x + width, y + height)))
+
+
+def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
+    """(min_x, min_y, max_x, max_y) [px] of a body's shapes at its present pose; None when they hold nothing."""
+    world.queries.refresh(world)
+    rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
+    if not len(rows):
+        return None
+    s = world.shapes[rows]
+    return (s["min_x"].min().item(), s["min_y"].min().item(), s["max_x"].max().item(), s["max_y"].max().item())
+
+
+def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
+    """The shape rows without masks that have no solid pixel, and grids of empty cells."""
+    shapes, library = world.shapes[rows], world.library
+    kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
+    keep = np.ones(len(rows), bool)
+    masks = np.flatnonzero(kinds == MASK)
+    if len(masks):
+        upright = library.raster_of[shapes["geometry"][masks], 0]  # turned, it has as many pixels
+        keep[masks] = library.rasters.rows["area"][upright] > 0
+    grids = np.flatnonzero(kinds == TILES)
+    keep[grids] = [not library.tile_grids[grid].is_empty for grid in shapes["geometry"][grids].tolist()]
+    return rows[keep]
+
+
+# ---- cast rows -------------------------------------------------------------------------------------------------------
+# A ray, a shape that moves without turning, or a point, against listed shapes that stand still.
+
+
+@kernel
+def cast_ray_at_rows(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
+    dx,
+    dy,
+    # write
+    corners_inout,
+    hits_out,
+    work_inout,
+):
+    """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] meets.
+
+    Returns their number. rows: SHAPE rows; corners_inout (16, 2): scratch; hits_out (rows, 4).
+    """
+    found = 0
+    for k in range(len(rows)):
+        work_inout[NARROW_TESTS] += 1
+        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], x, y, dx, dy, corners_inout)
+        if fraction <= 1.0:
+            hits_out[found, 0] = float(rows[k])
+            hits_out[found, 1] = fraction
+            hits_out[found, 2] = nx
+            hits_out[found, 3] = ny
+            found += 1
+    return found
+
+
+@kernel
+def cast_ray_at_parts(
+    # read
+    parts,
+    dx,
+    dy,
+    # write
+    corners_inout,
+    hit_out,
+    work_inout,
+):
+    """Write (fraction, normal) to hit_out[1:], where a ray from the origin by (dx, dy) [px] first meets a part.
+
+    parts: Parts; corners_inout (16, 2): scratch; hit_out (4,). Returns whether it meets any. O(parts).
+    """
+    hit_out[1] = MISS
+    for k in range(len(parts.counts)):
+        count = parts.counts[k]
+        copy_part(parts.corners, k, count, corners_inout)
+        work_inout[NARROW_TESTS] += 1
+        if count == 1:
+            fraction, nx, ny = cast_on_disc(-corners_inout[0, 0], -corners_inout[0, 1], dx, dy, parts.radii[k])
+        else:
+            fraction, nx, ny = cast_on_hull(corners_inout, count, parts.radii[k], 0.0, 0.0, dx, dy)
+        if fraction < hit_out[1]:
+            hit_out[1] = fraction
+            hit_out[2] = nx
+            hit_out[3] = ny
+    return hit_out[1] <= 1.0
+
+
+@kernel
+def cast_hull_at_rows(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    corners,
+    count,
+    radius,
+    x,
+    y,
+    dx,
+    dy,
+    # write
+    workspace,
+    hits_out,
+    work_inout,
+):
+    """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
+
+    Returns their number. rows: SHAPE rows, no masks among them; corners (16, 2) [px] from (x, y), `count` of
+    them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it
+    approaches: 0.
+    """
+    r = workspace.advance
+    found = 0
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        b = bodies[s.body_row]
+        work_inout[TOI_CALLS] += 1
+        r.motion_a[CENTER_X] = x
+        r.motion_a[CENTER_Y] = y
+        r.motion_a[ANGLE] = 0.0
+        r.motion_a[MOVE_X] = dx
+        r.motion_a[MOVE_Y] = dy
+        r.motion_a[TURN] = 0.0
+        r.motion_b[CENTER_X] = b.x
+        r.motion_b[CENTER_Y] = b.y
+        r.motion_b[ANGLE] = b.angle if s.kind == CHAIN else 0.0
+        r.motion_b[MOVE_X] = 0.0
+        r.motion_b[MOVE_Y] = 0.0
+        r.motion_b[TURN] = 0.0
+        r.totals[0] = 0.0
+        r.totals[1] = 0.0
+        for i in range(count):
+            workspace.mover[i, 0] = corners[i, 0]
+            workspace.mover[i, 1] = corners[i, 1]
+        if s.kind == TILES:
+            fraction, nx, ny, _ = sweep_tiles(
+                geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, -1, workspace
+            )
+        elif s.kind == CHAIN:
+            near = TOUCHING_BAND * (reach_of(workspace.mover, count) + radius)
+            if s.role == PART and starts_across(geometry, s.geometry, 0.0, 0.0, count, radius, near, workspace):
+                continue
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, -1, workspace)
+        else:
+            n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
+            place_mover(count, workspace)
+            fraction = advance(count, radius, n, rounding(shapes, rows[k]), workspace.advance)
+            nx = -r.gap.gap[NX]
+            ny = -r.gap.gap[NY]
+        work_inout[GJK_ITERATIONS] += int(r.totals[0])
+        work_inout[CAP_HITS] += int(r.totals[1])
+        if fraction < MISS:
+            hits_out[found, 0] = float(rows[k])
+            hits_out[found, 1] = fraction
+            hits_out[found, 2] = nx
+            hits_out[found, 3] = ny
+            found += 1
+    return found
+
+
+@kernel
+def nearest_hull(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    rows,
+    x,
+    y,
+    # write
+    point_inout,
+    corners_inout,
+    workspace,
+    nearest_out,
+    work_inout,
+):
+    """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Returns its row, -1 without any.
+
+    rows: SHAPE rows in order, of which tiles, masks and chains are left out; 0 and the point itself when it is inside;
+    point_inout, corners_inout (16, 2): scratch; workspace: GapWorkspace.
+    """
+    best = -1
+    nearest_out[0] = math.inf
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if not is_hull(s.kind):
+            continue
+        b = bodies[s.body_row]
+        # Seen from the point, so that no digits are lost far from the origin.
+        point_inout[0, 0] = 0.0
+        point_inout[0, 1] = 0.0
+        n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
+        distance = max(0.0, separate(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, workspace))
+        work_inout[NARROW_TESTS] += 1
+        work_inout[GJK_ITERATIONS] += int(workspace.state[ROUNDS])
+        if distance < nearest_out[0]:
+            best = rows[k]
+            nearest_out[0] = distance
+            nearest_out[1] = x + (workspace.gap[BX] if distance > 0.0 else 0.0)
+            nearest_out[2] = y + (workspace.gap[BY] if distance > 0.0 else 0.0)
+    return best
+
+
+# ---- casts -----------------------------------------------------------------------------------------------------------
+# Questions to a world between steps: rays, casts, overlaps, points. They read the present poses, and go through
+# the broad phase's structure; what the last one cost is in `world.queries.counters`.
 
 RAY_PIECES = 16  # a long slanted ray asks for up to this many boxes along it, not for one around it …
 PIECE = 8.0  # [m] … each about that wide

@@ -1,27 +1,289 @@
-"""PixelTiles: the solid pixels of a raster in tiles of 64 x 64 that never change; what is changed is a copy of a few.
+"""PixelTiles: a raster in tiles of 64 x 64 pixels, its connected pieces, and pixels that are carved away."""
 
-Rasters that differ in some tiles share all others: a copy of a carved terrain costs the tiles that were touched.
-"""
-
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from physics.raster.bits import packed
-from physics.raster.pieces import (
-    MOST_NODES,
-    MOST_RUNS,
-    NODE,
-    TILE,
-    add_up,
-    find_nodes,
-    label_pieces,
-    measure_pieces,
-    pick_node,
+from physics.jit import kernel, subkernel
+from physics.jit.plain import word
+from physics.raster.bits import either, first_run, has_bit, is_set, minus, packed, run_bits, touch
+from physics.settings import MASK_TILE
+from physics.tables.table import joined
+
+# ---- pieces ----------------------------------------------------------------------------------------------------------
+# Connected pieces of pixels, kept tile by tile: what a change to one tile parts is known without reading the others.
+#
+# A tile is 64 x 64 pixels, one word a row. What hangs together within it, side to side or corner to corner, is a node;
+# nodes of neighbouring tiles that touch are linked. Pieces are what links hold together. A node knows its pixels along
+# the four borders as words, so that a link is three operations. Source: runs and union-find by Rosenfeld and Pfaltz
+# 1966, "Sequential operations in digital picture processing".
+
+TILE = MASK_TILE  # [px] a side: one word a row
+MOST_RUNS = TILE * TILE // 2  # in one tile
+MOST_NODES = TILE * TILE // 4
+NODE = np.dtype(
+    [  # pixels of one tile that hang together
+        ("tile", np.int64),  # row * columns + column
+        ("count", np.int64),  # [px]
+        ("sum_x", np.int64),  # of the columns and rows of its pixels in the raster
+        ("sum_y", np.int64),
+        ("sum_squares", np.int64),  # of columns and of rows
+        ("first", np.int64),  # the first pixel in reading order: row * 64 + column within the tile
+        ("min_x", np.int64),  # bounds in the raster; max exclusive
+        ("min_y", np.int64),
+        ("max_x", np.int64),
+        ("max_y", np.int64),
+        ("top", np.uint64),  # its pixels along the borders, by column or row
+        ("bottom", np.uint64),
+        ("left", np.uint64),
+        ("right", np.uint64),
+    ],
+    align=True,
 )
-from physics.tables.rows import joined
+
+
+@subkernel
+def root_of(k, parents_inout):
+    """The root of k in a forest, whose paths are halved."""
+    while parents_inout[k] != k:
+        parents_inout[k] = parents_inout[parents_inout[k]]
+        k = parents_inout[k]
+    return k
+
+
+@subkernel
+def join(a, b, parents_inout):
+    """Join two trees of a forest; the root is the earlier one."""
+    a = root_of(a, parents_inout)
+    b = root_of(b, parents_inout)
+    parents_inout[max(a, b)] = min(a, b)
+
+
+@subkernel
+def trace_runs(words, runs_out, parents_out):
+    """Write (row, start, end) of the runs of a tile's pixels, and the forest of those that touch. Returns how many.
+
+    words (64,) uint64. O(runs).
+    """
+    count = 0
+    above = 0
+    for row in range(len(words)):
+        begin = count
+        rest = words[row]
+        while rest != word(0):
+            start, end = first_run(rest)
+            rest = minus(rest, run_bits(start, end))
+            runs_out[count, 0] = row
+            runs_out[count, 1] = start
+            runs_out[count, 2] = end
+            parents_out[count] = count
+            # Those above that end before it touch no later one either.
+            while above < begin and runs_out[above, 2] < start:
+                above += 1
+            other = above
+            while other < begin and runs_out[other, 1] <= end:
+                join(other, count, parents_out)
+                other += 1
+            count += 1
+        above = begin
+    return count
+
+
+@kernel
+def find_nodes(
+    # read
+    words,
+    tile,
+    left,
+    top,
+    # write
+    runs_out,
+    parents_out,
+    nodes_out,
+):
+    """Write the nodes of a tile in the order of their first pixels. Returns how many.
+
+    words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: room
+    for the work; nodes_out (1024,) NODE. O(runs).
+    """
+    count = trace_runs(words, runs_out, parents_out)
+    found = 0
+    for k in range(count):
+        root = root_of(k, parents_out)
+        row = runs_out[k, 0]
+        start = runs_out[k, 1]
+        end = runs_out[k, 2]
+        if root == k:
+            n = nodes_out[found]
+            n.tile = tile
+            n.count, n.sum_x, n.sum_y, n.sum_squares = 0, 0, 0, 0
+            n.first = row * TILE + start
+            n.min_x, n.max_x = left + start, left + end
+            n.min_y, n.max_y = top + row, top + row + 1
+            n.top, n.bottom, n.left, n.right = word(0), word(0), word(0), word(0)
+            # From here on the run says which node it is of: later ones look it up at their root.
+            runs_out[k, 0] = -1 - found
+            found += 1
+        at = -1 - runs_out[root, 0]
+        n = nodes_out[at]
+        size = end - start
+        first = left + start
+        last = left + end - 1
+        y = top + row
+        n.count += size
+        n.sum_x += (first + last) * size // 2
+        n.sum_y += y * size
+        squares = last * (last + 1) * (2 * last + 1) // 6 - (first - 1) * first * (2 * first - 1) // 6
+        n.sum_squares += squares + y * y * size
+        n.min_x, n.max_x = min(n.min_x, first), max(n.max_x, last + 1)
+        n.max_y = max(n.max_y, y + 1)
+        if row == 0:
+            n.top = either(n.top, run_bits(start, end))
+        if row == TILE - 1:
+            n.bottom = either(n.bottom, run_bits(start, end))
+        if start == 0:
+            n.left = either(n.left, run_bits(row, row + 1))
+        if end == TILE:
+            n.right = either(n.right, run_bits(row, row + 1))
+    return found
+
+
+@kernel
+def pick_node(
+    # read
+    words,
+    first,
+    # write
+    runs_out,
+    parents_out,
+    picked_out,
+):
+    """Write the pixels of a tile that hang together with its pixel `first` (row * 64 + column).
+
+    words, picked_out (64,) uint64; runs_out, parents_out as find_nodes. O(runs).
+    """
+    count = trace_runs(words, runs_out, parents_out)
+    wanted = -1
+    for k in range(count):
+        if runs_out[k, 0] == first // TILE and runs_out[k, 1] <= first % TILE < runs_out[k, 2]:
+            wanted = root_of(k, parents_out)
+    for row in range(len(words)):
+        picked_out[row] = word(0)
+    for k in range(count):
+        if root_of(k, parents_out) == wanted:
+            row = runs_out[k, 0]
+            picked_out[row] = either(picked_out[row], run_bits(runs_out[k, 1], runs_out[k, 2]))
+
+
+@subkernel
+def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
+    """Join the nodes of a tile with those of another, which lies across columns and down rows from it."""
+    for i in range(starts[tile], starts[tile + 1]):
+        a = nodes[i]
+        for j in range(starts[other], starts[other + 1]):
+            b = nodes[j]
+            if down == 0:
+                meets = touch(a.right, b.left)
+            elif across == 0:
+                meets = touch(a.bottom, b.top)
+            elif across > 0:
+                meets = has_bit(a.bottom, TILE - 1) and has_bit(b.top, 0)
+            else:
+                meets = has_bit(a.bottom, 0) and has_bit(b.top, TILE - 1)
+            if meets:
+                join(i, j, parents_inout)
+
+
+@kernel
+def label_pieces(
+    # read
+    nodes,
+    starts,
+    columns,
+    # write
+    labels_out,
+):
+    """Write the number of the piece of each node, from 0 in the order of their first nodes. Returns how many there are.
+
+    nodes NODE in the order of tiles, starts (tiles + 1,) where those of each tile begin; columns: tiles in a row.
+    O(nodes).
+    """
+    for k in range(len(nodes)):
+        labels_out[k] = k
+    tiles = len(starts) - 1
+    for tile in range(tiles):
+        if starts[tile] == starts[tile + 1]:
+            continue
+        column = tile % columns
+        if column + 1 < columns:
+            link_nodes(nodes, starts, tile, tile + 1, 1, 0, labels_out)
+        if tile + columns < tiles:
+            link_nodes(nodes, starts, tile, tile + columns, 0, 1, labels_out)
+            if column + 1 < columns:
+                link_nodes(nodes, starts, tile, tile + columns + 1, 1, 1, labels_out)
+            if column > 0:
+                link_nodes(nodes, starts, tile, tile + columns - 1, -1, 1, labels_out)
+    # The parent of a node is an earlier one, whose number is known by then; numbers are told by their sign.
+    found = 0
+    for k in range(len(nodes)):
+        if labels_out[k] == k:
+            labels_out[k] = -1 - found
+            found += 1
+        else:
+            labels_out[k] = labels_out[labels_out[k]]
+    for k in range(len(nodes)):
+        labels_out[k] = -1 - labels_out[k]
+    return found
+
+
+@kernel
+def measure_pieces(
+    # read
+    nodes,
+    labels,
+    width,
+    # write
+    counts_inout,
+    firsts_inout,
+):
+    """Add up the pixels of pieces (pieces,), and lower their first pixels (row * width + column) to their nodes'.
+
+    nodes NODE, labels (nodes,) the piece of each; width [px] of the raster. O(nodes).
+    """
+    within = TILE - 1  # the bits of a column in its tile
+    for k in range(len(nodes)):
+        n = nodes[k]
+        piece = labels[k]
+        x = n.min_x - (n.min_x & within) + (n.first & within)
+        counts_inout[piece] += n.count
+        firsts_inout[piece] = min(firsts_inout[piece], n.min_y * width + x)
+
+
+@kernel
+def add_up(nodes, totals_out):
+    """Write pixels, sums of columns, of rows, of the squares of both, and left, top, right, bottom of all nodes (NODE);
+    the last four are 0 without any. O(nodes)."""
+    for k in range(8):
+        totals_out[k] = 0
+    for k in range(len(nodes)):
+        n = nodes[k]
+        totals_out[0] += n.count
+        totals_out[1] += n.sum_x
+        totals_out[2] += n.sum_y
+        totals_out[3] += n.sum_squares
+        totals_out[4] = n.min_x if k == 0 else min(totals_out[4], n.min_x)
+        totals_out[5] = n.min_y if k == 0 else min(totals_out[5], n.min_y)
+        totals_out[6] = max(totals_out[6], n.max_x)
+        totals_out[7] = max(totals_out[7], n.max_y)
+
+
+# ---- pixel tiles -----------------------------------------------------------------------------------------------------
+# PixelTiles: the solid pixels of a raster in tiles of 64 x 64 that never change; what is changed is a copy of a few.
+#
+# Rasters that differ in some tiles share all others: a copy of a carved terrain costs the tiles that were touched.
 
 EMPTY = np.zeros(TILE, np.uint64)
 EMPTY.flags.writeable = False
@@ -43,7 +305,7 @@ class Pieces(NamedTuple):
 
 
 class PixelTiles:
-    """words[tile] (64,) uint64, one word a row; tiles in reading order; nodes: see physics/raster/pieces.py."""
+    """words[tile] (64,) uint64, one word a row; tiles in reading order; nodes: see physics/raster/pixel_tiles.py."""
 
     def __init__(
         self, width: int, height: int, words: list[np.ndarray], nodes: np.ndarray, starts: np.ndarray | None = None
@@ -204,3 +466,206 @@ class PixelTiles:
 def unpacked(words: np.ndarray) -> np.ndarray:
     """(rows, 64 * columns) bool of (rows, columns) uint64."""
     return np.unpackbits(words.astype("<u8", copy=False).view(np.uint8), axis=1, bitorder="little").view(bool)
+
+
+# ---- cut -------------------------------------------------------------------------------------------------------------
+# Pixels taken out of tiles, and what comes loose by it.
+
+Tool = Callable[[np.ndarray, int, int, np.ndarray], int]  # (words, left, top, found_out) -> how many are found
+Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
+
+
+class Loose(NamedTuple):
+    """A piece that came loose: solid[row, column] bool within its bounds, and where these begin in the raster [px]."""
+
+    solid: np.ndarray
+    left: int
+    top: int
+
+
+class Cut(NamedTuple):
+    """What a tool did."""
+
+    tiles: PixelTiles  # what is left
+    changed: tuple[int, ...]  # numbers of the tiles that differ
+    removed: int  # pixels that the tool took
+    loose: tuple[Loose, ...]  # in the order of their first pixels
+    crumbs: int  # pixels of pieces that were too small to come loose
+
+
+def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
+    """Take out the pixels that a tool finds within its box [px, of the raster], and what hangs on nothing then.
+
+    one_piece: only the largest piece stays; else the largest of each piece that was there before, so that what was
+    apart stays. Of pieces of one size the one with the first pixel. Those of less than `crumb` pixels are gone.
+    O(tiles + runs of those that change).
+    """
+    changed, removed = _taken(tiles, tool, box)
+    if not removed:
+        return Cut(tiles, (), 0, (), 0)
+    left = tiles.replaced(changed)
+    pieces = left.pieces
+    group = np.zeros(len(pieces.counts), np.int64) if one_piece else _pieces_before(tiles, left, changed)
+    if np.bincount(group, minlength=1).max() <= 1:
+        return Cut(left, tuple(changed), removed, (), 0)
+    order = np.lexsort((pieces.firsts, -pieces.counts, group))
+    stays = np.zeros(len(order), bool)
+    stays[order[np.unique(group[order], return_index=True)[1]]] = True
+    gone = np.flatnonzero(~stays)
+    gone = gone[np.argsort(pieces.firsts[gone])]
+    loose, crumbs, fewer = [], 0, dict[int, np.ndarray]()
+    for piece in gone.tolist():
+        nodes = np.flatnonzero(pieces.labels == piece)
+        for node in nodes.tolist():
+            tile = int(left.nodes["tile"][node])
+            fewer[tile] = fewer.get(tile, left.words[tile]) & ~left.words_of(node)
+        if pieces.counts[piece] < crumb:
+            crumbs += int(pieces.counts[piece])
+        else:
+            loose.append(Loose(*left.cut_out(nodes)))
+    return Cut(left.replaced(fewer), tuple(sorted({*changed, *fewer})), removed, tuple(loose), crumbs)
+
+
+def _taken(tiles, tool, box):
+    """({tile: its words without what the tool finds}, how many pixels it found)."""
+    first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
+    last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
+    changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
+    for row in range(first_row, last_row + 1):
+        for column in range(first_column, last_column + 1):
+            tile = row * tiles.columns + column
+            words = tiles.words[tile]
+            count = tool(words, column * TILE, row * TILE, found)
+            if count:
+                changed[tile] = words & ~found
+                removed += count
+    return changed, removed
+
+
+def _pieces_before(before, after, changed):
+    """(pieces,): the number of the piece before that each piece after is of."""
+    labels, parts, last = before.pieces.labels, [], 0
+    for tile in sorted(changed):
+        # The nodes of the other tiles are those that were there, in the same order.
+        parts.append(labels[last : before.starts[tile]])
+        firsts = after.nodes["first"][after.starts[tile] : after.starts[tile + 1]].tolist()
+        parts.append(np.array([labels[before.node_at(tile, first)] for first in firsts], np.int64))
+        last = before.starts[tile + 1]
+    old = np.concatenate([*parts, labels[last:]])
+    group = np.empty(len(after.pieces.counts), np.int64)
+    group[after.pieces.labels] = old
+    return group
+
+
+# ---- erase -----------------------------------------------------------------------------------------------------------
+# Pixels of a tile that lie inside a tool: their centres are in a convex shape, or in another mask's squares.
+
+
+@subkernel
+def is_in_hull(corners, radius, x, y):
+    """Whether a point [px] is in a convex hull grown by a radius, its surface included.
+
+    corners (n, 2) [px], n >= 1, clockwise on the screen.
+    """
+    inside = len(corners) > 2
+    least = math.inf
+    for k in range(len(corners)):
+        ax = corners[k, 0]
+        ay = corners[k, 1]
+        following = k + 1 if k + 1 < len(corners) else 0
+        dx = corners[following, 0] - ax
+        dy = corners[following, 1] - ay
+        px = x - ax
+        py = y - ay
+        inside = inside and dx * py - dy * px >= 0.0
+        size = dx * dx + dy * dy
+        along = min(1.0, max(0.0, (px * dx + py * dy) / size)) if size > 0.0 else 0.0
+        px -= along * dx
+        py -= along * dy
+        least = min(least, px * px + py * py)
+    return inside or least <= radius * radius
+
+
+@kernel
+def find_in_hull(
+    # read
+    words,
+    left,
+    top,
+    corners,
+    radius,
+    # write
+    found_out,
+):
+    """Write the pixels of a tile whose centres are in a convex hull grown by a radius. Returns how many.
+
+    words, found_out (64,) uint64; left, top [px] of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1,
+    clockwise on the screen. O(pixels within the hull's box · n).
+    """
+    min_x = math.inf
+    max_x = -math.inf
+    min_y = math.inf
+    max_y = -math.inf
+    for k in range(len(corners)):
+        min_x = min(min_x, corners[k, 0])
+        max_x = max(max_x, corners[k, 0])
+        min_y = min(min_y, corners[k, 1])
+        max_y = max(max_y, corners[k, 1])
+    begin = max(0, math.floor(min(min_x - radius - left, float(TILE))))
+    end = min(TILE, math.ceil(max(max_x + radius - left, 0.0)))
+    upper = max(0, math.floor(min(min_y - radius - top, float(TILE))))
+    lower = min(TILE, math.ceil(max(max_y + radius - top, 0.0)))
+    count = 0
+    for row in range(TILE):
+        found_out[row] = word(0)
+    for row in range(upper, lower):
+        for column in range(begin, end):
+            if is_set(words, row, column) and is_in_hull(corners, radius, left + column + 0.5, top + row + 0.5):
+                found_out[row] = either(found_out[row], run_bits(column, column + 1))
+                count += 1
+    return count
+
+
+@subkernel
+def is_in_pixels(solid, x, y):
+    """Whether a point [px] is in a solid pixel of solid[row, column], its sides included."""
+    column = math.floor(x)
+    row = math.floor(y)
+    for j in range(row - 1 if y == row else row, row + 1):
+        for i in range(column - 1 if x == column else column, column + 1):
+            if 0 <= j < solid.shape[0] and 0 <= i < solid.shape[1] and solid[j, i]:
+                return True
+    return False
+
+
+@kernel
+def find_in_pixels(
+    # read
+    words,
+    solid,
+    x,
+    y,
+    cosine,
+    sine,
+    # write
+    found_out,
+):
+    """Write the pixels of a tile whose centres are in the squares of another mask. Returns how many.
+
+    words, found_out (64,) uint64; solid[row, column] bool of the other; x, y [px]: the tile's corner in its raster;
+    cosine, sine: of the tile's angle there. O(pixels of the tile).
+    """
+    count = 0
+    for row in range(TILE):
+        found_out[row] = word(0)
+        rest = words[row]
+        while rest != word(0):
+            start, end = first_run(rest)
+            rest = minus(rest, run_bits(start, end))
+            for column in range(start, end):
+                u = x + cosine * (column + 0.5) - sine * (row + 0.5)
+                v = y + sine * (column + 0.5) + cosine * (row + 0.5)
+                if is_in_pixels(solid, u, v):
+                    found_out[row] = either(found_out[row], run_bits(column, column + 1))
+                    count += 1
+    return count

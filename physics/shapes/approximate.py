@@ -1,18 +1,76 @@
-"""From a sprite's mask to simpler shapes, tier by tier: cheaper to test, wrong by more."""
+"""From a mask to simpler shapes, tier by tier, and how well they fit: fit, hull, decompose, measure."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from physics import checks
-from physics.fitting.box import least_box
-from physics.fitting.capsule import least_capsule
-from physics.fitting.circle import least_circle
-from physics.fitting.convex_parts import convex_parts
-from physics.fitting.hull import mask_hull
-from physics.fitting.outline import outline
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.mask import PixelMask
-from physics.shapes.polygons import distinct, hull
+from physics.checks import Points
+from physics.outline.contour import outline
+from physics.outline.decompose import convex_parts
+from physics.outline.measure import edges, measured
+from physics.outline.simple_shapes import convex_hull, fewer_sides, least_box, least_capsule, least_circle, mask_hull
+from physics.settings import MAX_CORNERS
+from physics.shapes.library import Library
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.values import SHORTEST, STRAIGHT, Capsule, Circle, Polygon, solid_blocks
+from physics.tables.shape import SHAPE
+
+# ---- polygons --------------------------------------------------------------------------------------------------------
+# Convex polygons around points, and in place of a concave outline.
+
+
+def hull(points: Points) -> Polygon:
+    """The convex hull of points (n, 2) [px]. Of more than 16 corners those go, sides extended outward, that add least
+    area: the polygon holds all points (up to rounding). Raises ValueError for fewer than three points and for
+    points on a line, TypeError."""
+    points = checks.columns("points", points)
+    corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
+    if len(corners) < 3:
+        raise ValueError(
+            f"points must be at least 3 that are not on one line (got {checks.shown(points.tolist())}); "
+            "a Capsule or Segment is what lies on a line"
+        )
+    return Polygon(distinct(fewer_sides(corners, MAX_CORNERS)))
+
+
+def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
+    """A simple polygon of any size, points (n, 2) [px] in either winding, in few convex ones of 3 to 16 corners.
+
+    holes: polygons inside that are left out; they may touch in corners. tolerance [px]: bumps and notches up to
+    that deep are left out, which saves parts; 0: exactly the polygon, cut between its corners. Without holes and
+    with at most 40 corners no cuts between corners give fewer parts, as long as 16 corners do for each. Raises
+    ValueError for edges that cross or meet (naming both), for no area, for a hole that is not inside; TypeError.
+    """
+    outer = checks.columns("points", points)
+    if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
+        raise TypeError(f"holes must be a list of polygons (got {checks.shown(holes)})")
+    inner = [checks.columns(f"holes[{k}]", hole) for k, hole in enumerate(holes)]
+    tolerance = checks.number("tolerance", tolerance, low=0.0)
+    parts = (distinct(corners) for corners, _ in convex_parts(outer, inner, tolerance))
+    return tuple(Polygon(corners) for corners in parts if len(corners) > 2)
+
+
+def distinct(corners: np.ndarray) -> np.ndarray:
+    """Convex corners (n, 2) without those that a Polygon does not take: equal ones, and straight ones."""
+    size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
+    k = 0
+    while len(corners) > 2 and k < len(corners):
+        before, after = corners[k] - corners[k - 1], corners[(k + 1) % len(corners)] - corners[k]
+        lengths = np.hypot(*before) * np.hypot(*after)
+        turn = before[0] * after[1] - before[1] * after[0]
+        if np.hypot(*before) <= 2.0 * SHORTEST * size or turn <= 2.0 * STRAIGHT * lengths:
+            corners = np.delete(corners, k, axis=0)
+            k = max(k - 1, 0)  # its neighbour before turns more now
+        else:
+            k += 1
+    return corners
+
+
+# ---- approximate -----------------------------------------------------------------------------------------------------
+# From a sprite's mask to simpler shapes, tier by tier: cheaper to test, wrong by more.
 
 TIERS = ("circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels", "mask")
 
@@ -70,3 +128,105 @@ def _snapped(mask, snap):
     if snap not in mask.fitted:
         mask.fitted[snap] = PixelMask(mask.solid, mask.origin, snap, mask.smooth)
     return mask.fitted[snap].with_values_of(mask)
+
+
+# ---- accuracy --------------------------------------------------------------------------------------------------------
+# What a stand-in for a mask costs and gets wrong: measure.
+
+Solid = Circle | Capsule | Polygon | PixelMask | Bounds
+
+
+class Fit(NamedTuple):
+    """Shapes beside the mask that they stand for."""
+
+    over: float
+    missed: float
+    iou: float
+    hausdorff: float
+    area_error: float
+    center_error: float
+    inertia_error: float
+    corners: int
+    bytes: int
+
+
+def measure(mask: PixelMask, shapes: Solid | Sequence[Solid]) -> Fit:
+    """How well shapes stand for a mask; all in its body space, overlapping shapes as their union.
+
+    over: area of the shapes outside the mask's pixels [px²]; missed: area of the pixels outside the shapes [px²]; iou:
+    the area that both share over that of both together; hausdorff: the largest distance of a point of the boundary of
+    either from the other's boundary [px], at most 1e-6 too small; area_error: difference of the areas over the
+    pixels'; center_error: distance of the centres of area [px]; inertia_error: difference of the moments of inertia,
+    each about its own centre, over the pixels'; corners: 1 of a Circle, 2 of a Capsule, all of a Polygon, 4 of Bounds,
+    of a PixelMask those of its pixels' edges; bytes: what a world keeps for the shapes: their rows of `shapes`, and
+    corners and pixels (at one angle) in its library.
+
+    Areas, centres and moments are exact but for rounding: a PixelMask counts as the union of its pixel squares, Bounds
+    as the box that they are at the angle 0. Errors are never negative. Without shapes or without pixels iou is 0, and
+    hausdorff, center_error and the errors relative to nothing are inf; without either iou is 1 and all errors 0.
+    Raises TypeError for what is no PixelMask, or no shape with an area.
+    """
+    if not isinstance(mask, PixelMask):
+        raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
+    given = [*shapes] if isinstance(shapes, (tuple, list)) else [shapes]
+    parts = [each for each in given if isinstance(each, Solid)]
+    if len(parts) < len(given):
+        raise TypeError(f"shapes must be Circle, Capsule, Polygon, Bounds or PixelMask (got {checks.shown(shapes)})")
+    origin = np.array(mask.origin)
+    found = measured(mask.solid, [(corners + origin, radius) for each in parts for corners, radius in _hulls(each)])
+    ours, theirs = found.hulls, found.pixels
+    together = ours.area + found.missed
+    nothing = ours.area == 0.0 and theirs.area == 0.0
+    apart = math.hypot(ours.x - theirs.x, ours.y - theirs.y)
+    library = Library()
+    for shape in parts:
+        library.add(shape)
+    return Fit(
+        found.over,
+        found.missed,
+        (theirs.area - found.missed) / together if together > 0.0 else 1.0,
+        found.hausdorff,
+        _relative(ours.area, theirs.area),
+        0.0 if nothing else apart if math.isfinite(apart) else math.inf,
+        _relative(ours.inertia, theirs.inertia),
+        sum(_corners(each) for each in parts),
+        library.size + len(parts) * SHAPE.itemsize,
+    )
+
+
+def _relative(value, truth):
+    if truth == 0.0:
+        return 0.0 if value == 0.0 else math.inf
+    return abs(value - truth) / truth
+
+
+def _hulls(shape):
+    """(corners clockwise on the screen, radius) of the convex hulls that a shape is, in body space."""
+    if isinstance(shape, Bounds):
+        return _box_around(_hulls(shape.shape))
+    if isinstance(shape, PixelMask):
+        origin = np.array(shape.origin)
+        return [(_box(*block) - origin, 0.0) for block in solid_blocks(shape.solid)]
+    if isinstance(shape, Circle):
+        return [(np.array([shape.center], float), shape.radius)]
+    return [(np.array(shape.points, float), shape.radius)]
+
+
+def _box_around(hulls):
+    if not hulls:
+        return []
+    low = np.min([corners.min(axis=0) - radius for corners, radius in hulls], axis=0)
+    high = np.max([corners.max(axis=0) + radius for corners, radius in hulls], axis=0)
+    return [(_box(*low, *high), 0.0)]
+
+
+def _box(left, top, right, bottom):
+    return np.array([(left, top), (right, top), (right, bottom), (left, bottom)], float)
+
+
+def _corners(shape):
+    if isinstance(shape, PixelMask):
+        return len(edges(shape.solid))
+    if isinstance(shape, Bounds):
+        return 4
+    return 1 if isinstance(shape, Circle) else len(shape.points)

@@ -1,28 +1,26 @@
-"""The corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
+"""The geometry of all shapes of a world in flat arrays that kernels read, and the rows that shapes need there."""
 
-A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up. What no shape
-uses any longer stays until it may be half of all; then what is used is put into a library of its own.
-"""
-
+import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from physics.fitting.hull import mask_hull
-from physics.raster.bits import halo, packed
-from physics.raster.pieces import TILE
-from physics.raster.rotate import bucket_of
-from physics.settings import MASK_ANGLE_BUCKETS
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.kinds import Shape
-from physics.shapes.lines import Chain, Segment
-from physics.shapes.mask import PixelMask
-from physics.shapes.outline_tiles import is_tiled
-from physics.shapes.tiles import TileGrid
+from physics import checks
+from physics.jit import kernel
+from physics.outline.simple_shapes import mask_hull
+from physics.raster.bits import bucket_of, halo, packed
+from physics.raster.pixel_tiles import TILE
+from physics.settings import MASK_ANGLE_BUCKETS, POSITION_LIMIT
+from physics.shapes.kinds import SHAPES, Shape, mass_of
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.outline import is_tiled, outline_of
+from physics.shapes.placement import missing_rasters, place_masks
+from physics.shapes.values import Capsule, Chain, Circle, Mass, Polygon, Segment, TileGrid
+from physics.tables.body import DYNAMIC, KINDS, STATIC
 from physics.tables.geometry import (
     BLOCK_LINKS,
     CELL,
@@ -39,8 +37,14 @@ from physics.tables.geometry import (
     SPAN,
     Geometry,
 )
-from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, POLYGON, SEGMENT, TILES
+from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, PIXELS, POLYGON, SEGMENT, TILES
 from physics.tables.table import Table
+
+# ---- library ---------------------------------------------------------------------------------------------------------
+# The corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
+#
+# A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up. What no shape
+# uses any longer stays until it may be half of all; then what is used is put into a library of its own.
 
 SLACK = 1 << 16  # [bytes] of geometry, and …
 FEW = 64  # … shapes, that are not worth tidying up for
@@ -389,3 +393,198 @@ def _hull_of(shape):
         left, top, right, bottom = shape.bounds
         return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
     return mask_hull(shape) if shape.area else np.zeros((0, 2))
+
+
+# ---- rasters ---------------------------------------------------------------------------------------------------------
+# Masks at angles that came up: drawn once per angle bucket, before a kernel needs them.
+#
+# The columns raster, left and top of a SHAPE row with the role PIXELS hold for one test: the narrow phase has such rows
+# drawn by `draw_masks` before its passes read them, and so does every other reader. What is not snapped is tested by
+# its pixels as they were added, turned with its body: it is drawn for pictures only.
+
+
+def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
+    """Draw the snapped masks of these shape rows at angles, of now or after dt [s], that have not come up before."""
+    if not library.masks:
+        return
+    missing = np.zeros((2 * len(rows), 2), np.int64)
+    found = missing_rasters(rows, bodies, shapes, library.tables.rasters, library.raster_of, dt, missing)
+    if found:
+        for mask, bucket in np.unique(missing[:found], axis=0).tolist():
+            library.add_raster(mask, bucket)
+
+
+def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
+    """Draw the snapped PIXELS among these SHAPE rows at the present poses of their bodies, and write their columns
+    raster, left and top. A body without a pose that a double resolves is passed over."""
+    _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
+
+
+def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
+    """As draw_masks, and also what is not snapped: somebody looks."""
+    pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
+    _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
+
+
+def _draw(library, rows, bodies, shapes):
+    if not len(rows):
+        return
+    x, y, angles = (bodies[name][shapes["body_row"][rows]] for name in ("x", "y", "angle"))
+    there = (np.abs(x) < POSITION_LIMIT) & (np.abs(y) < POSITION_LIMIT) & (np.abs(angles) < POSITION_LIMIT)
+    rows, angles = rows[there], angles[there]
+    # As placement.bucket_at.
+    buckets = np.floor(angles * MASK_ANGLE_BUCKETS / math.tau + 0.5).astype(np.int64) & (MASK_ANGLE_BUCKETS - 1)
+    masks = shapes["geometry"][rows]
+    missing = library.raster_of[masks, buckets] < 0
+    if missing.any():
+        for mask, bucket in np.unique(np.stack([masks, buckets], axis=1)[missing], axis=0).tolist():
+            library.add_raster(mask, bucket)
+    place_masks(rows, library.tables, bodies, shapes)
+
+
+# ---- rows ------------------------------------------------------------------------------------------------------------
+# The rows that shapes need: SHAPE rows, masses, places in the broad phase.
+
+
+def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
+    """Refuse no shapes, dynamic chains, turned or dynamic tiles. Raises TypeError, ValueError."""
+    if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
+        raise ValueError(
+            f"shapes of a dynamic body must hold one with mass, a Segment has none (got {checks.shown(shapes)})"
+        )
+    for shape in shapes:
+        if not isinstance(shape, SHAPES):
+            raise TypeError(f"shapes must be shapes such as Circle(8) (got {checks.shown(shape)})")
+        if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
+            raise ValueError(
+                f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
+                f"{np.asarray(angles).tolist()})"
+            )
+        if isinstance(shape, Chain) and kind == DYNAMIC:
+            raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
+        if isinstance(shape, PixelMask) and shape.one_way and kind == DYNAMIC:
+            raise ValueError(f"a mask with one_way=True needs kind static or kinematic (got dynamic, {shape})")
+
+
+def rounding_of(shape: Shape) -> tuple[float, float, float]:
+    """(radius, centre of a circle in body space) [px] of a shape, or of what a Bounds wraps, for its SHAPE row."""
+    inner = getattr(shape, "shape", shape)
+    x, y = getattr(inner, "center", (0.0, 0.0))
+    return getattr(inner, "radius", 0.0), x, y
+
+
+def is_snapped(shape: Shape) -> bool:
+    """Whether a shape is a mask that is tested as drawn, for its SHAPE row."""
+    return isinstance(shape, PixelMask) and shape.snap
+
+
+def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
+    """The mass of a body's shapes, sensors among them; mass: in place of what the densities make of it, 0: none."""
+    found = mass_of(tuple(shapes), density)
+    if mass == 0.0:
+        return found
+    return Mass(mass, found.center, found.inertia * (mass / found.mass) if found.mass > 0.0 else 0.0)
+
+
+def thin_half(shape: Shape, in_parts: bool) -> float:
+    """Half of how thin [px] a shape is where it is thinnest; in_parts: of a mask the parts that stand for it.
+
+    Thin arms would be over a wall before the middle is: measured, sprites of 3 px blocks passed 1 px walls at half
+    their size a step. A part thinner than a pixel lies beside one that makes it up.
+    """
+    if not (in_parts and isinstance(shape, PixelMask)):
+        return shape.smallest_half
+    return min((max(0.5, part.shape.smallest_half) for part in outline_of(shape)), default=shape.smallest_half)
+
+
+def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
+    """Write mass, inertia and size of BODY rows of one kind of body. in_parts: whether masks are pushed by parts."""
+    in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # how thin it is counts for what moves
+    rows["mass"], rows["inertia"] = mass.mass, mass.inertia
+    rows["local_center_x"], rows["local_center_y"] = mass.center
+    moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
+    turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
+    rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
+    rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
+    rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
+    rows["thin_half"] = min((thin_half(shape, in_parts) for shape in shapes), default=0.0)
+    rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
+
+
+def place(
+    library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
+) -> None:
+    """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
+    b = bodies[row : row + 1]
+    describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
+    b["id"], b["x"], b["y"], b["angle"] = row, *pose
+    b["previous_x"], b["previous_y"], b["previous_angle"] = pose
+
+
+def describe(
+    library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
+) -> None:
+    """Fill SHAPE rows, a view, for one shape at so many places in no world; angles: those that its bodies have."""
+    kind, geometry, wrapped = library.add(shape)
+    rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
+    rows["kind"], rows["geometry"], rows["wrapped"] = kind, geometry, wrapped
+    rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
+    rows["snap"] = is_snapped(shape)
+    if is_snapped(getattr(shape, "shape", shape)):
+        for angle in angles:
+            library.raster(geometry, angle)
+
+
+# ---- part rows -------------------------------------------------------------------------------------------------------
+# The SHAPE rows of a large mask's parts: those in some of its tiles, and those that are as they would be anew.
+
+
+def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
+    """(n,) int64 rows of the parts of a shape, by id, in the wanted tiles: (tiles,) bool. O(shapes)."""
+    found = np.empty(len(shapes), np.int64)
+    return found[: list_parts(shapes, owner, wanted, found)]
+
+
+def find_equal(
+    geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
+) -> np.ndarray:
+    """(k,) int64: for each of some polygons, one after another, which of the rows (n,) has the same corners in the same
+    order, as its place among them; -1 where none has.
+
+    corners (m, 2) [px], counts (k,): corners of each. O(k n).
+    """
+    found = np.empty(len(counts), np.int64)
+    find_polygons(geometry, shapes, rows, corners, counts, found)
+    return found
+
+
+@kernel
+def list_parts(shapes, owner, wanted, rows_out):
+    """Write the rows of the parts that rows_in_tiles tells. Returns how many."""
+    count = 0
+    for k in range(len(shapes)):
+        s = shapes[k]
+        if s.owner == owner and s.role == PART and wanted[s.tile]:
+            rows_out[count] = k
+            count += 1
+    return count
+
+
+@kernel
+def find_polygons(geometry, shapes, rows, corners, counts, found_out):
+    """Write for each polygon its place among the rows, as find_equal tells."""
+    first = 0
+    for k in range(len(counts)):
+        found_out[k] = -1
+        for i in range(len(rows)):
+            span = geometry.polygons[shapes[rows[i]].geometry]
+            same = span.count == counts[k]
+            j = 0
+            while same and j < counts[k]:
+                corner = geometry.corners[span.offset + j]
+                same = corner.x == corners[first + j, 0] and corner.y == corners[first + j, 1]
+                j += 1
+            if same:
+                found_out[k] = i
+                break
+        first += counts[k]

@@ -1,7 +1,8 @@
-"""PixelMask: the solid pixels of a sprite as a shape."""
+"""PixelMask: the solid pixels of a sprite as a shape. Bounds: the AABB tier of another shape."""
 
 import copy
 import math
+from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
 from typing import Any
@@ -11,19 +12,27 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.checks import Pair
-from physics.raster.bits import packed
+from physics.math2d import Vec2
+from physics.raster.bits import Turned, bucket_of, packed, turn
 from physics.raster.pixel_tiles import PixelTiles
-from physics.raster.rotate import Turned, bucket_of, turn
 from physics.settings import MASK_ANGLE_BUCKETS, SMOOTH
-from physics.shapes.blocks import solid_blocks
-from physics.shapes.convex import Capsule, Circle, Polygon
-from physics.shapes.filter import Filter
-from physics.shapes.mass import NOTHING, Mass
-from physics.shapes.material import Material
 from physics.shapes.outline import outline_of
-from physics.shapes.own_values import OwnValues
-from physics.shapes.tiles import bools
-from physics.vec2 import Vec2
+from physics.shapes.values import (
+    NOTHING,
+    Capsule,
+    Circle,
+    EqualByValue,
+    Filter,
+    Mass,
+    Material,
+    OwnValues,
+    Polygon,
+    bools,
+    solid_blocks,
+)
+
+# ---- mask ------------------------------------------------------------------------------------------------------------
+# PixelMask: the solid pixels of a sprite as a shape.
 
 LARGEST = 1 << 15  # [px] a side of what a mask is scaled to: 128 MB of pixels
 TURNED_KEPT = 1 << 20  # [px] in all that a mask keeps of itself at other angles: 5 MB, all angles of a sprite of 64 px
@@ -326,3 +335,36 @@ def _nearest(size: int, factor: float) -> np.ndarray:
     """Of each pixel of a scaled side, the pixel that its centre comes from."""
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)
+
+
+# ---- bounds ----------------------------------------------------------------------------------------------------------
+# Bounds: the AABB tier of another shape.
+
+
+@dataclass(frozen=True)
+class Bounds(EqualByValue):
+    """The wrapped shape's world AABB at its pose, as a shape: the AABB tier. It has the own values of what it wraps.
+
+    Raises TypeError for what is no Circle, Capsule, Polygon or PixelMask.
+    """
+
+    shape: Circle | Capsule | Polygon | PixelMask
+
+    def __post_init__(self):
+        if not isinstance(self.shape, (Circle, Capsule, Polygon, PixelMask)):
+            raise TypeError(f"shape must be a Circle, Capsule, Polygon or PixelMask (got {checks.shown(self.shape)})")
+        inner = self.shape
+        object.__setattr__(self, "shape", inner.bare)
+        if inner is not inner.bare:
+            vars(self).update(vars(copy.copy(self).with_values_of(inner)))
+
+    @property
+    def smallest_half(self) -> float:
+        return self.shape.smallest_half
+
+    def mass_of(self, density: float) -> Mass:
+        return self.shape.mass_of(density)
+
+    def reach(self, x: float, y: float) -> float:
+        """Of the AABB at any angle: no corner of it is further from the origin than the shape reaches, times sqrt 2."""
+        return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)

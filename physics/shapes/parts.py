@@ -11,17 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.raster.rotate import bucket_of
+from physics.raster.bits import bucket_of
 from physics.settings import MASK_ANGLE_BUCKETS
-from physics.shapes.bounds import Bounds
-from physics.shapes.convex import Circle
 from physics.shapes.library import Library
-from physics.shapes.lines import Chain
-from physics.shapes.mask import PixelMask
-from physics.shapes.mask_pose import turn_of_mask
+from physics.shapes.mask import Bounds, PixelMask
 from physics.shapes.outline import outline_of
-from physics.shapes.placement import write_hull
-from physics.shapes.tiles import TileGrid
+from physics.shapes.placement import turn_of_mask, write_hull
+from physics.shapes.values import Chain, Circle, TileGrid
 
 NEAR = 1e-9  # of its coordinates a box is asked for around itself: casts round as well
 

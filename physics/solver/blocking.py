@@ -10,21 +10,19 @@ import math
 
 import numpy as np
 
-from physics.ccd.paths import list_paths
+from physics.ccd.impacts import list_paths
 from physics.ccd.sweep import push_stopped
-from physics.collision.anchors import anchors_of
-from physics.collision.approach import closing_speed
-from physics.collision.detect import detect
-from physics.collision.follow import follow_bodies
+from physics.collision.cache import anchors_of, follow_bodies
+from physics.collision.hull_pairs import closing_speed
+from physics.collision.narrow_phase import detect
 from physics.dynamics.integrate import place_shapes
-from physics.dynamics.sleepers import in_order
+from physics.islands.sleep import in_order
 from physics.jit import kernel, subkernel
 from physics.math2d import turned
-from physics.solver.pushes import PushSet
+from physics.solver.projection import PushSet
 from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.counters import SOLVER_ROWS
-from physics.tables.rows import joined
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import SOLVER_ROWS, StepState, stage
+from physics.tables.table import joined
 
 # Effects that it makes nothing of: no contact turns, rubs, bounces or carries a body, and none is remembered. A body
 # still turns by its own angular velocity.

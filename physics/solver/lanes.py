@@ -1,19 +1,23 @@
-"""The constraints of a group in lanes: rows of one colour side by side, each of their fields a line of its own.
-
-Within a colour no two rows share a body that can be pushed, so any number of them can be solved at once; a compiler
-makes vector instructions of a loop over the lanes of a block that has no branches. Lanes that are left over hold a row
-that joins nothing to nothing. Sums are those of one row after the other, to the bit. Source: Catto, SIMD Matters, 2024.
-"""
+"""Constraints in lanes: rows of one colour side by side, and the motions of their bodies."""
 
 import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.jit import JIT, Builtin, inlined, put_in, subkernel
+from physics.jit import inlined, subkernel
+from physics.jit.plain import JIT, Builtin, put_in
 from physics.settings import COLORS
-from physics.solver.pace import firmness_of
-from physics.tables.lines import zeros_in_lines
+from physics.solver.step_context import firmness_of
+from physics.tables.table import zeros_in_lines
+
+# ---- lanes -----------------------------------------------------------------------------------------------------------
+# The constraints of a group in lanes: rows of one colour side by side, each of their fields a line of its own.
+#
+# Within a colour no two rows share a body that can be pushed, so any number of them can be solved at once; a compiler
+# makes vector instructions of a loop over the lanes of a block that has no branches. Lanes that are left over hold a
+# row that joins nothing to nothing. Sums are those of one row after the other, to the bit. Source: Catto, SIMD Matters,
+# 2024.
 
 # What is not compiled takes one row after the other. Measured: 16 are as fast in heaps, and slower in few boxes.
 LANES = 8 if JIT else 1
@@ -270,3 +274,79 @@ def lay_out(starts, blocks_out):
             left -= wide
             found += 1
     return found
+
+
+# ---- lane motions ----------------------------------------------------------------------------------------------------
+# How lanes see motions: what is gathered from the MOTION rows of a block, the separations, and the way back.
+
+
+@inlined
+def gather_speeds(a, b, lane, s_out):
+    """Bring the velocities of MOTION rows into a lane."""
+    s_out[VX_A + lane] = a.vx
+    s_out[VY_A + lane] = a.vy
+    s_out[W_A + lane] = a.angular_velocity
+    s_out[VX_B + lane] = b.vx
+    s_out[VY_B + lane] = b.vy
+    s_out[W_B + lane] = b.angular_velocity
+
+
+@inlined
+def gather_poses(a, b, lane, s_out):
+    """Bring into a lane how far MOTION rows went since the step began."""
+    s_out[DX_A + lane] = a.dx
+    s_out[DY_A + lane] = a.dy
+    s_out[COS_A + lane] = a.cosine
+    s_out[SIN_A + lane] = a.sine
+    s_out[DX_B + lane] = b.dx
+    s_out[DY_B + lane] = b.dy
+    s_out[COS_B + lane] = b.cosine
+    s_out[SIN_B + lane] = b.sine
+
+
+@inlined
+def scatter_speeds(s, lane, a_out, b_out):
+    """Write the velocities of a lane back to its MOTION rows."""
+    a_out.vx = s[VX_A + lane]
+    a_out.vy = s[VY_A + lane]
+    a_out.angular_velocity = s[W_A + lane]
+    b_out.vx = s[VX_B + lane]
+    b_out.vy = s[VY_B + lane]
+    b_out.angular_velocity = s[W_B + lane]
+
+
+@inlined
+def measure_gaps(lane, s, c_inout):
+    """Write the separations [px] at both points of a lane.
+
+    A round surface stays where it is when its body turns: cores are what moves. Arms turn with their bodies here, and
+    stay where speeds are measured.
+    """
+    c = c_inout
+    nx = c[NX + lane]
+    ny = c[NY + lane]
+    cos_a = s[COS_A + lane]
+    sin_a = s[SIN_A + lane]
+    cos_b = s[COS_B + lane]
+    sin_b = s[SIN_B + lane]
+    core = c[RADIUS_A + lane] * cos_a + c[RADIUS_B + lane] * cos_b
+    gap = core + (s[DX_B + lane] - s[DX_A + lane]) * nx + (s[DY_B + lane] - s[DY_A + lane]) * ny
+    x = (cos_b * c[BX_1 + lane] - sin_b * c[BY_1 + lane]) - (cos_a * c[AX_1 + lane] - sin_a * c[AY_1 + lane])
+    y = (sin_b * c[BX_1 + lane] + cos_b * c[BY_1 + lane]) - (sin_a * c[AX_1 + lane] + cos_a * c[AY_1 + lane])
+    c[GAP_1 + lane] = gap + c[BASE_1 + lane] + (x * nx + y * ny)
+    x = (cos_b * c[BX_2 + lane] - sin_b * c[BY_2 + lane]) - (cos_a * c[AX_2 + lane] - sin_a * c[AY_2 + lane])
+    y = (sin_b * c[BX_2 + lane] + cos_b * c[BY_2 + lane]) - (sin_a * c[AX_2 + lane] + cos_a * c[AY_2 + lane])
+    c[GAP_2 + lane] = gap + c[BASE_2 + lane] + (x * nx + y * ny)
+
+
+@inlined
+def levers_of(c, lane):
+    """How the arms of both points turn an impulse along the normal: a_1, b_1, a_2, b_2 [px]."""
+    nx = c[NX + lane]
+    ny = c[NY + lane]
+    return (
+        c[AX_1 + lane] * ny - c[AY_1 + lane] * nx,
+        c[BX_1 + lane] * ny - c[BY_1 + lane] * nx,
+        c[AX_2 + lane] * ny - c[AY_2 + lane] * nx,
+        c[BX_2 + lane] * ny - c[BY_2 + lane] * nx,
+    )

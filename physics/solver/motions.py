@@ -9,15 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.dynamics.integrate import put_center, refresh_center
-from physics.dynamics.quarantine import is_somewhere, is_sound
+from physics.dynamics.non_finite import is_somewhere, is_sound
 from physics.jit import kernel, subkernel
 from physics.math2d import heading, length_of, turned
-from physics.shapes.rasters import add_missing_rasters
+from physics.shapes.library import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.constraint import MOTION
-from physics.tables.counters import BODIES_INTEGRATED
-from physics.tables.lines import zeros_in_lines
-from physics.tables.step_state import StepState
+from physics.tables.contact import MOTION
+from physics.tables.step_state import BODIES_INTEGRATED, StepState
+from physics.tables.table import zeros_in_lines
 
 BOTH = (False, True)
 

@@ -14,12 +14,10 @@ from typing import NamedTuple
 
 from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
-from physics.solver.bounce import bounce_once
-from physics.solver.contacts import WARM_START, ContactSet
-from physics.solver.impulses import relative_speed
+from physics.solver.constraints import WARM_START, ContactSet
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
-from physics.solver.overlaps import wanted_apart
-from physics.solver.two_points import solve_two
+from physics.solver.restitution import bounce_once, relative_speed, solve_two
+from physics.solver.step_context import wanted_apart
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
@@ -306,8 +304,8 @@ PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH f
 def solve(state: StepState, contacts: ContactSet, passes: int | None = None, warm: bool = True) -> float:
     """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to.
 
-    For measuring alone (studied.py): passes, else those of the substeps; warm: they start from the impulses of the step
-    before."""
+    For measuring alone (studied_solvers.py): passes, else those of the substeps; warm: they start from the impulses of
+    the step before."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
     slow = BAUMGARTE / state.span * tolerances.speculative

@@ -6,7 +6,7 @@ when an earlier row is removed; an id never changes and is never given twice.
 
 import numpy as np
 
-from physics.tables.lines import in_lines
+from physics.tables.table import in_lines
 
 STATIC, KINEMATIC, DYNAMIC = 0, 1, 2
 KINDS = ("static", "kinematic", "dynamic")
@@ -30,7 +30,7 @@ BODY = in_lines(
         ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
-        ("followed", np.bool_),  # its contacts were carried to where it stands; see collision/recycle.py
+        ("followed", np.bool_),  # its contacts were carried to where it stands; see collision/cache.py
         ("inverse_mass", np.float64),  # 0 = cannot be pushed
         ("inverse_inertia", np.float64),  # 0 = cannot be turned
         ("extent", np.float64),  # [px] of the furthest point of its shapes from the centre of mass

@@ -1,9 +1,4 @@
-"""StepState: what the stages of a step hand on to each other, and what each of them says it touches.
-
-A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and those
-that it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte around it.
-What lasts longer than a step lies in the world, which gives it to the state and takes it back at the end.
-"""
+"""StepState: what the stages of a step hand on to each other, the work counters, and the tables of a world."""
 
 from collections.abc import Callable
 from typing import Any, Protocol, cast
@@ -11,6 +6,116 @@ from typing import Any, Protocol, cast
 import numpy as np
 
 from physics.settings import Tolerances
+
+# ---- counters --------------------------------------------------------------------------------------------------------
+# The work that a step counts: names of the counters, and the place of each in the int64 array that kernels add to.
+
+COUNTERS = (
+    "bodies_integrated",
+    "nodes_visited",
+    "pairs_tested",
+    "candidates",
+    "filtered",
+    "narrow_tests",
+    "mask_tests",
+    "contacts",
+    "toi_calls",
+    "solver_rows",
+    "tangent_rows",
+    "restitution_rows",
+    "gjk_iterations",
+    "cap_hits",
+    "sensor_tests",
+    "joints_solved",
+    "islands",
+    "carved_pixels",
+    "swaps",
+    "reinserts",
+    "cells_touched",
+)
+(
+    BODIES_INTEGRATED,
+    NODES_VISITED,
+    PAIRS_TESTED,
+    CANDIDATES,
+    FILTERED,
+    NARROW_TESTS,
+    MASK_TESTS,
+    CONTACTS,
+    TOI_CALLS,
+    SOLVER_ROWS,
+    TANGENT_ROWS,
+    RESTITUTION_ROWS,
+    GJK_ITERATIONS,
+    CAP_HITS,
+    SENSOR_TESTS,
+    JOINTS_SOLVED,
+    ISLANDS,
+    CARVED_PIXELS,
+    SWAPS,
+    REINSERTS,
+    CELLS_TOUCHED,
+) = range(len(COUNTERS))
+
+
+# ---- world tables ----------------------------------------------------------------------------------------------------
+# WorldTables: what a world between steps and the StepState of a step both have.
+
+
+class WorldTables(Protocol):
+    """For what is done to a world between steps, and in a step alike: falling asleep, waking, new rectangles.
+
+    Any stands for what is defined in a folder to the right of this one.
+    """
+
+    manifolds: np.ndarray  # MANIFOLD rows
+    anchors: np.ndarray  # ANCHOR rows beside them, in worlds that stack
+    awake: Any  # dynamics.awake.Awake
+    sleepers: Any  # dynamics.sleepers.Sleepers
+    pairs: Any  # broadphase.pair_list.PairList
+    touching: Any  # events.Pairs
+    sensing: Any
+    library: Any  # shapes.library.Library
+    tolerances: Tolerances
+    workspace: Any  # step.Workspace
+
+    @property
+    def bodies(self) -> np.ndarray:
+        """BODY rows."""
+        ...
+
+    @property
+    def shapes(self) -> np.ndarray:
+        """SHAPE rows."""
+        ...
+
+    @property
+    def effects(self) -> Any:
+        """The declared Effects."""
+        ...
+
+    @property
+    def stacks(self) -> bool:
+        """Whether the solver is one whose contacts remember."""
+        ...
+
+    @property
+    def gravity(self) -> tuple[float, float]:
+        """[px/s2]."""
+        ...
+
+    @property
+    def dt(self) -> float:
+        """[s]."""
+        ...
+
+
+# ---- step state ------------------------------------------------------------------------------------------------------
+# StepState: what the stages of a step hand on to each other, and what each of them says it touches.
+#
+# A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and
+# those that it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte
+# around it. What lasts longer than a step lies in the world, which gives it to the state and takes it back at the end.
 
 STAGE_FIELDS = (
     # what the world was asked for

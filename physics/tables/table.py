@@ -1,9 +1,46 @@
-"""Table: a structured array that grows, and begins where a line of the cache does."""
+"""Structured arrays that grow, aligned to cache lines, and the search for rows by id."""
+
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike
 
-from physics.tables.lines import zeros_in_lines
+from physics.jit import generic, subkernel
+
+# ---- lines -----------------------------------------------------------------------------------------------------------
+# Rows and arrays that begin where a line of a processor's cache does: whoever reads one touches no line too many.
+#
+# Measured on a pyramid of 1,035 boxes: all substeps of a step in 388 us, and in 413 where neither is so.
+
+LINE = 64  # [bytes]
+
+
+def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
+    """The dtype of rows of these fields, in C's alignment, that fill whole lines."""
+    packed = np.dtype(list(fields), align=True)
+    placed: Any = packed.fields
+    return np.dtype(
+        {
+            "names": [name for name, _ in fields],
+            "formats": [kind for _, kind in fields],
+            "offsets": [placed[name][1] for name, _ in fields],
+            "itemsize": -(-packed.itemsize // LINE) * LINE,
+        },
+        align=True,
+    )
+
+
+def zeros_in_lines(count: int, dtype: Any) -> np.ndarray:
+    """So many zeros, the first of which begins a line."""
+    dtype = np.dtype(dtype)
+    bytes_ = np.zeros(count * dtype.itemsize + LINE, np.uint8)
+    first = -bytes_.ctypes.data % LINE
+    return bytes_[first : first + count * dtype.itemsize].view(dtype)
+
+
+# ---- table -----------------------------------------------------------------------------------------------------------
+# Table: a structured array that grows, and begins where a line of the cache does.
 
 
 class Table:
@@ -39,3 +76,51 @@ class Table:
         whole = self.data.view(np.dtype((np.void, self.data.itemsize)))  # rows in one piece, not field by field
         whole[first : len(kept)] = whole[kept[first:]]
         self.count = len(kept)
+
+
+# ---- rows ------------------------------------------------------------------------------------------------------------
+# Finding rows by id: tables stand in the order of their ids.
+
+
+@subkernel
+def row_of(table, identity):
+    """The row of an id in a table in the order of ids, or -1. O(log rows)."""
+    low = 0
+    high = len(table)
+    while low < high:
+        middle = (low + high) // 2
+        if table[middle].id < identity:
+            low = middle + 1
+        else:
+            high = middle
+    return low if low < len(table) and table[low].id == identity else -1
+
+
+@generic
+def find_rows(
+    # read
+    table,
+    ids,
+    # write
+    rows_out,
+):
+    """Write the row of every id in a table that stands in the order of ids, -1 where it is not there.
+
+    ids, rows_out (n) int64. O(n log rows).
+    """
+    for k in range(len(ids)):
+        rows_out[k] = row_of(table, ids[k])
+
+
+def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
+    """Row numbers (n) int64 of ids in a table, -1 where one is not there."""
+    ids = np.ascontiguousarray(ids, np.int64)
+    rows = np.empty(len(ids), np.int64)
+    find_rows(table, ids, rows)
+    return rows
+
+
+def joined(tables: Sequence[np.ndarray]) -> np.ndarray:
+    """Rows of tables of one type, one after another: rows in one piece, not field by field."""
+    whole = np.dtype((np.void, tables[0].itemsize))
+    return np.concatenate([each.view(whole) for each in tables]).view(tables[0].dtype)

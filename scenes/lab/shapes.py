@@ -20,10 +20,11 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
 from game.drawing.number_text import count_text
 from game.input.inputs import InputFrame
+from game.measure.shape_traces import gjk_steps, sat_axes
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import ring
 from game.scene import Goal, Scene, Slider
-from physics import Capsule, Circle, Effects, Polygon, Segment, collide, debug, distance
+from physics import Capsule, Circle, Effects, Polygon, Segment, collide, distance
 from scenes.lab.hands import Hands
 from scenes.lab.pieces import hull
 from scenes.lab.shape_pictures import draw_differences, draw_shadows, placed_hull
@@ -61,7 +62,7 @@ class Shapes(Scene):
     name = "lab/shapes"
     title = "Shapes"
     about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
-    pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts", "steps")
+    pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts")
     effects = Effects()  # contacts are found and drawn; nobody is pushed
     features = (
         "separating axes and shadows",
@@ -151,8 +152,8 @@ class Shapes(Scene):
         pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         self.gap = distance(a, pose_a, b, pose_b)
         self.manifold = collide(a, pose_a, b, pose_b)
-        self.axes = debug.sat_axes(a, pose_a, b, pose_b)
-        self.steps = debug.gjk_steps(a, pose_a, b, pose_b)
+        self.axes = sat_axes(a, pose_a, b, pose_b)
+        self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
         """Three methods and both orders: overlap or not, how far, how deep."""

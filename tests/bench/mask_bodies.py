@@ -7,7 +7,7 @@ import numpy as np
 import pygame
 
 from physics import Circle, Effects, PixelMask, Polygon, World
-from physics.collision.dispatch import no_work
+from physics.collision.narrow_phase import no_work
 from tests.bench.timing import best_of, table
 
 SIDE, GAP = 32, 80  # [px] of a crate; from crate to crate

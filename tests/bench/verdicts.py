@@ -7,15 +7,14 @@ import numpy as np
 import pygame
 
 from physics import PixelMask
-from physics.collision.dispatch import no_work
 from physics.collision.manifold import MASKS, MASKS_EXACT, Batch, new_workspace
-from physics.collision.mask_exact_pairs import collide_exact_mask_pairs_full, collide_exact_mask_pairs_hit
-from physics.collision.mask_pairs import collide_mask_pairs_hit
-from physics.shapes.library import Library
+from physics.collision.masks import collide_mask_pairs_hit
+from physics.collision.masks_exact import collide_exact_mask_pairs_full, collide_exact_mask_pairs_hit
+from physics.collision.narrow_phase import no_work
+from physics.shapes.library import Library, place
 from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rows import place
 from physics.tables.body import BODY
-from physics.tables.manifold import MANIFOLD
+from physics.tables.contact import MANIFOLD
 from physics.tables.shape import SHAPE
 from tests.bench.timing import table
 

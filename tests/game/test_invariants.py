@@ -11,7 +11,7 @@ from game.invariants.lights import AFTERGLOW, GREEN, GREY, RED, Lights
 from game.invariants.order import NOISE, furthest_apart
 from game.invariants.watch import Watch, WatchedWorld, all_invariants
 from physics import Chain, Circle, Effects, Material, PixelMask, Polygon, Segment, TileGrid, World
-from physics.tables.counters import CAP_HITS
+from physics.tables.step_state import CAP_HITS
 
 BOX, GROUND = Polygon.box(16, 16), Polygon.box(400, 20)
 FLOATING = Effects.rigid_bodies().with_(gravity=False, sleeping=False)

@@ -13,7 +13,7 @@ import pytest
 
 import physics
 import physics.background
-from physics.jit import kernels, processes, specs, tiers, workers
+from physics.jit import kernels, tiers, workers
 from physics.jit.workers import ATTEMPTS, DEATHS, Task, Workers
 
 ROOT = Path(physics.__file__).resolve().parents[1]
@@ -204,7 +204,7 @@ def ordered(monkeypatch):
 def test_of_two_kernels_of_one_length_that_with_more_time_is_first(ordered, share):
     less, more = ordered(0.1, small), ordered(0.1 * share, small)
     asked = [ordered.pool.first().order for _ in range(2)]
-    assert [each[1] for each in asked] == [specs.spec_of(more), specs.spec_of(less)]
+    assert [each[1] for each in asked] == [tiers.spec_of(more), tiers.spec_of(less)]
 
 
 @pytest.mark.parametrize("share, first", [(0.8, "small"), (1.0, "small"), (1.2, "small"), (100.0, "large")])
@@ -332,11 +332,11 @@ def alive(number):
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no sessions")
 def test_a_process_beside_the_program_lies_in_its_session_and_is_deaf_to_its_terminal():
     """In a session of its own Linux would give it as much as the program, whatever its priority."""
-    process = processes.start_module("physics.compile_worker")
+    process = workers.start_module("physics.compile_worker")
     try:
         assert os.getsid(process.pid) == os.getsid(0) and os.getpgid(process.pid) == process.pid != os.getpgid(0)
     finally:
-        processes.end_all([process])
+        workers.end_all([process])
 
 
 @jitted

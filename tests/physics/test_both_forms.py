@@ -11,7 +11,7 @@ pytest.importorskip("numba")  # what compares the two forms imports the compiler
 
 import physics
 from physics import Circle, Effects, PixelMask, Polygon, World
-from physics.collision.mask_hulls import pixel_range
+from physics.collision.masks import pixel_range
 from physics.jit import generic, kernel, subkernel
 from physics.shapes.placement import NOWHERE, bucket_at, snapped
 from tests.both_forms import FormsDiffer, compared, same_value

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from physics import JIT, Capsule, Character, Circle, Effects, PixelMask, Polygon, World
-from physics.collision.follow import follow_bodies
+from physics.collision.cache import follow_bodies
 
 STEPS = 90 if JIT else 20
 AWAKE = Effects.rigid_bodies().with_(sleeping=False)

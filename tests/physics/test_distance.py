@@ -6,10 +6,22 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from game.measure.shape_traces import gjk_steps
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, collide, distance
-from physics.proximity.gjk import AX, AY, BX, BY, CAPPED, NX, NY, ROUNDS, TOUCHING, new_gap_workspace, walk_to_nearest
-from physics.proximity.separation import separate
-from physics.queries.pair_distance import gjk_steps
+from physics.distance.gjk import (
+    AX,
+    AY,
+    BX,
+    BY,
+    CAPPED,
+    NX,
+    NY,
+    ROUNDS,
+    TOUCHING,
+    new_gap_workspace,
+    separate,
+    walk_to_nearest,
+)
 from tests.oracles import hulls
 
 ORIGIN = (0.0, 0.0, 0.0)

@@ -120,7 +120,7 @@ def test_workers_in_any_order_compile_what_the_program_then_links(toy, seed):
 NAMES = """
 import json, toy
 from physics.jit.compiling import name_of
-from physics.jit.signatures import key_of
+from physics.jit.kernels import key_of
 print(json.dumps([name_of(each, (key_of(7.0),)) for each in toy.ONES]))
 """
 CHANGES = {
@@ -244,8 +244,7 @@ def test_every_kernel_of_the_package_has_a_content_of_its_own():
 def test_plain_twins_call_plain_twins_alone():
     """Nothing inside a plain kernel is a Kernel any more, however deep."""
     from physics.jit.kernels import Kernel
-    from physics.jit.twins import globals_of
-    from physics.jit.words import Builtin
+    from physics.jit.plain import Builtin, globals_of
 
     seen, todo = set(), [each.plain for each in jit.registry]
     while todo:

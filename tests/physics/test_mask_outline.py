@@ -9,7 +9,7 @@ import shapely
 
 from physics import Circle, Effects, Filter, PixelMask, Polygon, World
 from physics.snapshot import Snapshot
-from tests.fitting.rasters import connected, disc, gaps, hard, lies_on_the_right_side, noise, raster, sprites
+from tests.outline.rasters import connected, disc, gaps, hard, lies_on_the_right_side, noise, raster, sprites
 from tests.physics.figures import figure
 
 SMOOTH = (0.0, 0.25, 0.5, 1.0)

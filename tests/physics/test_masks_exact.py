@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from physics import JIT, PixelMask, collide, distance
-from physics.collision.dispatch import NarrowPhase, no_work
-from physics.shapes.library import Library
+from physics.collision.narrow_phase import NarrowPhase, no_work
+from physics.shapes.library import Library, place
 from physics.shapes.placement import refresh_aabbs
-from physics.shapes.rows import place
 from physics.tables.body import BODY
 from physics.tables.shape import SHAPE
 

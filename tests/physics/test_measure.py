@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from physics import TIERS, Bounds, Capsule, Circle, Filter, Fit, PixelMask, Polygon, Segment, fit, measure
-from tests.fitting.rasters import disc, hard, noise, pixels, raster, sprites
+from tests.outline.rasters import disc, hard, noise, pixels, raster, sprites
 from tests.physics.figures import figure
 
 ROUND = 2e-4  # relative: what a circle of 1024 corners is off by

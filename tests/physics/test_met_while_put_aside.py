@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from game.measure.shape_traces import sat_axes
 from physics import Circle, Effects, PixelMask, Polygon, World
-from physics.queries.pair_axes import sat_axes
 
 PILES = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
 

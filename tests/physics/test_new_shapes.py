@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from game.measure.shape_traces import sat_axes
 from physics import (
     JIT,
     Bounds,
@@ -24,7 +25,6 @@ from physics import (
     debug,
     mass_of,
 )
-from physics.queries.pair_axes import sat_axes
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import PAIRS, gap_of, hull_of, random_shape  # noqa: E402

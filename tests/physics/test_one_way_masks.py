@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physics import Capsule, Chain, Circle, Effects, PixelMask, Polygon, Snapshot, World, collide, fit
-from physics.shapes.surface import surfaces_of
+from physics.shapes.outline import surfaces_of
 from physics.tables.shape import CHAIN, PART
 
 FULL = Effects.rigid_bodies().with_(one_way=True)

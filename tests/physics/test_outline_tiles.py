@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from physics import PixelMask, Polygon
-from physics.fitting.mask_parts import Part
-from physics.fitting.tile_seams import COVERED, NOBODY, movings
+from physics.outline.mask_parts import Part
+from physics.outline.tile_seams import COVERED, NOBODY, movings
 from physics.settings import MASK_TILE
-from physics.shapes.outline import corner_turns, outline_of
-from physics.shapes.outline_tiles import is_tiled, keep_tiles, tile_outlines, tiles_of
+from physics.shapes.outline import corner_turns, is_tiled, keep_tiles, outline_of, tile_outlines, tiles_of
 from physics.tables.shape import SHARPEST, TURNS
-from tests.fitting.tiled import parts_of
+from tests.outline.tiled import parts_of
 
 
 def ground(width=300, height=200):

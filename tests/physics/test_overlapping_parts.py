@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 from physics import Capsule, Circle, Effects, Material, PixelMask, Polygon, World, mass_of
-from physics.shapes.mass import polygon_mass, together
-from tests.fitting.rasters import pixels
+from physics.shapes.values import polygon_mass, together
+from tests.outline.rasters import pixels
 
 
 def same(found, expected, within=1e-12):

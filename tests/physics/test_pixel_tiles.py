@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from physics.raster.pieces import TILE
-from physics.raster.pixel_tiles import PixelTiles
+from physics.raster.pixel_tiles import TILE, PixelTiles
 
 
 def figures_of(solid):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import physics
-from physics.jit.views import view_of
+from physics.jit.plain import view_of
 
 
 def _tables():

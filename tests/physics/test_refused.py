@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import physics
+from game.measure.pair_batch import PairBatch
+from game.measure.shape_traces import sat_axes
 from physics import Character, Circle, Effects, Polygon, TileGrid, World, checks
-from physics.jit.views import view_of
-from physics.queries.pair_axes import sat_axes
-from physics.queries.pair_batch import PairBatch
+from physics.jit.plain import view_of
 from physics.settings import POSITION_LIMIT
 
 PILES = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)

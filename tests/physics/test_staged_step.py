@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from physics import Circle, Effects, Polygon, World, debug
-from physics.staged_step import staged_step
+from physics.step import staged_step
 from tests.physics.test_stages import WORLDS, busy
 
 

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from physics import TIERS, Capsule, Circle, Effects, PixelMask, Polygon, World, fit
-from tests.fitting.rasters import disc, noise, pixels, sprites
+from tests.outline.rasters import disc, noise, pixels, sprites
 from tests.physics.figures import figure
 
 

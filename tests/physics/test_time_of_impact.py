@@ -7,15 +7,13 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
-from physics.ccd.advance import advance, new_advance_workspace, separate_at
-from physics.ccd.rotational import new_rotational_workspace
-from physics.ccd.rotational_pairs import sweep_rotational
+from physics.ccd.rotational import new_rotational_workspace, sweep_rotational
+from physics.ccd.time_of_impact import advance, new_advance_workspace, separate_at
 from physics.jit import kernel
-from physics.shapes.library import Library
-from physics.shapes.rows import rounding_of
+from physics.shapes.library import Library, rounding_of
 from physics.tables.body import BODY
-from physics.tables.counters import CAP_HITS, COUNTERS, GJK_ITERATIONS
 from physics.tables.shape import SHAPE
+from physics.tables.step_state import CAP_HITS, COUNTERS, GJK_ITERATIONS
 from tests.oracles import hulls
 
 ORIGIN = (0.0, 0.0, 0.0)

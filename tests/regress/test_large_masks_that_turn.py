@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from physics import PixelMask
-from physics.raster.rotate import SAMPLES, turn
+from physics.raster.bits import SAMPLES, turn
 
 rng = np.random.default_rng(5)
 

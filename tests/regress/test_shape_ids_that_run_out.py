@@ -3,7 +3,7 @@
 import pytest
 
 from physics import Circle, Polygon, World
-from physics.shape_rows import LAST_SHAPE
+from physics.edit import LAST_SHAPE
 
 
 @pytest.mark.parametrize("solver", ["soft_step", "projection"])

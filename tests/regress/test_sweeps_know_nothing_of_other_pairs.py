@@ -4,8 +4,7 @@ copied has another workspace, and must go on to the same bit."""
 import numpy as np
 import pytest
 
-from physics.ccd.rotational import new_rotational_workspace
-from physics.ccd.rotational_pairs import sweep_hull
+from physics.ccd.rotational import new_rotational_workspace, sweep_hull
 from physics.jit import JIT, kernel
 
 SLACK = 0.16  # [px]

@@ -5,7 +5,7 @@ import pytest
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics import JIT
-from physics.collision import detect
+from physics.collision import narrow_phase
 from tests.lockstep import make_scene
 
 STEPS = 240
@@ -28,9 +28,9 @@ def test_a_scene_does_the_same_where_all_contacts_are_copied(monkeypatch, name):
         took.append(take_places(*arguments))
         return took[-1]
 
-    take_places = detect.take_places
-    monkeypatch.setattr(detect, "take_places", counting)
+    take_places = narrow_phase.take_places
+    monkeypatch.setattr(narrow_phase, "take_places", counting)
     in_place = played(name)
     assert any(took), "nothing was put in its place: the scene says nothing of it"
-    monkeypatch.setattr(detect, "take_places", lambda *arguments: False)
+    monkeypatch.setattr(narrow_phase, "take_places", lambda *arguments: False)
     assert played(name) == in_place

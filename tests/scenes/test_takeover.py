@@ -10,7 +10,7 @@ import physics
 from physics.dynamics import integrate
 from physics.jit import tiers
 from physics.jit.kernels import Kernel
-from physics.jit.views import TableView
+from physics.jit.plain import TableView
 from scenes import SCENES
 from tests.game.arena import Arena
 from tests.lockstep import Diverged

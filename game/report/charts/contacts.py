@@ -9,12 +9,12 @@ from math import pi
 
 import numpy as np
 
+from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, ordering, pair
 from game.report.job import Job, Plan, Row, spread
 from physics import TIERS, Circle, PixelMask, Polygon, fit
-from physics.queries.pair_batch import PairBatch
 
 RADIUS = 12.0  # [px] of the disc, half the width of the square
 POSES, POSES_QUICK = 4000, 1200

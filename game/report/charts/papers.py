@@ -5,13 +5,13 @@ from math import pi
 
 import numpy as np
 
+from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ratio_of
 from game.report.job import Job, Plan, Row, spread
 from game.report.piles import EFFECTS, pyramid, world_of
 from physics import Effects, Polygon, World
-from physics.queries.pair_batch import PairBatch
 
 CORNERS = (3, 4, 5, 6, 8, 10, 12, 16)
 RADIUS, POSES, REPEATS = 12.0, 2000, 3  # [px], pairs, tests of a batch in a run

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from game.measure import studied_solvers as studied
 from game.measure.front import TIE as SHARE
 from game.measure.moment import failures_of
 from game.measure.staged import advance, stages_of
@@ -19,7 +20,6 @@ from game.report.job import Job, Plan, Row, spread
 from game.report.piles import PILES, world_of
 from game.report.standing import VISIBLE, Watch
 from physics import World
-from physics.solver import studied
 
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)

@@ -204,7 +204,7 @@ def test_the_measuring_ends_with_the_panel_and_with_the_scene(driver):
 def test_types_are_those_that_numba_says():
     from numba import njit
 
-    from physics.jit.signatures import key_of, type_of
+    from physics.jit.kernels import key_of, type_of
 
     dispatcher = njit(lambda x: x)
     table = np.zeros(6, [("a", "f8"), ("b", "i4")])

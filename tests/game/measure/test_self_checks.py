@@ -9,10 +9,10 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
+from game.measure.pair_batch import PairBatch
 from game.measure.rates import Rate
 from game.measure.tiers import poses_around
 from physics import Bounds, Circle, Effects, PixelMask, Polygon, World, fit
-from physics.queries.pair_batch import PairBatch
 
 COUNT = 40_000
 

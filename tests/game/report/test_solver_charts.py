@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from game.measure import studied_solvers as studied
 from game.report.charts.broadphases import growth
 from game.report.charts.far import round_poses
 from game.report.charts.solver_parts import SEQUENTIAL, SOFT, WAYS, Parts, Studied, beside
@@ -10,7 +11,6 @@ from game.report.claim import FAILS, HOLDS, TIE
 from game.report.piles import PILES, energy, overlap, pyramid, stack, sunk, world_of
 from game.report.standing import Watch
 from physics import Circle, Material, Polygon, World
-from physics.solver import studied
 
 
 def run(parts, pile, steps=30):

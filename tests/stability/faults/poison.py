@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from physics import Capsule, Chain, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World
-from physics.tables.manifold import ANCHOR, MANIFOLD
-from physics.tables.proxy import PROXY
+from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.shape import PROXY
 
 
 def floats_of(dtype):

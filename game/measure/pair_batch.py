@@ -1,0 +1,101 @@
+"""Many pairs of the same two things at poses of their own, without a world: who meets, all asked at once.
+
+A thing is one shape or several, whose union it is. What a broad phase would keep of a pair (parts whose boxes meet) is
+found when the batch is made; `test` is the narrow phase alone, so its time is that of so many verdicts.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from physics import checks
+from physics.collision.narrow_phase import narrow_phase_for_queries, no_work
+from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.library import Library, describe
+from physics.shapes.placement import refresh_aabbs
+from physics.tables.body import BODY
+from physics.tables.contact import MANIFOLD
+from physics.tables.shape import SHAPE
+
+
+class PairBatch:
+    """`len()` pairs; poses (n, 3): x, y [px], angle [rad]. Their rows stand in an order drawn by `seed`, as in a world
+    that has been played in. Raises TypeError, ValueError."""
+
+    def __init__(
+        self,
+        shapes_a: Sequence[Shape],
+        poses_a: ArrayLike,
+        shapes_b: Sequence[Shape],
+        poses_b: ArrayLike,
+        seed: int = 0,
+    ) -> None:
+        sides = [
+            (_shapes("shapes_a", shapes_a), checks.columns("poses_a", poses_a, width=3)),
+            (_shapes("shapes_b", shapes_b), checks.columns("poses_b", poses_b, width=3)),
+        ]
+        self.count = len(sides[0][1])
+        if len(sides[1][1]) != self.count:
+            raise ValueError(f"poses_b must have as many rows as poses_a, {self.count} (got {len(sides[1][1])})")
+        self.library, order = Library(), np.random.default_rng(seed).permutation(2 * self.count)
+        self.bodies = np.zeros(2 * self.count, BODY)
+        self.shapes = np.zeros(self.count * sum(len(shapes) for shapes, _ in sides), SHAPE)
+        rows, first = [], 0
+        for side, (shapes, poses) in enumerate(sides):
+            who = order[side * self.count : (side + 1) * self.count]
+            self._place_bodies(who, poses)
+            rows.append(first + np.arange(self.count * len(shapes)).reshape(len(shapes), self.count))
+            angles = np.unique(poses[:, 2]).tolist()
+            for shape in shapes:
+                last = first + self.count
+                describe(self.library, shape, self.shapes[first:last], np.arange(first, last), who, angles)
+                first = last
+        refresh_aabbs(np.arange(len(self.shapes)), self.library.tables, self.bodies, self.shapes)
+        self.candidates, self.pair_of = self._near(rows[0], rows[1], np.random.default_rng(seed + 1))
+        self.narrow_phase, self.found = narrow_phase_for_queries(), np.zeros(0, MANIFOLD)
+
+    def __len__(self) -> int:
+        return self.count
+
+    def _place_bodies(self, who, poses):
+        for name, column in zip(("x", "y", "angle"), poses.T, strict=True):
+            self.bodies[name][who] = self.bodies[f"previous_{name}"][who] = column
+        self.bodies["id"][who] = who
+
+    def _near(self, rows_a, rows_b, rng):
+        """(candidates (m, 2) SHAPE rows whose boxes meet, the pair that each belongs to), in an order by chance."""
+        candidates, pairs = [], []
+        for a in rows_a:
+            for b in rows_b:
+                s, t = self.shapes[a], self.shapes[b]
+                meet = (s["min_x"] <= t["max_x"]) & (t["min_x"] <= s["max_x"])
+                meet &= (s["min_y"] <= t["max_y"]) & (t["min_y"] <= s["max_y"])
+                near = np.flatnonzero(meet)
+                candidates.append(np.stack([a[near], b[near]], axis=1))
+                pairs.append(near)
+        both, owner = np.concatenate(candidates).astype(np.int64), np.concatenate(pairs)
+        # The parts of a pair stay together, as they do in a list of pairs.
+        turn = np.argsort(rng.permutation(self.count)[owner], kind="stable")
+        return np.ascontiguousarray(both[turn]), owner[turn]
+
+    def test(self) -> int:
+        """Test all pairs; the number of manifolds. What took the time is the narrow phase and nothing else."""
+        candidates, work = self.candidates, no_work()
+        self.found = self.narrow_phase.collide(self.library, self.bodies, self.shapes, candidates, 0.0, work)
+        return len(self.found)
+
+    def met(self) -> np.ndarray:
+        """(n,) bool: which pairs met in the last test(), in the order of the poses."""
+        met = np.zeros(self.count, bool)
+        if len(self.found):
+            met[self.pair_of[self.found["candidate"]]] = True
+        return met
+
+
+def _shapes(name, shapes):
+    shapes = tuple(shapes)
+    for shape in shapes:
+        if not isinstance(shape, SHAPES):
+            raise TypeError(f"{name} must be shapes such as Circle(8) (got {checks.shown(shape)})")
+    return shapes

@@ -1,0 +1,174 @@
+"""How two shapes are told apart, step by step, for drawing: separating axes, and the rounds of GJK and EPA."""
+
+import numpy as np
+
+from physics import checks
+from physics.checks import Pose
+from physics.distance.gjk import (
+    APART,
+    AX,
+    BY,
+    COUNT,
+    EPA_CAP,
+    GJK_CAP,
+    NORMAL_X,
+    NORMAL_Y,
+    NX,
+    NY,
+    SEARCHING,
+    SEPARATION,
+    TOUCHING,
+    grow_polytope,
+    new_gap_workspace,
+    reduce_simplex,
+    start_polytope,
+    start_walk,
+    walk_on,
+    write_depth,
+    write_nearest,
+)
+from physics.queries.pairs import checked, parts_of_pair
+from physics.shapes.kinds import Shape
+from physics.shapes.library import Library, rounding_of
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.placement import write_hull
+from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
+from physics.tables.shape import SHAPE
+
+# ---- pair axes -------------------------------------------------------------------------------------------------------
+# Every axis that could part two convex shapes, as the separating axis test sees them: for drawing.
+
+AXIS = np.dtype(
+    [
+        ("normal_x", np.float64),
+        ("normal_y", np.float64),  # unit, from A to B
+        ("separation", np.float64),  # [px] of the two shapes, radii included, along the normal
+        ("owner", np.int64),  # 0: an edge of A, 1: of B
+        ("edge", np.int64),
+    ]
+)  # its first corner; -1: no edge, the way between the nearest corners
+HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
+
+
+def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
+    """(n,) AXIS rows of two shapes at poses (x, y) or (x, y, angle), the axis that separates most first.
+
+    The greatest separation is the distance, or minus the depth. Raises TypeError for what is no convex shape.
+    """
+    a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
+    rows = []
+    for owner, mine in enumerate((a[0], b[0])):
+        sign = 1.0 if owner == 0 else -1.0
+        for edge in range(len(mine) if len(mine) > 1 else 0):
+            dx, dy = mine[(edge + 1) % len(mine)] - mine[edge]
+            normal = sign * np.array([dy, -dx]) / np.hypot(dx, dy)
+            rows.append((*normal, owner, edge))
+    gaps = b[0][None, :, :] - a[0][:, None, :]
+    away = np.hypot(gaps[:, :, 0], gaps[:, :, 1])
+    i, j = np.unravel_index(np.argmin(away), away.shape)
+    if away[i, j] > 0.0:
+        rows.append((*(gaps[i, j] / away[i, j]), 0, -1))
+    elif not rows:
+        rows.append((1.0, 0.0, 0, -1))  # two circles about one point: as collide has it
+    found = np.zeros(len(rows), AXIS)
+    for row, (nx, ny, owner, edge) in zip(found, rows, strict=True):
+        apart = (b[0] @ (nx, ny)).min() - (a[0] @ (nx, ny)).max() - a[1] - b[1]
+        row["normal_x"], row["normal_y"], row["separation"], row["owner"], row["edge"] = (
+            nx + 0.0,
+            ny + 0.0,
+            apart,
+            owner,
+            edge,
+        )
+    return found[np.argsort(-found["separation"], kind="stable")]
+
+
+def _core(name, shape, pose_name, pose):
+    """(world corners (n, 2), radius) of a convex shape at a pose [px]."""
+    if not isinstance(shape, HULLS) or (isinstance(shape, Bounds) and not isinstance(shape.shape, HULLS)):
+        raise TypeError(
+            f"{name} must be a Circle, Capsule, Segment, Polygon or Bounds of one (got {checks.shown(shape)})"
+        )
+    x, y, angle = checks.pose(pose_name, pose)
+    library, rows, corners = Library(), np.zeros(1, SHAPE), np.zeros((16, 2))
+    rows["kind"], rows["geometry"], rows["wrapped"] = library.add(shape)
+    rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
+    count, radius = write_hull(library.tables, rows, 0, x, y, angle, corners)
+    return corners[:count], radius
+
+
+# ---- trace -----------------------------------------------------------------------------------------------------------
+# GJK and EPA round by round, as lists to draw: calls the very functions that run inside, one round at a time.
+
+
+def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
+    """The rounds of GJK, and of EPA when they overlap, between the cores of two convex shapes, as steps_of gives them.
+
+    Points are seen from A's origin. Raises TypeError for shapes that are not convex, ValueError.
+    """
+    for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
+        if isinstance(shape, (TileGrid, PixelMask, Chain)):
+            raise TypeError(f"{name} must be a convex shape (got {checks.shown(shape)})")
+    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
+    parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
+    return steps_of(parts_a.corners[0, : parts_a.counts[0]], parts_b.corners[0, : parts_b.counts[0]])
+
+
+def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
+    """What is known after each round for two hulls of corners (n, 2) [px], radii left out.
+
+    "phase" gjk or epa; "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B; "witness": the
+    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they
+    overlap.
+    """
+    a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
+    workspace = new_gap_workspace()
+    found, status = [], SEARCHING
+    start_walk(a, b, 0, 0, workspace.state, workspace.simplex)
+    for _ in range(GJK_CAP):
+        before = workspace.simplex[: int(workspace.state[COUNT]), 2:].copy()
+        status = walk_on(a, len(a), b, len(b), workspace.state, workspace.simplex)
+        if status == TOUCHING:
+            found.append(_step("gjk", before, workspace, 0.0))
+            break
+        # The round may have added a corner behind what it measured: that belongs to the next round.
+        kept = workspace.simplex.copy(), workspace.state.copy()
+        if status == SEARCHING:
+            workspace.state[COUNT] -= 1.0
+        write_nearest(a, b, workspace.state, workspace.simplex, workspace.gap)
+        found.append(_step("gjk", before, workspace, workspace.gap[SEPARATION]))
+        workspace.simplex[:], workspace.state[:] = kept
+        if status == APART:
+            break
+    if status == SEARCHING:
+        status = reduce_simplex(a, b, workspace.state, workspace.simplex)
+    if status == TOUCHING or workspace.gap[SEPARATION] <= 0.0:
+        found += _depth_steps(a, b, workspace)
+    return found
+
+
+def _depth_steps(a, b, workspace):
+    count, found = start_polytope(a, len(a), b, len(b), workspace.polytope), []
+    for _ in range(EPA_CAP):
+        i, j = workspace.polytope[:count, 0].astype(int), workspace.polytope[:count, 1].astype(int)
+        write_depth(a, b, count, workspace.polytope, workspace.gap)
+        workspace.state[NORMAL_X], workspace.state[NORMAL_Y] = workspace.gap[NX], workspace.gap[NY]
+        step = _step("epa", np.zeros((0, 2)), workspace, workspace.gap[SEPARATION])
+        step["polytope"] = a[i] - b[j]
+        found.append(step)
+        grown = count if count < 2 else grow_polytope(a, len(a), b, len(b), count, workspace.polytope)
+        if grown == count:
+            break
+        count = grown
+    return found
+
+
+def _step(phase, simplex, workspace, distance):
+    ax, ay, bx, by = workspace.gap[AX : BY + 1].tolist()
+    return {
+        "phase": phase,
+        "simplex": simplex,
+        "witness": ((ax, ay), (bx, by)),
+        "direction": (float(workspace.state[NORMAL_X]), float(workspace.state[NORMAL_Y])),
+        "distance": float(distance),
+    }

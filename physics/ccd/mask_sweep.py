@@ -1,0 +1,350 @@
+"""The sweep of masks by their pixels: what tells, where nothing pushes, the latest time before which no area is shared.
+
+A mask is the union of its pixel squares at the exact pose, in rectangles, however it is drawn. By the rule of
+rotational.py, without a slop: what gets no deeper than the two stand in each other at the start shares no new area, so
+a graze is nothing and no seam between two rectangles is felt.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.ccd.impacts import cut_path, outruns, rest_where_it_is, stands_still
+from physics.ccd.rotational import (
+    depth_at_start,
+    gap_at_start,
+    place_mover,
+    shrink_to_middle,
+    sweep_chain_seen_from,
+    sweep_part,
+    sweep_tiles,
+    write_local,
+    write_motion,
+)
+from physics.ccd.time_of_impact import ANGLE, CENTER_X, CENTER_Y, MISS, MOVE_X, MOVE_Y, TURN, reach_of, write_impact
+from physics.distance.gjk import AX, AY, NX, NY
+from physics.jit import kernel, subkernel
+from physics.math2d import length_of, turned
+from physics.shapes.library import Library
+from physics.shapes.placement import exact_aabb, rounding
+from physics.tables.body import DYNAMIC, RAY
+from physics.tables.shape import CHAIN, MASK, TILES
+from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
+
+
+class Squares(NamedTuple):
+    """The solid pixels of the masks of a library, in rectangles."""
+
+    spans: np.ndarray  # (masks, 2) first rectangle, and how many; -1: not listed yet
+    boxes: np.ndarray  # (n, 4) left top right bottom [px] in body space
+
+
+NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
+
+
+def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
+    """What is known of a library, and the rectangles of these of its masks (rows)."""
+    missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
+    if not missing:
+        return known
+    spans = np.full((len(library.masks), 2), -1, np.int64)
+    spans[: len(known.spans)] = known.spans
+    boxes, count = [known.boxes], len(known.boxes)
+    for row in missing:
+        mask = library.masks[row]
+        blocks = np.array(mask.blocks(0), np.float64).reshape(-1, 4) - (*mask.origin, *mask.origin)
+        spans[row] = count, len(blocks)
+        boxes.append(blocks)
+        count += len(blocks)
+    return Squares(spans, np.concatenate(boxes))
+
+
+@subkernel
+def write_square(boxes, k, body, corners_out):
+    """Corners of a rectangle of a mask from its body's centre of mass [px] at angle 0. Returns their number."""
+    for corner in range(4):
+        corners_out[corner, 0] = boxes[k, 2 if corner == 1 or corner == 2 else 0] - body.local_center_x
+        corners_out[corner, 1] = boxes[k, 3 if corner > 1 else 1] - body.local_center_y
+    return 4
+
+
+@subkernel
+def pieces_of(shape, body, spans, as_ray):
+    """(first rectangle, number of pieces, whether they are rectangles): what a mask is swept as. A hull is one piece,
+    and so is the point of a ray."""
+    if shape.kind != MASK or (as_ray and body.continuous == RAY):
+        return 0, 1, False
+    return spans[shape.geometry, 0], spans[shape.geometry, 1], True
+
+
+@subkernel
+def write_single(geometry, bodies, shapes, row, workspace):
+    """Write the one piece of a mover to workspace.mover. Returns its number of corners and its rounding [px]."""
+    body = bodies[shapes[row].body_row]
+    if shapes[row].kind == MASK:
+        workspace.mover[0, 0] = 0.0
+        workspace.mover[0, 1] = 0.0
+        return 1, 0.0
+    count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
+    if body.continuous == RAY:
+        return shrink_to_middle(count, workspace.mover), 0.0
+    return count, rounding(shapes, row)
+
+
+@subkernel
+def misses_square(boxes, k, body, x, y, dx, dy, reach):
+    """Whether what moves from (x, y) by (dx, dy), and reaches so far, stays beside a rectangle; all [px], seen from the
+    centre of mass of its body, which does not turn."""
+    left = boxes[k, 0] - body.local_center_x - reach
+    top = boxes[k, 1] - body.local_center_y - reach
+    right = boxes[k, 2] - body.local_center_x + reach
+    bottom = boxes[k, 3] - body.local_center_y + reach
+    return max(x, x + dx) < left or min(x, x + dx) > right or max(y, y + dy) < top or min(y, y + dy) > bottom
+
+
+@subkernel
+def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, workspace, best_out):
+    """Sweep one piece of the mover, in workspace.mover, past the pieces of the other shape.
+
+    depth [px]: how deep the two stand in each other; negative: this is what is asked, and returned. body: the other's;
+    span: see pieces_of; n, radius_b: corners of the one piece in local_b. best_out (5,): see sweep_squares. O(pieces
+    near).
+    """
+    r = workspace.advance
+    first, pieces, are_squares = span
+    reach = reach_of(workspace.mover, count) + radius
+    turns = r.motion_b[TURN] != 0.0
+    cosine = math.cos(r.motion_b[ANGLE])
+    sine = math.sin(r.motion_b[ANGLE])
+    x, y = turned(
+        r.motion_a[CENTER_X] - r.motion_b[CENTER_X], r.motion_a[CENTER_Y] - r.motion_b[CENTER_Y], cosine, -sine
+    )
+    move_x = r.motion_a[MOVE_X] - r.motion_b[MOVE_X]
+    move_y = r.motion_a[MOVE_Y] - r.motion_b[MOVE_Y]
+    dx, dy = turned(move_x, move_y, cosine, -sine)
+    deepest = 0.0
+    for k in range(first, first + pieces):
+        if are_squares:
+            if not turns and misses_square(squares.boxes, k, body, x, y, dx, dy, reach):
+                continue
+            n = write_square(squares.boxes, k, body, r.local_b)
+        place_mover(count, workspace)
+        apart = gap_at_start(count, radius, n, radius_b, workspace)
+        if depth < 0.0:
+            if apart <= 0.0:
+                deepest = max(deepest, depth_at_start(count, radius, n, radius_b, workspace))
+            continue
+        travel = (
+            length_of(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
+        )
+        if apart > travel * min(1.0, best_out[0]):
+            continue
+        fraction, _ = sweep_part(count, radius, n, radius_b, 0.0, depth, 0.0, workspace)
+        if fraction < best_out[0]:
+            best_out[0] = fraction
+            best_out[1] = -r.gap.gap[NX]
+            best_out[2] = -r.gap.gap[NY]
+            best_out[3] = r.motion_a[CENTER_X] + r.gap.gap[AX]
+            best_out[4] = r.motion_a[CENTER_Y] + r.gap.gap[AY]
+    return deepest
+
+
+@subkernel
+def middle_of_mask(geometry, shape, body, angle):
+    """The middle [px] of the AABB that a MASK row has at an angle [rad], which is what decides on which side of a link
+    it is: from its body's centre of mass, at angle 0."""
+    raster = geometry.raster_of[shape.geometry, 0]
+    left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
+    u, v = turned(0.5 * (left + right), 0.5 * (top + bottom), math.cos(angle), -math.sin(angle))
+    return u - body.local_center_x, v - body.local_center_y
+
+
+@subkernel
+def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, workspace, best_out):
+    """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (SHAPE row `other`).
+
+    middle: the mover's; it lies in front of a link, or behind, as a whole.
+    """
+    if other.kind == TILES:
+        fraction, nx, ny, _ = sweep_tiles(
+            geometry,
+            other.geometry,
+            body.local_center_x,
+            body.local_center_y,
+            count,
+            radius,
+            0.0,
+            0.0,
+            one_way,
+            -1,
+            workspace,
+        )
+    else:
+        fraction, nx, ny, _ = sweep_chain_seen_from(
+            geometry,
+            other.geometry,
+            body.local_center_x,
+            body.local_center_y,
+            middle,
+            count,
+            radius,
+            0.0,
+            0.0,
+            -1,
+            workspace,
+        )
+    if fraction < best_out[0]:
+        best_out[0] = fraction
+        best_out[1] = nx
+        best_out[2] = ny
+        best_out[3] = math.nan
+        best_out[4] = math.nan
+
+
+@subkernel
+def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, squares, workspace, best_out, work_inout):
+    """Shape `row` against shape `other`, at least one of them a mask, both on their way; see sweep_rotational.
+
+    Writes (fraction or MISS, normal from other to row, point [px], nan where it is not known) to best_out (5,).
+    O(pieces · pieces near).
+    """
+    s = shapes[row]
+    o = shapes[other]
+    p = bodies[s.body_row]
+    q = bodies[o.body_row]
+    r = workspace.advance
+    work_inout[TOI_CALLS] += 1
+    write_motion(motions, s.body_row, r.motion_a)
+    write_motion(motions, o.body_row, r.motion_b)
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
+    best_out[0] = MISS
+    best_out[1] = 0.0
+    best_out[2] = -1.0
+    first, pieces, are_squares = pieces_of(s, p, squares.spans, True)
+    count = 4
+    radius = 0.0
+    if not are_squares:
+        count, radius = write_single(geometry, bodies, shapes, row, workspace)
+    on_ground = o.kind == TILES or o.kind == CHAIN
+    span = pieces_of(o, q, squares.spans, False)
+    n = 4
+    radius_b = 0.0
+    if not on_ground and o.kind != MASK:
+        n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
+        radius_b = rounding(shapes, other)
+    middle = middle_of_mask(geometry, s, p, r.motion_a[ANGLE]) if are_squares else (0.0, 0.0)
+    depth = 0.0
+    for asked in range(2):
+        for k in range(first, first + pieces):
+            if are_squares:
+                write_square(squares.boxes, k, p, workspace.mover)
+            if not on_ground:
+                found = sweep_on_pieces(
+                    count, radius, depth if asked == 1 else -1.0, q, squares, span, n, radius_b, workspace, best_out
+                )
+                depth = max(depth, found)
+            elif asked == 1:
+                sweep_on_ground(geometry, o, q, middle, count, radius, one_way, workspace, best_out)
+    work_inout[GJK_ITERATIONS] += int(r.totals[0])
+    work_inout[CAP_HITS] += int(r.totals[1])
+
+
+@subkernel
+def first_shared(
+    geometry, bodies, shapes, paths, row, other, one_way, squares, cuts_out, workspace, best_out, work_inout
+):
+    """As impacts.first_meeting, by pixels: each goes as far as its body's fraction and rests then. To best_out (5,)."""
+    p = shapes[row].body_row
+    q = shapes[other].body_row
+    both = min(bodies[p].fraction, bodies[q].fraction)
+    last = max(bodies[p].fraction, bodies[q].fraction)
+    start = 0.0
+    end = both
+    best_out[0] = MISS
+    for _ in range(2):
+        if end > start:
+            cut_path(paths, p, min(start, bodies[p].fraction), min(end, bodies[p].fraction), cuts_out)
+            cut_path(paths, q, min(start, bodies[q].fraction), min(end, bodies[q].fraction), cuts_out)
+            sweep_squares(
+                geometry, bodies, shapes, cuts_out, row, other, one_way, squares, workspace, best_out, work_inout
+            )
+            if best_out[0] <= 1.0:
+                best_out[0] = start + best_out[0] * (end - start)
+                return
+        start = both
+        end = last
+
+
+@kernel
+def find_shared_areas(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    moving,
+    stacking,
+    one_way,
+    squares,
+    # write
+    paths_inout,
+    fast_inout,
+    cuts_out,
+    workspace,
+    best_out,
+    impacts_out,
+    work_inout,
+):
+    """List (candidate, fraction, normal from A to B, 0, -1, point) of the pairs with a mask, told by pixels, that come
+    to share area on the path of a fast body.
+
+    As find_rotational_impacts, which has the arguments' meaning; squares: Squares of all masks among the candidates;
+    best_out (5,): scratch. It stops nobody: where bodies are pushed these are the pairs of sensors. Returns the number
+    found. O(candidates).
+    """
+    found = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        if a.kind != MASK and b.kind != MASK:
+            continue
+        rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
+        rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
+        fast = fast_inout[a.body_row] or fast_inout[b.body_row]
+        fast = fast or outruns(bodies, paths_inout, a.body_row, b.body_row)
+        if not (fast or outruns(bodies, paths_inout, b.body_row, a.body_row)):
+            continue
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        still = stands_still(bodies, paths_inout, a.body_row) or stands_still(bodies, paths_inout, b.body_row)
+        if still == (moving == 1):
+            continue
+        if stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet):
+            continue
+        first = fast_inout[a.body_row] if (p.kind == DYNAMIC) == (q.kind == DYNAMIC) else p.kind == DYNAMIC
+        from_a = b.kind == TILES or b.kind == CHAIN or (first and a.kind != TILES and a.kind != CHAIN)
+        mover = candidates[i, 0] if from_a else candidates[i, 1]
+        other = candidates[i, 1] if from_a else candidates[i, 0]
+        first_shared(
+            geometry,
+            bodies,
+            shapes,
+            paths_inout,
+            mover,
+            other,
+            one_way,
+            squares,
+            cuts_out,
+            workspace,
+            best_out,
+            work_inout,
+        )
+        if best_out[0] <= 1.0:
+            if found < impacts_out.shape[0]:
+                impacts_out[found, 6] = best_out[3]
+                impacts_out[found, 7] = best_out[4]
+            found = write_impact(i, best_out[0], best_out[1], best_out[2], -1, from_a, False, found, impacts_out)
+    return found

@@ -1,0 +1,638 @@
+"""First time of impact of two shapes: closed forms, straight motion, and conservative advancement."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.collision.hulls import ALL_EDGES, collide_polygon_circle, edge_normal
+from physics.distance.gjk import (
+    AX,
+    AY,
+    CAPPED,
+    FIRST_A,
+    FIRST_B,
+    NX,
+    NY,
+    ROUNDS,
+    GapWorkspace,
+    new_gap_workspace,
+    separate,
+)
+from physics.jit import kernel, subkernel
+from physics.math2d import length_of, turned, unit
+from physics.shapes.placement import corners_at, is_hull
+from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, TOI
+from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
+from physics.tables.step_state import TOI_CALLS
+
+# ---- closed form -----------------------------------------------------------------------------------------------------
+# First times of impact in closed form, of two shapes that move along a line without turning: discs, polygons, rays.
+
+MISS = 2.0  # a fraction beyond the step
+
+
+@subkernel
+def sweep_circles(x, y, dx, dy, radius):
+    """A point at (x, y) from the centre of a disc [px], moved by (dx, dy): (fraction or MISS, normal to it).
+
+    radius: the sum of both discs'. Touching at the start: 0 when it approaches.
+    """
+    nx, ny = unit(x, y, 1.0, 0.0)
+    approach = x * dx + y * dy
+    if length_of(x, y) <= radius:
+        return (0.0 if approach < 0.0 else MISS), nx, ny
+    if approach >= 0.0:
+        return MISS, nx, ny
+    a = dx * dx + dy * dy
+    c = x * x + y * y - radius * radius
+    discriminant = approach * approach - a * c
+    if discriminant < 0.0:
+        return MISS, nx, ny
+    # The smaller root, in the form that does not cancel.
+    fraction = c / (-approach + math.sqrt(discriminant))
+    if fraction > 1.0:
+        return MISS, nx, ny
+    nx, ny = unit(x + fraction * dx, y + fraction * dy, nx, ny)
+    return fraction, nx, ny
+
+
+@subkernel
+def cast_on_polygon(corners, count, edges, x, y, dx, dy):
+    """A ray from outside against a closed convex polygon [px]: (fraction or MISS, normal).
+
+    By cutting the ray with every half plane, so that nothing slips through between two edges (Cyrus and Beck 1978).
+    edges: bits of the edges that may be touched.
+    """
+    enter = -1.0
+    leave = 1.0
+    entering = 0
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1])
+        speed = nx * dx + ny * dy
+        if speed < 0.0:
+            if gap / -speed > enter:
+                enter = gap / -speed
+                entering = k
+        elif speed > 0.0:
+            leave = min(leave, gap / -speed)
+        elif gap > 0.0:
+            return MISS, 0.0, -1.0
+    if enter < 0.0 or enter > leave or not (edges >> entering) & 1:
+        return MISS, 0.0, -1.0
+    nx, ny = edge_normal(corners, count, entering)
+    return enter, nx, ny
+
+
+@subkernel
+def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
+    """A disc moved by (dx, dy) against a polygon at rest [px]: (fraction or MISS, normal from the polygon to the disc).
+
+    edges: bits of the edges that may be touched. A radius of 0 casts a ray.
+    """
+    hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
+    if hit and separation <= 0.0:
+        return (0.0 if nx * dx + ny * dy < 0.0 else MISS), nx, ny
+    if radius == 0.0:
+        return cast_on_polygon(corners, count, edges, x, y, dx, dy)
+    best = MISS
+    best_x = 0.0
+    best_y = -1.0
+    for k in range(count):
+        following = k + 1 if k + 1 < count else 0
+        nx, ny = edge_normal(corners, count, k)
+        speed = nx * dx + ny * dy
+        if (edges >> k) & 1 and speed < 0.0:
+            gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1]) - radius
+            fraction = gap / -speed
+            if 0.0 <= fraction < best and fraction <= 1.0:
+                at_x = x + fraction * dx
+                at_y = y + fraction * dy
+                ex = corners[following, 0] - corners[k, 0]
+                ey = corners[following, 1] - corners[k, 1]
+                along = ex * (at_x - corners[k, 0]) + ey * (at_y - corners[k, 1])
+                if 0.0 <= along <= ex * ex + ey * ey:
+                    best = fraction
+                    best_x = nx
+                    best_y = ny
+        if radius > 0.0 and (edges >> (16 + k)) & 1:
+            fraction, nx, ny = sweep_circles(x - corners[k, 0], y - corners[k, 1], dx, dy, radius)
+            if fraction < best:
+                best = fraction
+                best_x = nx
+                best_y = ny
+    return best, best_x, best_y
+
+
+@subkernel
+def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave, entering, nx, ny):
+    """Cut the time of overlap by the faces of one outline.
+
+    side 1: the faces of B, which A's corners cross; -1: those of A, crossed by B's corners. A face that is crossed by
+    less than `slack` [px] does not count. Returns (enter, leave, entering face or -1 - face of A, normal from B to A).
+    """
+    for k in range(b_count):
+        mx, my = edge_normal(b, b_count, k)
+        gap = math.inf
+        for i in range(a_count):
+            gap = min(gap, mx * (a[i, 0] - b[k, 0]) + my * (a[i, 1] - b[k, 1]))
+        speed = side * (mx * dx + my * dy)
+        if gap + slack > 0.0:
+            if speed >= 0.0:
+                return MISS, leave, entering, nx, ny
+            fraction = (gap + slack) / -speed
+            if fraction > enter:
+                enter = fraction
+                entering = k if side > 0.0 else -1 - k
+                nx = side * mx
+                ny = side * my
+        elif speed > 0.0:
+            leave = min(leave, -(gap + slack) / speed)
+    return enter, leave, entering, nx, ny
+
+
+@subkernel
+def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
+    """Polygon A moved by (dx, dy) against B at rest [px]: (fraction or MISS, normal from B to A).
+
+    b_edges: bits of B's edges that may be touched; slack [px]: shallower overlaps do not count. Already overlapping
+    by more: MISS, the contact solver lets it out.
+    """
+    enter, leave, entering, nx, ny = half_planes(
+        a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0
+    )
+    if enter <= 1.0:
+        enter, leave, entering, nx, ny = half_planes(
+            b, b_count, a, a_count, ALL_EDGES, -1.0, dx, dy, slack, enter, leave, entering, nx, ny
+        )
+    if enter < 0.0 or enter > leave or enter > 1.0:
+        return MISS, nx, ny
+    if entering >= 0 and not (b_edges >> entering) & 1:
+        return MISS, nx, ny
+    # From "slack deep" back to touching.
+    approach = -(nx * dx + ny * dy)
+    if approach <= 0.0:
+        return MISS, nx, ny
+    return max(0.0, enter - slack / approach), nx, ny
+
+
+# ---- linear ----------------------------------------------------------------------------------------------------------
+# First time of impact of shapes that move without turning: circles and convex polygons, against each other.
+#
+# Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
+# motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
+# per edge (Ericson, Real-Time Collision Detection, 5.5). All in closed form, relative to B. What stands deeper in the
+# other than the slop before it moves is left to the sweep of rotational.py.
+
+
+@subkernel
+def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, slack, corners_inout):
+    """A moving circle or polygon (or a ray from its middle) against an outline: (fraction or MISS, normal to it)."""
+    s = shapes[row]
+    if s.kind == CIRCLE:
+        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        radius = 0.0 if ray else s.radius
+        fraction, nx, ny = sweep_circle_polygon(target, target_count, ALL_EDGES, x + u, y + v, dx, dy, radius)
+        if fraction == 0.0 and s.radius > 0.0:
+            hit, mx, my, _, _, separation, _ = collide_polygon_circle(
+                target, target_count, ALL_EDGES, x + u, y + v, radius
+            )
+            if hit and separation < -slack:
+                return MISS, nx, ny
+        return fraction, nx, ny
+    count = corners_at(geometry, shapes, row, x, y, angle, corners_inout)
+    if ray:
+        middle_x = 0.0
+        middle_y = 0.0
+        for k in range(count):
+            middle_x += corners_inout[k, 0] / count
+            middle_y += corners_inout[k, 1] / count
+        return sweep_circle_polygon(target, target_count, ALL_EDGES, middle_x, middle_y, dx, dy, 0.0)
+    return sweep_polygons(corners_inout, count, target, target_count, ALL_EDGES, dx, dy, slack)
+
+
+@subkernel
+def is_fast(body, dt, only_straight):
+    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size.
+
+    only_straight: 1 where those that turn on their way are left to the sweep with turning.
+    """
+    if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
+        return False
+    if body.continuous == AUTO and only_straight == 1:
+        return False
+    if body.continuous == AUTO:
+        return length_of(body.vx, body.vy) * dt > body.thin_half
+    return True
+
+
+@subkernel
+def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
+    """Shape `row` against shape `other`, both moving through dt [s]: (fraction or MISS, normal from other to row)."""
+    s = shapes[row]
+    o = shapes[other]
+    p = bodies[s.body_row]
+    q = bodies[o.body_row]
+    dx = dt * p.vx
+    dy = dt * p.vy
+    if q.kind != STATIC:
+        dx -= dt * q.vx
+        dy -= dt * q.vy
+    if o.kind == CIRCLE:
+        u, v = turned(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
+        if s.kind == CIRCLE:
+            w, z = turned(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
+            radius = o.radius + (0.0 if ray else s.radius)
+            x = p.x + w - q.x - u
+            y = p.y + z - q.y - v
+            fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
+            if fraction == 0.0 and length_of(x, y) < radius - slack:
+                return MISS, nx, ny
+            return fraction, nx, ny
+        count = corners_at(geometry, shapes, row, p.x, p.y, p.angle, scratch.a)
+        if ray:
+            x = 0.0
+            y = 0.0
+            for k in range(count):
+                x += scratch.a[k, 0] / count
+                y += scratch.a[k, 1] / count
+            return sweep_circles(x - q.x - u, y - q.y - v, dx, dy, o.radius)
+        # The circle flies the other way, against the polygon at rest.
+        x = q.x + u
+        y = q.y + v
+        fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, x, y, -dx, -dy, o.radius)
+        if fraction == 0.0:
+            hit, mx, my, _, _, separation, _ = collide_polygon_circle(scratch.a, count, ALL_EDGES, x, y, o.radius)
+            if hit and separation < -slack:
+                return MISS, -nx, -ny
+        return fraction, -nx, -ny
+    count = corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a)
+    return sweep_shape(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, slack, scratch.b)
+
+
+@subkernel
+def is_straight(shape):
+    """Whether the closed forms here know a shape; what is rounded, and ground, is left to the sweep with turning."""
+    return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
+
+
+@subkernel
+def has_closed_form(mover, other, mode):
+    """Whether a fast shape is swept here: by its own outline, or as a ray from the middle of any hull."""
+    if mode == RAY:
+        return is_straight(other) and is_hull(mover.kind)
+    return is_straight(other) and is_straight(mover)
+
+
+@subkernel
+def write_impact(pair, fraction, nx, ny, feature, from_a, stops, found, impacts_out):
+    """Write an impact of a candidate pair when there is room. Returns the count, which goes on past the capacity.
+
+    nx, ny: from what was met to the mover, which is A of the pair where from_a says so; feature: which tiles or link.
+    """
+    if found < impacts_out.shape[0]:
+        impacts_out[found, 0] = float(pair)
+        impacts_out[found, 1] = fraction
+        impacts_out[found, 2] = -nx if from_a else nx
+        impacts_out[found, 3] = -ny if from_a else ny
+        impacts_out[found, 4] = 1.0 if stops else 0.0
+        impacts_out[found, 5] = float(feature)
+    return found + 1
+
+
+@kernel
+def find_impacts(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    candidates,
+    count,
+    dt,
+    slack,
+    only_straight,
+    # write
+    scratch,
+    impacts_out,
+    work_inout,
+):
+    """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
+
+    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
+    the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
+    only_straight: see is_fast; impacts_out (n, 8) float64, of which no
+    point is written. Returns the number found. O(candidates).
+    """
+    found = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        a_fast = is_fast(p, dt, only_straight)
+        b_fast = is_fast(q, dt, only_straight)
+        if not (a_fast or b_fast):
+            continue
+        from_a = a_fast and a.kind != TILES
+        if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
+            from_a = False
+        mover = candidates[i, 0] if from_a else candidates[i, 1]
+        other = candidates[i, 1] if from_a else candidates[i, 0]
+        body = p if from_a else q
+        if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
+            continue
+        work_inout[TOI_CALLS] += 1
+        fraction, nx, ny = sweep_pair(
+            geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, slack, scratch
+        )
+        if fraction > 1.0:
+            continue
+        dx = body.vx
+        dy = body.vy
+        rest = q if from_a else p
+        if rest.kind != STATIC:
+            dx -= rest.vx
+            dy -= rest.vy
+        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
+        found = write_impact(i, fraction, nx, ny, -1, from_a, stops, found, impacts_out)
+    return found
+
+
+@kernel
+def stop_at_impacts(
+    # read
+    shapes,
+    candidates,
+    impacts,
+    count,
+    # write
+    bodies_inout,
+):
+    """Set each body's free fraction to its first impact with what is no sensor. bodies_inout BODY rows. O(impacts)."""
+    for i in range(count):
+        pair = int(impacts[i, 0])
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        if a.sensor or b.sensor or impacts[i, 4] == 0.0:
+            continue
+        p = bodies_inout[a.body_row]
+        q = bodies_inout[b.body_row]
+        # What is moved by its script goes on; what is met by it is pushed.
+        if p.kind == DYNAMIC:
+            p.fraction = min(p.fraction, impacts[i, 1])
+        if q.kind == DYNAMIC:
+            q.fraction = min(q.fraction, impacts[i, 1])
+
+
+# ---- advance ---------------------------------------------------------------------------------------------------------
+# First time of impact of two rounded hulls that move and turn, by conservative advancement of second order.
+#
+# At a fraction t of the motion the nearest points give a normal n. Along this fixed n every corner moves by its
+# velocity, and its path bends by no more than (turn rate)² · arm, so each pair of corners is apart until the root of a
+# quadratic. The motion is free up to the smallest root; there a new normal is taken. Each stop is before the impact,
+# and near it the gap shrinks with the square of the step, as in Newton's method: a few rounds, and nothing is stepped
+# over however fast it turns. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous Collision, GDC
+# 2013.
+
+ADVANCE_CAP = 256  # stops; transversal impacts take under ten, grazes some forty
+LEAVING_CAP = 1024  # stops of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
+TOLERANCE = 2.0**-43  # 1e-13 of the size of shapes and motion: met
+TOUCHING_BAND = 2.0**-30  # 1e-9 of the size: corners this near to the touching one touch too
+RESTING = 2.0**-42  # of the speed: a slide, whose approach is but rounding
+CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
+
+
+class AdvanceWorkspace(NamedTuple):
+    """Room for one pair on its way."""
+
+    local_a: np.ndarray  # (16, 2) corners from the point that each side turns about [px], at angle 0
+    local_b: np.ndarray
+    a: np.ndarray  # (16, 2) corners at the present fraction, from where A's point was at the start [px]
+    b: np.ndarray
+    motion_a: np.ndarray  # (6,) point it turns about and angle at the start; what they change by until the end
+    motion_b: np.ndarray
+    totals: np.ndarray  # (2,) rounds of GJK and EPA, caps hit
+    gap: GapWorkspace
+
+
+def new_advance_workspace() -> AdvanceWorkspace:
+    return AdvanceWorkspace(
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros((16, 2)),
+        np.zeros(6),
+        np.zeros(6),
+        np.zeros(2),
+        new_gap_workspace(),
+    )
+
+
+@subkernel
+def place_at(local, count, motion, fraction, x, y, corners_out):
+    """Write a hull's corners at a fraction of its motion, seen from (x, y)."""
+    angle = motion[ANGLE] + fraction * motion[TURN]
+    cosine = math.cos(angle)
+    sine = math.sin(angle)
+    center_x = (motion[CENTER_X] - x) + fraction * motion[MOVE_X]
+    center_y = (motion[CENTER_Y] - y) + fraction * motion[MOVE_Y]
+    for k in range(count):
+        u, v = turned(local[k, 0], local[k, 1], cosine, sine)
+        corners_out[k, 0] = center_x + u
+        corners_out[k, 1] = center_y + v
+
+
+@subkernel
+def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
+    """Separation [px] at a fraction of the motion; workspace.gap.gap has the normal,
+    workspace.a and workspace.b the corners."""
+    x = workspace.motion_a[CENTER_X]
+    y = workspace.motion_a[CENTER_Y]
+    place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
+    place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
+    # At the start nothing is known of the pair: what another one left must not show, not even in the last bit.
+    i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1) if fraction > 0.0 else 0
+    j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1) if fraction > 0.0 else 0
+    separation = separate(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, i, j, workspace.gap)
+    workspace.totals[0] += workspace.gap.state[ROUNDS]
+    workspace.totals[1] += workspace.gap.state[CAPPED]
+    return separation
+
+
+@subkernel
+def reach_of(local, count):
+    """The furthest corner from the point that a hull turns about [px]."""
+    reach = 0.0
+    for k in range(count):
+        reach = max(reach, length_of(local[k, 0], local[k, 1]))
+    return reach
+
+
+@subkernel
+def along(corners, motion, fraction, k, x, y, nx, ny):
+    """(place along n [px], velocity along n, bend) of corner k at a fraction; x, y: what the corners are seen from."""
+    arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
+    arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
+    turn = motion[TURN]
+    speed = nx * (motion[MOVE_X] - turn * arm_y) + ny * (motion[MOVE_Y] + turn * arm_x)
+    return nx * corners[k, 0] + ny * corners[k, 1], speed, turn * turn * length_of(arm_x, arm_y)
+
+
+@subkernel
+def free_until(gap, speed, bend):
+    """The first root of gap + speed · t - bend / 2 · t², for gap >= 0; infinite without one."""
+    if bend > 0.0:
+        root = math.sqrt(speed * speed + 2.0 * bend * gap)
+        if speed < 0.0:
+            return 2.0 * gap / (root - speed)
+        return (root + speed) / bend
+    if speed < 0.0:
+        return gap / -speed
+    return math.inf
+
+
+@subkernel
+def free_motion(a_count, b_count, radii, fraction, separation, workspace):
+    """How much further the motion is free at least: until a pair of corners can meet along the present normal.
+
+    separation [px]: pairs that are nearer than 0 count as touching. O(corners of A · corners of B).
+    """
+    nx = workspace.gap.gap[NX]
+    ny = workspace.gap.gap[NY]
+    x = workspace.motion_a[CENTER_X]
+    y = workspace.motion_a[CENTER_Y]
+    until = math.inf
+    for i in range(a_count):
+        at_a, speed_a, bend_a = along(workspace.a, workspace.motion_a, fraction, i, x, y, nx, ny)
+        for j in range(b_count):
+            at_b, speed_b, bend_b = along(workspace.b, workspace.motion_b, fraction, j, x, y, nx, ny)
+            # No pair is nearer than the separation; what rounding makes of it must not be.
+            gap = max(separation, at_b - at_a - radii)
+            until = min(until, free_until(max(0.0, gap), speed_b - speed_a, bend_a + bend_b))
+    if separation > 0.0:
+        # Far apart and turning fast: no corner leaves its circle.
+        center = nx * (
+            (workspace.motion_b[CENTER_X] - x)
+            + fraction * workspace.motion_b[MOVE_X]
+            - fraction * workspace.motion_a[MOVE_X]
+        ) + ny * (
+            (workspace.motion_b[CENTER_Y] - y)
+            + fraction * workspace.motion_b[MOVE_Y]
+            - fraction * workspace.motion_a[MOVE_Y]
+        )
+        gap = center - reach_of(workspace.local_a, a_count) - reach_of(workspace.local_b, b_count) - radii
+        if gap > 0.0:
+            speed = nx * (workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X]) + ny * (
+                workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
+            )
+            until = max(until, free_until(gap, speed, 0.0))
+    return until
+
+
+@subkernel
+def speed_of(motion, seen_from, fraction, x, y, nx, ny):
+    """Speed along n [px per motion] of the point of a body that is at (x, y),
+    seen from where another's motion starts."""
+    arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
+    arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
+    return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
+
+
+@subkernel
+def touching_span(corners, count, nx, ny, side, band):
+    """(low, high) along the tangent (-ny, nx) of the corners that lie furthest along side · n, within a band [px]."""
+    furthest = -math.inf
+    for k in range(count):
+        furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))
+    low = math.inf
+    high = -math.inf
+    for k in range(count):
+        if side * (nx * corners[k, 0] + ny * corners[k, 1]) >= furthest - band:
+            along = nx * corners[k, 1] - ny * corners[k, 0]
+            low = min(low, along)
+            high = max(high, along)
+    return low, high
+
+
+@subkernel
+def approach_at(a_count, b_count, fraction, band, workspace):
+    """The greatest speed along the normal [px per motion] at which the two surfaces come nearer where they touch.
+
+    They touch at a point, or along the part of two faces that lie on each other within a band [px]: there the speed is
+    greatest at an end.
+    """
+    nx = workspace.gap.gap[NX]
+    ny = workspace.gap.gap[NY]
+    a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
+    b_low, b_high = touching_span(workspace.b, b_count, nx, ny, -1.0, band)
+    low = max(a_low, b_low)
+    high = min(a_high, b_high)
+    if low > high:
+        low = 0.5 * (low + high)
+        high = low
+    across = nx * workspace.gap.gap[AX] + ny * workspace.gap.gap[AY]
+    most = -math.inf
+    for end in range(2):
+        at = low if end == 0 else high
+        x = across * nx - at * ny
+        y = across * ny + at * nx
+        most = max(
+            most,
+            speed_of(workspace.motion_a, workspace.motion_a, fraction, x, y, nx, ny)
+            - speed_of(workspace.motion_b, workspace.motion_a, fraction, x, y, nx, ny),
+        )
+    return most
+
+
+@subkernel
+def advance(a_count, a_radius, b_count, b_radius, workspace):
+    """The first fraction at which two hulls meet on their way, or MISS; workspace.gap.gap has normal and points at it.
+
+    workspace: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the
+    start counts only when they approach: 0. When they part they are looked at until they approach again.
+    workspace.totals counts GJK's rounds and caps; when ADVANCE_CAP is hit it counts too, and the motion ends there,
+    before the impact.
+    """
+    turn_a = abs(workspace.motion_a[TURN])
+    turn_b = abs(workspace.motion_b[TURN])
+    reach_a = reach_of(workspace.local_a, a_count)
+    reach_b = reach_of(workspace.local_b, b_count)
+    path = length_of(
+        workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X], workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
+    )
+    size = reach_a + reach_b + a_radius + b_radius
+    speed = path + turn_a * reach_a + turn_b * reach_b
+    tolerance = TOLERANCE * (size + path)
+    radii = a_radius + b_radius
+    workspace.gap.gap[FIRST_A] = 0.0
+    workspace.gap.gap[FIRST_B] = 0.0
+    fraction = 0.0
+    stops = 0
+    leaving = 0
+    was_apart = False
+    while stops < ADVANCE_CAP and leaving <= LEAVING_CAP:
+        separation = separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace)
+        if separation <= tolerance:
+            if was_apart:
+                return fraction
+            if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, workspace) > RESTING * speed:
+                return fraction
+            if turn_a * reach_a + turn_b * reach_b == 0.0:
+                return MISS  # convex and not turning: they part for good
+            leaving += 1
+            fraction += max(free_motion(a_count, b_count, radii, fraction, separation, workspace), 1.0 / LEAVING_CAP)
+            if fraction >= 1.0:
+                return MISS
+            continue
+        was_apart = True
+        stops += 1
+        if fraction == 1.0:
+            return MISS
+        # A rounding beyond the end may still touch at the end.
+        fraction += free_motion(a_count, b_count, radii, fraction, separation, workspace)
+        if fraction > 1.0 + TOUCHING_BAND:
+            return MISS
+        fraction = min(fraction, 1.0)
+    workspace.totals[1] += 1.0
+    return fraction

@@ -1,0 +1,309 @@
+"""Deep overlaps with outlines made of many parts: the way out of all parts at once."""
+
+import math
+
+import numpy as np
+
+from physics.collision.hulls import ALL_EDGES, clip_edges, edge_normal, least_separation, support_manifold
+from physics.collision.manifold import Batch, Workspace, add_points, circle_at, copy_manifold, corners_of
+from physics.jit import kernel, subkernel
+from physics.shapes.placement import rounding
+from physics.tables.body import DYNAMIC
+from physics.tables.contact import MANIFOLD
+from physics.tables.shape import CIRCLE
+from physics.tables.table import rows_of
+
+# ---- ways out --------------------------------------------------------------------------------------------------------
+# The way out of all the parts that a body stands in at once.
+#
+# Along a direction a body has left a convex part as soon as one axis of the two parts them, and has left the whole when
+# it has left every part. What is nearest to one part's edge may lead into the next, all along a rim.
+
+FACES = 32  # of a pair at most
+DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH = range(
+    4
+)  # of a face: unit, from A to B; how deep the other is behind it [px]
+ALONG = 0.5  # cosine of directions that go the same way
+
+
+@subkernel
+def world_hull(batch, row, corners_out):
+    """World corners of a hull [px]; of a disc, its centre. Returns (their number, rounding radius [px])."""
+    if batch.shapes[row].kind == CIRCLE:
+        x, y, radius = circle_at(batch.bodies, batch.shapes, row)
+        corners_out[0, 0] = x
+        corners_out[0, 1] = y
+        return 1, radius
+    return corners_of(batch.geometry, batch.bodies, batch.shapes, row, corners_out), rounding(batch.shapes, row)
+
+
+@subkernel
+def write_faces(corners, count, touchable, other, other_count, radii, sign, first, faces_out):
+    """Write the faces of a hull as rows from `first` on; a disc has none. Returns the row after them.
+
+    touchable: bits of the edges that may push; sign: 1.0 of A, -1.0 of B.
+    """
+    if count == 1:
+        return first
+    for k in range(count):
+        nx, ny = edge_normal(corners, count, k)
+        least = math.inf
+        for i in range(other_count):
+            least = min(least, nx * (other[i, 0] - corners[k, 0]) + ny * (other[i, 1] - corners[k, 1]))
+        faces_out[first + k, DIRECTION_X] = sign * nx
+        faces_out[first + k, DIRECTION_Y] = sign * ny
+        faces_out[first + k, DEPTH] = max(0.0, radii - least)
+        faces_out[first + k, MAY_PUSH] = float((touchable >> k) & 1)
+    return first + count
+
+
+@subkernel
+def way_along(faces, starts, count, nx, ny):
+    """How far [px] B has to go along a direction until it has left all of A: O(faces)."""
+    longest = 0.0
+    for part in range(count):
+        shortest = math.inf
+        for k in range(starts[part], starts[part + 1]):
+            cosine = nx * faces[k, DIRECTION_X] + ny * faces[k, DIRECTION_Y]
+            if cosine > 0.0:
+                shortest = min(shortest, faces[k, DEPTH] / cosine)
+        longest = max(longest, shortest)
+    return longest
+
+
+@subkernel
+def shortest_way(faces, starts, count, way_x, way_y):
+    """(part, row) of the face that may push along whose direction B leaves all of A soonest; -1, -1 without any.
+
+    Directions that go along (way_x, way_y), a unit vector or 0, come before others. O(faces · faces).
+    """
+    best = -1
+    best_part = -1
+    best_along = False
+    best_way = math.inf
+    for part in range(count):
+        for k in range(starts[part], starts[part + 1]):
+            if faces[k, MAY_PUSH] == 0.0:
+                continue
+            nx = faces[k, DIRECTION_X]
+            ny = faces[k, DIRECTION_Y]
+            along = nx * way_x + ny * way_y > ALONG
+            if best_along and not along:
+                continue
+            way = way_along(faces, starts, count, nx, ny)
+            if best < 0 or (along and not best_along) or way < best_way:
+                best = k
+                best_part = part
+                best_along = along
+                best_way = way
+    return best_part, best
+
+
+@subkernel
+def push_by_face(a, a_count, a_radius, edge, b, b_count, b_radius, flipped, margin, manifold_out):
+    """Manifold of hulls that overlap, by edge `edge` of a, however deep. Returns the number of points."""
+    count = 0
+    if b_count > 1:
+        count = clip_edges(a, a_count, a_radius, edge, b, b_count, b_radius, margin, flipped, manifold_out)
+    if count == 0 or least_separation(count, manifold_out) > -a_radius - b_radius:
+        count = support_manifold(a, a_count, a_radius, edge, b, b_count, b_radius, flipped, manifold_out)
+    if b_count == 1:
+        manifold_out[6] = float(edge)  # a disc is known by the edge: see features
+    return count
+
+
+@kernel
+def lead_out(
+    # read
+    batch,
+    pairs,
+    way_x,
+    way_y,
+    # write
+    workspace,
+    starts_out,
+    faces_out,
+    manifolds_out,
+):
+    """Write the manifold that leads B out of A on the shortest way, of candidates `pairs` of parts of the same two.
+
+    way_x, way_y: the way it has begun to take, or 0. starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch.
+    Returns the number of manifolds, 0 or 1. O(faces · faces).
+    """
+    shapes = batch.shapes
+    candidates = batch.candidates
+    a = workspace.a
+    b = workspace.b
+    starts_out[0] = 0
+    for k in range(len(pairs)):
+        row_a = candidates[pairs[k], 0]
+        row_b = candidates[pairs[k], 1]
+        na, a_radius = world_hull(batch, row_a, a)
+        nb, b_radius = world_hull(batch, row_b, b)
+        radii = a_radius + b_radius
+        end = write_faces(a, na, ALL_EDGES ^ shapes[row_a].inner, b, nb, radii, 1.0, starts_out[k], faces_out)
+        starts_out[k + 1] = write_faces(b, nb, ALL_EDGES ^ shapes[row_b].inner, a, na, radii, -1.0, end, faces_out)
+    part, face = shortest_way(faces_out, starts_out, len(pairs), way_x, way_y)
+    if part < 0:
+        return 0
+    row_a = candidates[pairs[part], 0]
+    row_b = candidates[pairs[part], 1]
+    na, a_radius = world_hull(batch, row_a, a)
+    nb, b_radius = world_hull(batch, row_b, b)
+    edge = face - starts_out[part]
+    faces_of_a = na if na > 1 else 0
+    if edge < faces_of_a:
+        points = push_by_face(a, na, a_radius, edge, b, nb, b_radius, False, batch.margin, workspace.points)
+    else:
+        edge -= faces_of_a
+        points = push_by_face(b, nb, b_radius, edge, a, na, a_radius, True, batch.margin, workspace.points)
+    return add_points(shapes, candidates, pairs[part], 0, 1.0, workspace.points, points, 0, manifolds_out)
+
+
+# ---- left over -------------------------------------------------------------------------------------------------------
+# What each part of an outline has left to its neighbours, and none has told: a body deep among thin parts.
+#
+# A part says nothing where a neighbour covers the nearer edge. Who jumps into a thin rim by a quick step may stand in
+# its parts so that each of them does so: then the pair is told by the edge that leads out of all of them soonest. The
+# same second look as at tiles, see tiles.py.
+
+OPPOSED = -0.5  # cosine of normals that push against each other
+ALIKE = 0.99  # … of normals of two parts that are one face's
+
+
+@subkernel
+def depth_of(manifold):
+    """How deep [px] the deeper point of a manifold is."""
+    if manifold.count == 2:
+        return -min(manifold.separation_1, manifold.separation_2)
+    return -manifold.separation_1
+
+
+@kernel
+def find_deep(
+    # read
+    bodies,
+    manifolds,
+    count,
+    deep,
+    # write
+    flags_out,
+):
+    """Flag (count,) what parts push by more than `deep` [px], where that moves one of the two. Returns how many."""
+    found = 0
+    for i in range(count):
+        m = manifolds[i]
+        flags_out[i] = (
+            (m.owner_a != m.shape_a or m.owner_b != m.shape_b)
+            and depth_of(m) > deep
+            and (bodies[m.body_row_a].kind == DYNAMIC or bodies[m.body_row_b].kind == DYNAMIC)
+        )
+        found += 1 if flags_out[i] else 0
+    return found
+
+
+@kernel
+def drop_against(
+    # read
+    order,
+    deep,
+    # write
+    manifolds_inout,
+):
+    """Drop the deep ones (flags) that another manifold of the same pair opposes; order: sorted by owners.
+
+    Returns how many are left, moved to the front. O(manifolds · those of a pair).
+    """
+    first = 0
+    count = len(order)
+    while first < count:
+        head = manifolds_inout[order[first]]
+        end = first + 1
+        while (
+            end < count
+            and manifolds_inout[order[end]].owner_a == head.owner_a
+            and manifolds_inout[order[end]].owner_b == head.owner_b
+        ):
+            end += 1
+        for k in range(first, end):
+            if not deep[order[k]]:
+                continue
+            m = manifolds_inout[order[k]]
+            for j in range(first, end):
+                o = manifolds_inout[order[j]]
+                if j == k or o.count == 0:
+                    continue
+                if m.normal_x * o.normal_x + m.normal_y * o.normal_y < OPPOSED and depth_of(o) <= depth_of(m):
+                    m.count = 0
+                    break
+        first = end
+    kept = 0
+    for i in range(count):
+        if manifolds_inout[i].count > 0:
+            if kept < i:
+                copy_manifold(manifolds_inout, i, kept, manifolds_inout)
+            kept += 1
+    return kept
+
+
+def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
+    """Drop what parts push, deeper than `deep` [px], against a push of the same pair from the other side, less deep.
+
+    What was thrown into a notch narrower than itself would be squeezed there for good; so it is let out by the nearer
+    side, and rests against that. count: manifolds in use; flags (count,): scratch. Returns how many are left.
+    """
+    if not find_deep(bodies, manifolds, count, deep, flags):
+        return count
+    used = manifolds[:count]
+    return drop_against(np.lexsort((used["owner_b"], used["owner_a"])), flags, used)
+
+
+def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
+    """MANIFOLD rows, at most one for each pair of shapes whose parts were left to each other: of those that nobody
+    tells, and of those told deeper than the margin, which may lead along a wall and not out of it.
+
+    told: the manifolds that there are; those that are apart tell nothing of it. previous: of the step before: who was
+    on the way out goes on that way, or what stands in the middle of an arm would be pushed to and fro.
+    """
+    shapes = batch.shapes
+    left = np.sort(workspace.left[1 : 1 + workspace.left[0]])
+    second = np.where(told["count"] == 2, told["separation_2"], np.inf)
+    depths = -np.minimum(told["separation_1"], second)
+    over = np.flatnonzero(depths > 0.0)
+    parts, touching = (
+        _pair_keys(shapes, rows) for rows in (batch.candidates[left], batch.candidates[told["candidate"][over]])
+    )
+    pairs, first = np.unique(parts, return_index=True)
+    deepest = np.full(len(pairs), -np.inf)
+    place = np.searchsorted(pairs, touching)
+    known = (place < len(pairs)) & (pairs[np.minimum(place, len(pairs) - 1)] == touching)
+    np.maximum.at(deepest, place[known], depths[over][known])
+    pushed = (batch.bodies["kind"][shapes["body_row"][batch.candidates[left[first]]]] == DYNAMIC).any(axis=1)
+    due = np.flatnonzero((deepest == -np.inf) | (pushed & (deepest > batch.margin)))
+    if not len(due):
+        return told[:0]
+    before = previous[previous["separation_1"] < 0.0]
+    ways = {(a, b): (x, y) for a, b, x, y in before[["owner_a", "owner_b", "normal_x", "normal_y"]].tolist()}
+    found, count = np.zeros(len(due), MANIFOLD), 0
+    for pair in pairs[due].tolist():
+        candidates, rows = left[parts == pair], over[touching == pair]
+        overlapping = np.unique(np.concatenate([candidates, told["candidate"][rows]])).astype(np.int64)
+        starts, faces = np.zeros(len(overlapping) + 1, np.int64), np.zeros((FACES * len(overlapping), 4))
+        a, b = shapes["owner"][batch.candidates[candidates[0]]].tolist()
+        way_x, way_y = (0.0, 0.0) if len(rows) else ways.get((a, b), (0.0, 0.0))
+        if lead_out(batch, overlapping, way_x, way_y, workspace, starts, faces, found[count:]):
+            count += not _is_told(found[count], told[rows])
+    return found[:count]
+
+
+def _pair_keys(shapes, pairs):
+    """One number for each pair of owners of two SHAPE rows each, in the order of the owners."""
+    owners = rows_of(shapes, shapes["owner"][pairs].ravel()).reshape(-1, 2)
+    return owners[:, 0] * len(shapes) + owners[:, 1]
+
+
+def _is_told(manifold, told) -> bool:
+    """Whether a face pushes already: one that is used again has turned a little with its body since."""
+    same = told["candidate"] == manifold["candidate"]
+    along = told["normal_x"] * manifold["normal_x"] + told["normal_y"] * manifold["normal_y"]
+    return bool((same & (along > ALIKE)).any())

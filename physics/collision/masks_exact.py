@@ -1,0 +1,462 @@
+"""Masks that are not snapped, at their exact poses, against masks, hulls and tiles."""
+
+import math
+from collections.abc import Callable
+
+from physics.collision.hulls import ALL_EDGES, edge_normal, pixel_feature, upright_corners
+from physics.collision.manifold import MASK_HULL_EXACT, MASKS_EXACT, add_point
+from physics.collision.masks import collide_mask_circle, collide_mask_line, collide_mask_polygon, collide_mask_rounded
+from physics.jit import kernel, subkernel
+from physics.math2d import cosine_and_sine, length_of, turned, unit
+from physics.raster.bits import is_set
+from physics.raster.exact import (
+    ROUNDED,
+    arc_share,
+    first_squares,
+    line_share,
+    shared_squares,
+    slack_of,
+    squares_way_out,
+)
+from physics.shapes.placement import (
+    box_as_tested,
+    into_raster,
+    out_of_raster,
+    polygon_at,
+    raster_in_raster,
+    raster_of_shape,
+    rounding,
+)
+from physics.tables.shape import BOUNDS, CIRCLE, MASK
+from physics.tables.step_state import MASK_TESTS
+
+# ---- hull shares -----------------------------------------------------------------------------------------------------
+# The area that a mask's pixel squares share with a rounded hull, and its centroid, in closed form.
+#
+# The hull's outline is its edges, moved out by the radius, and an arc round each corner; each run of solid pixels in a
+# row is a box in which both have their share: see raster/exact.py.
+
+
+@subkernel
+def arc_at(corners, count, k):
+    """(start, end) [rad] of the arc round corner k of a rounded hull: between its two edges' normals."""
+    if count == 1:
+        return 0.0, math.tau
+    ax, ay = edge_normal(corners, count, k - 1 if k > 0 else count - 1)
+    bx, by = edge_normal(corners, count, k)
+    start = math.atan2(ay, ax)
+    if count == 2:
+        return start, start + math.pi
+    return start, start + max(0.0, math.atan2(ax * by - ay * bx, ax * bx + ay * by))
+
+
+@subkernel
+def hull_share(corners, count, radius, x, y, width, height):
+    """(area, moment of x, moment of y) of a rounded hull in a box with its top left corner at x, y [px],
+    about which the moments are. corners (n, 2) [px], clockwise on the screen; one is a disc's centre. O(count)."""
+    area = 0.0
+    moment_x = 0.0
+    moment_y = 0.0
+    for k in range(count):
+        if count > 1:
+            n = k + 1 if k + 1 < count else 0
+            nx, ny = edge_normal(corners, count, k)
+            part, mx, my = line_share(
+                corners[k, 0] + radius * nx - x,
+                corners[k, 1] + radius * ny - y,
+                corners[n, 0] + radius * nx - x,
+                corners[n, 1] + radius * ny - y,
+                width,
+                height,
+            )
+            area += part
+            moment_x += mx
+            moment_y += my
+        if radius > 0.0:
+            start, end = arc_at(corners, count, k)
+            part, mx, my = arc_share(corners[k, 0] - x, corners[k, 1] - y, radius, start, end, width, height)
+            area += part
+            moment_x += mx
+            moment_y += my
+    return area, moment_x, moment_y
+
+
+@subkernel
+def shared_with_hull(rasters, words, mask, corners, count, radius):
+    """(area [px2], moment of x, moment of y) of what a mask shares with a rounded hull that is seen in its raster.
+
+    O(runs of solid pixels under the hull's bounds · count).
+    """
+    r = rasters[mask]
+    min_x = math.inf
+    max_x = -math.inf
+    min_y = math.inf
+    max_y = -math.inf
+    for k in range(count):
+        min_x = min(min_x, corners[k, 0] - radius)
+        max_x = max(max_x, corners[k, 0] + radius)
+        min_y = min(min_y, corners[k, 1] - radius)
+        max_y = max(max_y, corners[k, 1] + radius)
+    left = max(r.set_left, math.floor(min_x))
+    right = min(r.set_right, math.ceil(max_x))
+    area = 0.0
+    moment_x = 0.0
+    moment_y = 0.0
+    for row in range(max(r.set_top, math.floor(min_y)), min(r.set_bottom, math.ceil(max_y))):
+        start = -1
+        for column in range(left, right + 1):
+            if column < right and is_set(words, r.offset + row * r.stride, column):
+                if start < 0:
+                    start = column
+            elif start >= 0:
+                part, mx, my = hull_share(corners, count, radius, float(start), float(row), float(column - start), 1.0)
+                area += part
+                moment_x += mx + start * part
+                moment_y += my + row * part
+                start = -1
+    return area, moment_x, moment_y
+
+
+# ---- mask exact ------------------------------------------------------------------------------------------------------
+# Masks that are not snapped, at their exact pose, against hulls and tiles: in the raster of the mask.
+#
+# There the mask is drawn, and the other shape, turned back by the mask's angle, is met as masks.py has it: the
+# same verdict, normal and depth. The area and the point, its centroid, are those of what is shared, to rounding. A line
+# has no area: of it the pixels are counted, as of a mask that is snapped.
+
+
+@subkernel
+def least_area(raster):
+    """[px2] that a hit shares at least: rounding may leave less of a corner that is just in."""
+    slack = ROUNDED * (raster.width + raster.height)
+    return slack * slack
+
+
+@subkernel
+def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
+    """Write the corners [px] of a hull in the raster of a mask that is not snapped. Returns their number.
+
+    mask, other: rows of SHAPE. Two angles are taken from each other first, so that both at quarter turns are exact.
+    """
+    s = shapes[mask]
+    o = shapes[other]
+    b = bodies[s.body_row]
+    p = bodies[o.body_row]
+    r = geometry.rasters[raster_of_shape(geometry, s)]
+    cosine, sine = cosine_and_sine(b.angle, b.angle)
+    if o.kind == BOUNDS:
+        count = upright_corners(o, corners_out)
+        for k in range(count):
+            x, y = into_raster(r, b, cosine, sine, corners_out[k, 0], corners_out[k, 1])
+            corners_out[k, 0] = x
+            corners_out[k, 1] = y
+        return count
+    x, y = into_raster(r, b, cosine, sine, p.x, p.y)
+    cosine, sine = cosine_and_sine(p.angle - b.angle, max(abs(p.angle), abs(b.angle)))
+    if o.kind == CIRCLE:
+        u, v = turned(o.local_x, o.local_y, cosine, sine)
+        corners_out[0, 0] = x + u
+        corners_out[0, 1] = y + v
+        return 1
+    return polygon_at(geometry.polygons, geometry.corners, o.geometry, x, y, cosine, sine, corners_out)
+
+
+@subkernel
+def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_out):
+    """(area [px2], normal from the mask, point, separation, first pixel) of a mask and a rounded hull in its raster.
+
+    edges: bits of the edges that may be touched; depths_out (16,): scratch. The area is 0 when they share none.
+    """
+    if count == 1:
+        pixels, nx, ny, x, y, separation, first = collide_mask_circle(
+            rasters, words, mask, 0, 0, corners[0, 0], corners[0, 1], radius
+        )
+    elif radius > 0.0:
+        pixels, nx, ny, x, y, separation, first = collide_mask_rounded(
+            rasters, words, mask, 0, 0, corners, count, radius
+        )
+    elif count == 2:
+        pixels, nx, ny, x, y, separation, first = collide_mask_line(rasters, words, mask, 0, 0, corners, depths_out)
+        return float(pixels), nx, ny, x, y, separation, first
+    else:
+        pixels, nx, ny, x, y, separation, first = collide_mask_polygon(
+            rasters, words, mask, 0, 0, corners, count, edges, depths_out
+        )
+    if pixels == 0:
+        return 0.0, nx, ny, x, y, separation, first
+    area, moment_x, moment_y = shared_with_hull(rasters, words, mask, corners, count, radius)
+    least = least_area(rasters[mask])
+    if area > least:
+        x = moment_x / area
+        y = moment_y / area
+    return max(area, least), nx, ny, x, y, separation, first
+
+
+@subkernel
+def out_of_mask(geometry, body, shape, nx, ny, x, y):
+    """A normal and a point in the raster of a mask that is not snapped, in the world."""
+    cosine, sine = cosine_and_sine(body.angle, body.angle)
+    wx, wy = turned(nx, ny, cosine, sine)
+    px, py = out_of_raster(geometry.rasters[raster_of_shape(geometry, shape)], body, cosine, sine, x, y)
+    return wx, wy, px, py
+
+
+@subkernel
+def meet_polygon(geometry, body, shape, corners, count, edges, scratch, depths_out):
+    """As meet_in_raster, of a MASK row, snapped or not, and a convex polygon with corners in the world [px], all told
+    in the world. scratch (16, 2): for the corners in its raster."""
+    mask = raster_of_shape(geometry, shape)
+    rasters = geometry.rasters
+    words = geometry.words
+    if shape.snap:
+        pixels, nx, ny, x, y, separation, first = collide_mask_polygon(
+            rasters, words, mask, shape.left, shape.top, corners, count, edges, depths_out
+        )
+        return float(pixels), nx, ny, x, y, separation, first
+    cosine, sine = cosine_and_sine(body.angle, body.angle)
+    for k in range(count):
+        x, y = into_raster(rasters[mask], body, cosine, sine, corners[k, 0], corners[k, 1])
+        scratch[k, 0] = x
+        scratch[k, 1] = y
+    area, nx, ny, x, y, separation, first = meet_in_raster(rasters, words, mask, scratch, count, 0.0, edges, depths_out)
+    nx, ny, x, y = out_of_mask(geometry, body, shape, nx, ny, x, y)
+    return area, nx, ny, x, y, separation, first
+
+
+@subkernel
+def exact_area(geometry, bodies, shapes, mask, other, radius, corners_out, depths_out):
+    """The area [px2] of a mask that is not snapped in a hull, rows of SHAPE, of that rounding [px]."""
+    count = hull_in_raster(geometry, bodies, shapes, mask, other, corners_out)
+    return meet_in_raster(
+        geometry.rasters,
+        geometry.words,
+        raster_of_shape(geometry, shapes[mask]),
+        corners_out,
+        count,
+        radius,
+        ALL_EDGES,
+        depths_out,
+    )[0]
+
+
+# ---- mask exact depth ------------------------------------------------------------------------------------------------
+# Contact of two masks of which one at least is not snapped: where, which way out, and how far.
+#
+# As for masks as drawn (masks.py): the normal is the direction in which moving B shrinks the shared area fastest,
+# by differences of one pixel; where it vanishes, the direction between the centres of the boxes decides, then the axis
+# of least overlap of the boxes. The way out along it is exact, not in pixels. Where it is longer than the boxes' least
+# overlap, the way out along that axis is taken.
+#
+# A is the mask in whose raster all is told; see raster/exact.py.
+
+NOISE = 1e-9  # of the area: what differences of it may owe to rounding
+
+
+@subkernel
+def boxes_normal(a, b):
+    """(unit direction between the centres of the AABBs of two SHAPE rows, whether they are apart)."""
+    x = (b.min_x - a.min_x) + (b.max_x - a.max_x)
+    y = (b.min_y - a.min_y) + (b.max_y - a.max_y)
+    nx, ny = unit(x, y, 1.0, 0.0)
+    return nx, ny, x != 0.0 or y != 0.0
+
+
+@subkernel
+def boxes_axis(a, b):
+    """(normal, depth [px]) of the shortest move of B along an axis of the world that parts the AABBs of two SHAPE
+    rows."""
+    up = b.max_y - a.min_y
+    down = a.max_y - b.min_y
+    right = a.max_x - b.min_x
+    left = b.max_x - a.min_x
+    least = min(min(right, left), min(down, up))
+    if least == up:
+        return 0.0, -1.0, least
+    if least == down:
+        return 0.0, 1.0, least
+    if least == right:
+        return 1.0, 0.0, least
+    return -1.0, 0.0, least
+
+
+@subkernel
+def area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area):
+    """(unit normal in A's raster, whether there is one): which way B's area in A shrinks fastest."""
+    before, _, _ = shared_squares(rasters, words, mask_a, mask_b, u - 1.0, v, cosine, sine)
+    behind, _, _ = shared_squares(rasters, words, mask_a, mask_b, u + 1.0, v, cosine, sine)
+    above, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v - 1.0, cosine, sine)
+    below, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v + 1.0, cosine, sine)
+    nx, ny = unit(before - behind, above - below, 1.0, 0.0)
+    return nx, ny, length_of(before - behind, above - below) > NOISE * area
+
+
+@subkernel
+def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn_cosine, turn_sine):
+    """(area [px2], point in A's raster, normal from A to B in the world, separation [px]) of masks that share area.
+
+    a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of what is shared; separation
+    is negative, the move along the normal that ends it.
+    """
+    area, x, y = shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine)
+    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    area = max(area, slack * slack)
+    axis_x, axis_y, least = boxes_axis(a, b)
+    nx, ny, is_sloped = area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area)
+    nx, ny = turned(nx, ny, turn_cosine, turn_sine)
+    if not is_sloped:
+        nx, ny, is_sloped = boxes_normal(a, b)
+    depth = math.inf
+    if is_sloped:
+        rx, ry = turned(nx, ny, turn_cosine, -turn_sine)
+        depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
+    if depth > least:
+        nx = axis_x
+        ny = axis_y
+        rx, ry = turned(nx, ny, turn_cosine, -turn_sine)
+        depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
+    return area, x / area, y / area, nx, ny, -depth
+
+
+# ---- mask exact pairs ------------------------------------------------------------------------------------------------
+# Passes over the candidate pairs with masks that are not snapped: mask against mask, mask against hull.
+
+
+@subkernel
+def share_no_area(geometry, a, b):
+    """Whether the boxes of two MASK rows, as they are tested, at most touch."""
+    left, top, right, bottom = box_as_tested(geometry, a)
+    min_x, min_y, max_x, max_y = box_as_tested(geometry, b)
+    return left >= max_x or min_x >= right or top >= max_y or min_y >= bottom
+
+
+@subkernel
+def is_first_the_frame(geometry, a, b):
+    """In whose raster two MASK rows are tested: not in one that is only drawn; else in that of more pixels."""
+    if a.snap or b.snap:
+        return not a.snap
+    rasters = geometry.rasters
+    return rasters[raster_of_shape(geometry, a)].area >= rasters[raster_of_shape(geometry, b)].area
+
+
+@subkernel
+def exact_mask_area(geometry, bodies, a, b):
+    """The area [px2] that two MASK rows share, not both of them snapped."""
+    if share_no_area(geometry, a, b):
+        return 0.0
+    first = is_first_the_frame(geometry, a, b)
+    f = a if first else b
+    o = b if first else a
+    u, v, cosine, sine = raster_in_raster(geometry, bodies[f.body_row], f, bodies[o.body_row], o)
+    area, _, _ = shared_squares(
+        geometry.rasters, geometry.words, raster_of_shape(geometry, f), raster_of_shape(geometry, o), u, v, cosine, sine
+    )
+    return area
+
+
+def make_exact_mask_pass(full: bool) -> Callable:
+    """The pass over pairs of masks: with area, centroid, normal and depth, or with two squares that meet alone.
+
+    Without them the normal is the direction between the centres of the boxes and the separation -1.
+    """
+
+    @kernel
+    def collide_exact_mask_pairs(
+        # read
+        batch,
+        # write
+        workspace,
+        manifolds_out,
+        found,
+        work_inout,
+    ):
+        """Contacts of all pairs of masks at exact poses, appended at `found`. Returns the new count."""
+        geometry = batch.geometry
+        bodies = batch.bodies
+        shapes = batch.shapes
+        candidates = batch.candidates
+        kinds = batch.kinds
+        rasters = geometry.rasters
+        words = geometry.words
+        for i in range(batch.count):
+            if kinds[i] != MASKS_EXACT:
+                continue
+            work_inout[MASK_TESTS] += 1
+            a = shapes[candidates[i, 0]]
+            b = shapes[candidates[i, 1]]
+            if share_no_area(geometry, a, b):
+                continue
+            first = is_first_the_frame(geometry, a, b)
+            f = a if first else b
+            o = b if first else a
+            p = bodies[f.body_row]
+            frame = raster_of_shape(geometry, f)
+            other = raster_of_shape(geometry, o)
+            u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
+            hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
+            if not hit:
+                continue
+            if first:
+                feature = pixel_feature(y, x, rasters[frame].width)
+            else:
+                feature = pixel_feature(row, column, rasters[other].width)
+            turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
+            px = x + 0.5
+            py = y + 0.5
+            area = 0.0
+            separation = -1.0
+            if full:
+                area, px, py, nx, ny, separation = exact_contact(
+                    rasters, words, frame, other, u, v, cosine, sine, f, o, turn_cosine, turn_sine
+                )
+            else:
+                nx, ny, _ = boxes_normal(f, o)
+            px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
+            sign = 1.0 if first else -1.0
+            found = add_point(
+                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, area, feature, manifolds_out
+            )
+        return found
+
+    return collide_exact_mask_pairs
+
+
+collide_exact_mask_pairs_full = make_exact_mask_pass(full=True)
+collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
+
+
+@kernel
+def collide_exact_hull_pairs(
+    # read
+    batch,
+    # write
+    workspace,
+    manifolds_out,
+    found,
+    work_inout,
+):
+    """Contacts of all pairs of a mask that is not snapped and a hull, appended at `found`. Returns the new count."""
+    geometry = batch.geometry
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    kinds = batch.kinds
+    for i in range(batch.count):
+        if kinds[i] != MASK_HULL_EXACT:
+            continue
+        work_inout[MASK_TESTS] += 1
+        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
+        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
+        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
+        s = shapes[row]
+        mask = raster_of_shape(geometry, s)
+        count = hull_in_raster(geometry, bodies, shapes, row, other, workspace.a)
+        radius = rounding(shapes, other)
+        area, nx, ny, x, y, separation, feature = meet_in_raster(
+            geometry.rasters, geometry.words, mask, workspace.a, count, radius, ALL_EDGES, workspace.depths
+        )
+        if area > 0.0:
+            nx, ny, x, y = out_of_mask(geometry, bodies[s.body_row], s, nx, ny, x, y)
+            found = add_point(
+                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, area, feature, manifolds_out
+            )
+    return found

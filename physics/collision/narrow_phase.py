@@ -1,0 +1,765 @@
+"""The narrow phase: from candidate pairs to contacts, one pass per kind of pair, and its stages."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.broadphase.proxies import cover_final_poses
+from physics.collision.cache import (
+    carry_over,
+    copy_kept,
+    is_before,
+    is_of,
+    is_sound,
+    renew,
+    serves_again,
+    stands,
+    take_places,
+)
+from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
+from physics.collision.hull_pairs import (
+    collide_circle_pairs,
+    collide_polygon_circle_pairs,
+    collide_polygon_pairs,
+    measure_approach,
+    most_nearing,
+    nearing,
+    reach_of,
+)
+from physics.collision.manifold import (
+    CHAIN_ANY,
+    CIRCLES,
+    GRID_ANY,
+    MASK_CIRCLE,
+    MASK_HULL_EXACT,
+    MASK_POLYGON,
+    MASKS,
+    MASKS_EXACT,
+    NOTHING,
+    POLYGON_CIRCLE,
+    POLYGONS,
+    SURFACE_ANY,
+    Batch,
+    add_point,
+    new_workspace,
+    place_in_order,
+)
+from physics.collision.mask_parts import drop_opposed, settle_left
+from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
+from physics.collision.masks_exact import (
+    collide_exact_hull_pairs,
+    collide_exact_mask_pairs_full,
+    collide_exact_mask_pairs_hit,
+)
+from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
+from physics.islands.awake import is_active, wakes
+from physics.islands.sleep import in_order
+from physics.jit import inlined, kernel, subkernel
+from physics.math2d import heading
+from physics.shapes.library import Library, draw_masks
+from physics.shapes.placement import drawn_beyond, is_drawn_when_asked
+from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
+from physics.tables.step_state import COUNTERS, NARROW_TESTS, SENSOR_TESTS, StepState, stage
+from physics.tables.table import joined, zeros_in_lines
+
+# ---- box pairs -------------------------------------------------------------------------------------------------------
+# Which candidates are looked at, and the pass over them that stops at AABBs.
+
+# The candidates that a narrow phase looks at: ALL; those without a sensor; of these, SOLIDS, those that a step can
+# change; those with a sensor.
+ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
+
+
+@inlined
+def may_change(a, b):
+    """Whether a step can change the contact of two bodies."""
+    return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
+
+
+@inlined
+def is_wanted(which, a, b):
+    """Whether two SHAPE rows are among those looked at, by which of them are sensors."""
+    return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
+
+
+@subkernel
+def is_asked(which, bodies, a, b):
+    """Whether two SHAPE rows are looked at, see ALL, and of the SOLIDS whether something can change them."""
+    if not is_wanted(which, a, b):
+        return False
+    return which != SOLIDS or may_change(bodies[a.body_row], bodies[b.body_row])
+
+
+@kernel
+def collide_boxes(
+    # read
+    batch,
+    which,
+    # write
+    manifolds_out,
+    work_inout,
+):
+    """Contacts of candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
+
+    which: see is_asked. Returns the number of contacts. O(candidates).
+    """
+    shapes = batch.shapes
+    candidates = batch.candidates
+    found = 0
+    for i in range(batch.count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        if not is_asked(which, batch.bodies, a, b):
+            continue
+        if a.sensor or b.sensor:
+            work_inout[SENSOR_TESTS] += 1
+        right = a.max_x - b.min_x
+        left = b.max_x - a.min_x
+        down = a.max_y - b.min_y
+        up = b.max_y - a.min_y
+        least = min(min(right, left), min(down, up))
+        if least < 0.0:
+            continue
+        nx = 0.0
+        ny = -1.0
+        if least == right:
+            nx = 1.0
+            ny = 0.0
+        elif least == left:
+            nx = -1.0
+            ny = 0.0
+        elif least == down:
+            ny = 1.0
+        x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
+        y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
+        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
+    return found
+
+
+# ---- classify --------------------------------------------------------------------------------------------------------
+# Which kind of pair each candidate is, and which of them a pass looks at.
+
+# Behind the kinds of pairs: where it is counted how many are of parts, and of masks that are drawn for the test.
+PARTED, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
+
+
+@inlined
+def kind_of_pair(low, high):
+    """The kind of pair of two shape kinds, the lower first."""
+    if low == CIRCLE and high == CIRCLE:
+        return CIRCLES
+    # Grids and chains carry, and are never moved by what they meet.
+    if high == CHAIN:
+        return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
+    if high == TILES or low == TILES:
+        return GRID_ANY if low != high else NOTHING
+    if low == MASK and high == MASK:
+        return MASKS
+    if low == MASK or high == MASK:
+        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+    return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
+
+
+@inlined
+def as_snapped(kind, a, b):
+    """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
+    snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
+    surface."""
+    if kind == CHAIN_ANY:
+        chain = a if a.kind == CHAIN else b
+        return SURFACE_ANY if chain.role == PART else kind
+    if kind == MASKS:
+        return kind if a.snap and b.snap else MASKS_EXACT
+    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
+        return kind if a.snap or b.snap else MASK_HULL_EXACT
+    return kind
+
+
+@inlined
+def boxes_apart(a, b, margin):
+    """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
+    return (
+        a.min_x - margin > b.max_x
+        or b.min_x - margin > a.max_x
+        or a.min_y - margin > b.max_y
+        or b.min_y - margin > a.max_y
+    )
+
+
+@inlined
+def kind_asked(bodies, a, b, margin, ahead, which):
+    """The kind of a candidate pair of SHAPE rows, NOTHING if this pass does not look at it. which: see classify."""
+    if not is_wanted(which, a, b):
+        return NOTHING
+    kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
+    if kind == NOTHING or which <= NO_SENSORS:
+        return kind
+    if which == SENSORS:
+        margin += drawn_beyond(bodies[a.body_row], a) + drawn_beyond(bodies[b.body_row], b)
+    if boxes_apart(a, b, margin):
+        if ahead <= 0.0 or kind > POLYGONS:
+            return NOTHING
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        if ahead * most_nearing(p, q) <= margin:
+            return NOTHING
+        _, _, speed = nearing(p, q)
+        if boxes_apart(a, b, reach_of(p, q, speed, margin, ahead)):
+            return NOTHING
+    if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
+        return NOTHING
+    return kind
+
+
+@inlined
+def is_of_part(a, b):
+    """Whether a side of a pair of SHAPE rows is a part of another shape."""
+    return a.owner != a.id or b.owner != b.id
+
+
+@kernel
+def classify(
+    # read
+    bodies,
+    shapes,
+    candidates,
+    count,
+    margin,
+    ahead,
+    which,
+    # write
+    kind_out,
+    counts_out,
+    work_inout,
+):
+    """Write the kind of every candidate pair and how many there are of each. O(candidates).
+
+    counts_out[PARTED]: in how many a side is a part of another shape; counts_out[DRAWN_PAIRS]: in how many a side is
+    drawn for the test. which: ALL, or what has NO_SENSORS, or only the SOLIDS of pairs that something can change and
+    whose boxes are within `margin` [px], or meet within `ahead` [s], or only the SENSORS. The others are NOTHING.
+    """
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    sensors = 0
+    for i in range(count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        kind = kind_asked(bodies, a, b, margin, ahead, which)
+        kind_out[i] = kind
+        counts_out[kind] += 1
+        if kind != NOTHING:
+            counts_out[PARTED] += int(is_of_part(a, b))
+            counts_out[DRAWN_PAIRS] += int(is_drawn_when_asked(a) or is_drawn_when_asked(b))
+            sensors += int(a.sensor or b.sensor)
+    work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
+    work_inout[SENSOR_TESTS] += sensors
+
+
+# ---- persist ---------------------------------------------------------------------------------------------------------
+# Manifolds that live from step to step, in their places: recognised by their pairs, used again while nothing moved.
+#
+# Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
+
+
+@inlined
+def take_as_it_is(a, b, row_a, row_b, candidate, place, manifold_inout):
+    """Write what may be new about a manifold that is used again: the rows of its sides, SHAPE rows a and b, its
+    candidate and its place among those of the step before."""
+    m = manifold_inout
+    m.body_row_a = a.body_row
+    m.body_row_b = b.body_row
+    m.row_a = row_a
+    m.row_b = row_b
+    m.candidate = candidate
+    m.previous = place
+    m.persisted_1 = True
+    m.persisted_2 = True
+
+
+@kernel
+def recycle_manifolds(
+    # read
+    batch,
+    distance,
+    # write
+    previous_inout,
+    anchors_inout,
+    kinds_out,
+    counts_out,
+    stale_out,
+    work_inout,
+):
+    """Classify the pairs of what is solid, see classify, and use the manifolds of the last step again where they will
+    do: see serves_again, distance [px]. Where both bodies stand as that step left them it has been asked already.
+
+    previous_inout MANIFOLD and ANCHOR rows, in the order of shape ids as the candidates, follow their bodies; a pair
+    that is served is NOTHING in kinds_out, and not counted; stale_out (previous) int32: the other rows, masks' always.
+    Returns how many these are, and how many pairs ask for more: those to be detected, those of parts.
+    O(candidates + manifolds).
+    """
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    stale, j = 0, 0
+    row_a = -1
+    p_stands = False
+    for i in range(batch.count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kinds_out[i] = kind
+        counts_out[kind] += 1
+        if kind == NOTHING:
+            continue
+        counts_out[PARTED] += int(is_of_part(a, b))
+        while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
+            stale_out[stale] = j
+            stale += 1
+            j += 1
+        if j == len(previous_inout) or not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
+            continue
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        # The pairs of a body stand together.
+        if a.body_row != row_a:
+            row_a = a.body_row
+            p_stands = stands(p)
+        still = p_stands and stands(q)
+        fits, last = True, j
+        while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
+            m = previous_inout[last]
+            if fits and not (still and m.again and is_sound(m)):
+                c = anchors_inout[last]
+                m.row_a = candidates[i, 0]
+                m.row_b = candidates[i, 1]
+                p_cosine, p_sine = heading(p.angle)
+                q_cosine, q_sine = heading(q.angle)
+                fits = not m.swept and serves_again(
+                    shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, c, distance, math.inf, m
+                )
+            last += 1
+        if not fits:
+            continue  # the next candidate passes them by
+        for k in range(j, last):
+            take_as_it_is(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
+            renew(batch.geometry, p, q, a, b, previous_inout[k], anchors_inout[k])
+        j = last
+        counts_out[kind] -= 1
+        kinds_out[i] = NOTHING
+    for k in range(j, len(previous_inout)):
+        stale_out[stale] = k
+        stale += 1
+    work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
+    asking = counts_out[PARTED]
+    for kind in range(NOTHING):
+        asking += counts_out[kind]
+    return stale, asking
+
+
+@kernel
+def remember_ground(
+    # read
+    batch,
+    previous,
+    # write
+    memory_out,
+):
+    """Write where the previous manifolds of each candidate with a tile grid, or a surface, stand: memory_out (count, 2)
+    first, number.
+
+    Both in the order of shape ids. What is open from below asks who stood on it. O(candidates + previous).
+    """
+    j = 0
+    for i in range(batch.count):
+        memory_out[i, 0] = 0
+        memory_out[i, 1] = 0
+        if batch.kinds[i] != GRID_ANY and batch.kinds[i] != SURFACE_ANY:
+            continue
+        a = batch.shapes[batch.candidates[i, 0]].id
+        b = batch.shapes[batch.candidates[i, 1]].id
+        while j < len(previous) and is_before(previous[j], a, b):
+            j += 1
+        last = j
+        while last < len(previous) and is_of(previous[last], a, b):
+            last += 1
+        memory_out[i, 0] = j
+        memory_out[i, 1] = last - j
+
+
+# ---- dispatch --------------------------------------------------------------------------------------------------------
+# From candidate pairs to contacts: one pass per kind of pair, called only when such pairs are there.
+
+
+class Found(NamedTuple):
+    """What became of the manifolds of the step before, and what was found beside those that are used again."""
+
+    rows: np.ndarray  # MANIFOLD, in the order of their candidates: until the next call
+    stale: np.ndarray  # int32 rows of those before that are not used again where they stand, ascending
+
+
+class NarrowPhase:
+    """Turns candidates into manifolds; keeps the workspace for them from step to step.
+
+    full_masks: area, normal and depth of mask pairs; one_way: what is open from below takes part; boxes_only: stop at
+    AABBs.
+    """
+
+    def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
+        self.boxes_only, self.one_way = boxes_only, one_way
+        masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
+        exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
+        grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
+        self.passes = (
+            ((CIRCLES,), collide_circle_pairs),
+            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
+            ((POLYGONS,), collide_polygon_pairs),
+            ((MASKS,), masks),
+            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
+            ((MASKS_EXACT,), exact),
+            ((MASK_HULL_EXACT,), collide_exact_hull_pairs),
+            ((GRID_ANY,), grids),
+            ((CHAIN_ANY,), collide_chain_pairs),
+        )
+        self.workspace = new_workspace()
+        self.kinds = np.zeros(64, np.int64)
+        self.counts, self.deep = np.zeros(DRAWN_PAIRS + 1, np.int64), np.zeros(64, bool)
+        self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, MANIFOLD) for _ in range(4))
+        self.stale = np.zeros(64, np.int32)
+
+    def collide(
+        self,
+        library: Library,
+        bodies: np.ndarray,
+        shapes: np.ndarray,
+        candidates: np.ndarray,
+        margin: float,
+        work: np.ndarray,
+        which: int = ALL,
+        bias: float = 0.0,
+        previous: np.ndarray | None = None,
+        graze: float = 0.0,
+        ahead: float = 0.0,
+    ) -> np.ndarray:
+        """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
+
+        The masks among them are drawn at the poses of their bodies, see rasters.py. candidates (n, 2) int64 shape rows;
+        margin [px]: pairs apart by at most that are found too; work: counters; which: see classify; bias [px]: see
+        hulls.collide_hulls. previous: manifolds of the step before, which tell who stood on what is open from below.
+        graze [px], ahead [s]: see Batch.
+        """
+        self.raw, self.last_raw = self.last_raw, self.raw
+        self.ordered, self.last_ordered = self.last_ordered, self.ordered
+        count = len(candidates)
+        self._make_room_for_pairs(count)
+        margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
+        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        if self.boxes_only:
+            return self._boxes(batch, which, work)
+        classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
+        if self.counts[DRAWN_PAIRS]:
+            draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
+            batch = batch._replace(geometry=library.tables)
+        return self._complete(batch, previous, 0, work)
+
+    def update(
+        self,
+        library: Library,
+        bodies: np.ndarray,
+        shapes: np.ndarray,
+        candidates: np.ndarray,
+        margin: float,
+        work: np.ndarray,
+        bias: float,
+        graze: float,
+        ahead: float,
+        previous: np.ndarray,
+        anchors: np.ndarray,
+        recycle: float,
+    ) -> Found | None:
+        """As `collide` of what is solid, but manifolds of the step before whose points moved by no more than `recycle`
+        [px] follow their bodies where they stand: previous, with their anchors. What else is found stands beside them;
+        None: nothing else, and all of them follow.
+        """
+        count = len(candidates)
+        self._make_room_for_pairs(count)
+        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        if len(self.stale) < len(previous):
+            self.stale = np.zeros(2 * len(previous), np.int32)
+        if self.boxes_only:
+            return Found(self._boxes(batch, SOLIDS, work), self._all_stale(previous))
+        left, asking = recycle_manifolds(batch, recycle, previous, anchors, self.kinds, self.counts, self.stale, work)
+        if not (left or asking):
+            return None
+        stale = self.stale[:left]
+        again = 0
+        if left < len(previous) and self.counts[PARTED]:
+            # Parts are told by what the others of their shape tell: all stand together.
+            again = len(previous) - left
+            self._make_room(again)
+            copy_kept(previous, stale, self.raw)
+            stale = self._all_stale(previous)
+        return Found(self._complete(batch, previous, again, work), stale)
+
+    def _boxes(self, batch, which, work) -> np.ndarray:
+        return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+
+    def _all_stale(self, previous) -> np.ndarray:
+        self.stale[: len(previous)] = np.arange(len(previous))
+        return self.stale[: len(previous)]
+
+    def _complete(self, batch, previous, again, work) -> np.ndarray:
+        """The manifolds of all pairs whose kinds are counted, in the order of the candidates; `again`: how many there
+        are already."""
+        workspace, counts = self.workspace, self.counts
+        if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
+            remembered = previous is not None and len(previous) > 0
+            workspace = self._remember(batch, previous) if remembered else workspace
+            if counts[SURFACE_ANY]:
+                admit_to_surfaces(batch, remembered, workspace, self.kinds, counts)
+        counts, found, orders = counts.tolist(), again, int(again > 0)
+        if any(counts[:NOTHING]):
+            found, parts = self._detect(batch, workspace, previous, counts, again, work)
+            orders += parts
+        if counts[PARTED] and (counts[POLYGONS] or again):
+            found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
+        if orders < 2:
+            return self.raw[:found]
+        if len(self.ordered) < len(self.raw):
+            self.ordered = zeros_in_lines(len(self.raw), MANIFOLD)
+        place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
+        return self.ordered[:found]
+
+    def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
+        """Add the manifolds of the pairs whose kinds are counted to the first `again` that there are. Returns how many
+        there are then, and how many runs of them, each in the order of the candidates, were added."""
+        used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
+        if len(workspace.left) < batch.count + 1:
+            workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
+            self.workspace = self.workspace._replace(left=workspace.left)
+
+        def run_all():
+            found = again
+            workspace.left[0] = 0
+            for run in used:
+                found = run(batch, workspace, self.raw, found, work)
+            return found
+
+        found = self._with_room(work, run_all)
+        if not workspace.left[0]:
+            return found, len(used)
+        before = self.raw[:0] if previous is None else previous
+        rest = settle_left(batch, self.raw[:found], before, workspace)
+        self._make_room(found + len(rest))
+        self.raw[found : found + len(rest)] = rest
+        return found + len(rest), len(used) + (len(rest) > 0)
+
+    def _remember(self, batch, previous):
+        """The workspace with the previous manifolds of every pair with ground that may be open from below."""
+        if len(self.workspace.memory) < batch.count:
+            self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
+        workspace = self.workspace._replace(previous=previous)
+        remember_ground(batch, previous, workspace.memory)
+        return workspace
+
+    def _with_room(self, work, run):
+        before = work.copy()
+        found = run()
+        if found > len(self.raw):
+            self._make_room(found)
+            work[:] = before
+            found = run()
+        return found
+
+    def _make_room_for_pairs(self, count):
+        if len(self.kinds) < count + 1:
+            self.kinds = np.zeros(2 * count + 1, np.int64)
+
+    def _deep_for(self, count) -> np.ndarray:
+        """Room for so many flags."""
+        if len(self.deep) < count:
+            self.deep = np.zeros(2 * count, bool)
+        return self.deep
+
+    def _make_room(self, count):
+        if count > len(self.raw):
+            kept = self.raw
+            self.raw = zeros_in_lines(2 * count, MANIFOLD)
+            self.raw[: len(kept)] = kept  # what is used again may stand at the beginning
+
+
+def narrow_phase_for_queries() -> NarrowPhase:
+    """A narrow phase that tests shapes exactly and masks for hits alone."""
+    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
+
+
+def exact_narrow_phase() -> NarrowPhase:
+    """A narrow phase with all that a contact can tell."""
+    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
+
+
+def no_work() -> np.ndarray:
+    """Counters that nobody reads."""
+    return np.zeros(len(COUNTERS), np.int64)
+
+
+# ---- detect ----------------------------------------------------------------------------------------------------------
+# The narrow phase as stages: where bodies stand before a solver pushes them, and what sensors see in the end.
+
+NO_PAIRS, UNANCHORED, NO_ROWS = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR), np.zeros(0, np.int64)
+PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
+BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
+GRAZE = 1.5  # slops that who slides by a side may overlap it: what rests on the floor beside it may be in it by one
+
+
+def detect(state: StepState) -> np.ndarray:
+    """Manifolds at the present poses, with how fast their sides approach; state.manifolds: those before.
+
+    Where bodies are pushed sensors are left to `sense`, which sees them where they end.
+    """
+    slop = state.tolerances.slop
+    narrow = state.workspace.narrow
+    manifolds = narrow.collide(
+        state.library,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows,
+        slop,
+        state.work,
+        which=NO_SENSORS if state.effects.response else ALL,
+        bias=BIAS * slop,
+        previous=state.manifolds,
+    )
+    measure_approach(state.bodies, manifolds)
+    return manifolds
+
+
+def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
+    """Write points, normals and separations to manifolds that a sweep found, where it has put their bodies."""
+    found = state.workspace.narrow.collide(
+        state.library,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows[met["candidate"]],
+        state.tolerances.slop,
+        state.work,
+        bias=BIAS * state.tolerances.slop,
+    )
+    pair = found["candidate"]
+    alike = met["normal_x"][pair] * found["normal_x"] + met["normal_y"][pair] * found["normal_y"]
+    # Where a pair touches in several places, what the sweep met is that with its normal.
+    best = np.lexsort((-alike, pair))
+    best = best[np.unique(pair[best], return_index=True)[1]]
+    best = best[alike[best] > 0.0]
+    for name in PLACE:
+        met[name][pair[best]] = found[name][best]
+
+
+@stage(
+    "narrow_phase",
+    reads=("effects", "tolerances", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
+    writes=("manifolds", "work", "workspace"),
+)
+def detect_ended(state: StepState) -> None:
+    """Manifolds where the bodies ended."""
+    state.manifolds = detect(state)
+
+
+@stage(
+    "narrow_phase",
+    reads=("tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
+    writes=("manifolds", "anchors", "work", "workspace"),
+)
+def detect_piles(state: StepState) -> None:
+    """Manifolds where the step begins, up to the speculative distance, with the forces of the step before."""
+    tolerances, previous, anchors = state.tolerances, state.manifolds, state.anchors
+    if not len(state.awake.bodies):
+        state.manifolds, state.anchors = NO_PAIRS, UNANCHORED
+        return
+    places = state.library.tables, state.bodies, state.shapes
+    news = state.workspace.narrow.update(
+        state.library,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows,
+        tolerances.speculative,
+        state.work,
+        BIAS * tolerances.slop,
+        GRAZE * tolerances.slop,
+        state.dt,
+        previous,
+        anchors,
+        tolerances.recycle,
+    )
+    if news is None:
+        return
+    found, stale = news
+    if not (len(found) or len(stale)):
+        return
+    kept = len(previous) - len(stale)
+    other_manifolds, other_anchors = state.workspace.contacts_beside(previous, anchors, kept + len(found))
+    if kept and take_places(*places, stale, found, other_anchors, previous, anchors):
+        return
+    count = carry_over(*places, previous, anchors, stale, found, other_manifolds, other_anchors)
+    state.manifolds, state.anchors = other_manifolds[:count], other_anchors[:count]
+
+
+@kernel
+def is_any_sensor(
+    # read
+    pairs,
+    shapes,
+):
+    """Whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
+    for i in range(len(pairs)):
+        if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
+            return True
+    return False
+
+
+@stage(
+    "sensors",
+    reads=(
+        "awake",
+        "bodies",
+        "shapes",
+        "library",
+        "pairs",
+        "broadphase",
+        *("effects", "stacks", "tolerances", "gravity", "dt"),  # of new motion rectangles
+        "swept_sensors",
+        "workspace",
+    ),
+    writes=(
+        "sensed",
+        "swept_sensors",
+        "pairs",
+        "broadphase",
+        "work",
+        "workspace",
+        "library",
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def sense(state: StepState) -> None:
+    """Sensors see the final poses, and what a sweep met on the way."""
+    bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
+    # Where the world has no sensor nothing is gone over; the kernels are those of every step, so that none is compiled
+    # when the first sensor comes.
+    asked = state.pairs.sensors > 0
+    cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
+    pairs = state.pairs.rows
+    if not is_any_sensor(pairs if asked else pairs[:0], shapes) and not len(swept):
+        state.sensed = NO_PAIRS
+        return
+    sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
+    if len(swept):
+        known = sensed["shape_a"] << 32 | sensed["shape_b"]
+        swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
+        sensed = in_order(joined([sensed, swept]))
+        state.swept_sensors = swept[:0]
+    measure_approach(bodies, sensed)
+    state.sensed = sensed

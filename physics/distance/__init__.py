@@ -1,0 +1,1 @@
+"""Distance of convex hulls: GJK, EPA and witness points."""

@@ -1,0 +1,496 @@
+"""Distance of convex hulls: GJK, EPA for the depth of hulls that overlap, and the nearest two of many parts."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.math2d import length_of, unit
+
+# ---- gjk -------------------------------------------------------------------------------------------------------------
+# Distance of two convex hulls of points by Gilbert, Johnson and Keerthi's walk over their difference, in the plane.
+#
+# The difference A - B holds a point a - b for each pair of points; its point nearest to the origin is as far from it as
+# A is from B. The walk keeps up to three corners of it. It ends when the corner furthest towards the origin is one of
+# them already, or is no further by more than rounding: there is no tolerance that has a length. Source: Gilbert,
+# Johnson and Keerthi 1988; Catto, Computing Distance, GDC 2010.
+#
+# A normal points from A to B: out of the difference, towards the origin.
+
+SEARCHING, APART, TOUCHING = 0, 1, 2
+GJK_CAP = 48  # rounds: a difference of two hulls of 16 corners has at most 32 corners
+ROUNDING = 2.0**-50  # four units in the last place: what a scalar product of differences may be off by
+COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # of a walk's state
+SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # of a gap
+
+
+class GapWorkspace(NamedTuple):
+    """Room for one pair in flight."""
+
+    state: np.ndarray  # (5,) corners kept, direction of the search, rounds, rounds that hit the cap
+    simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
+    polytope: np.ndarray  # (64, 5) corner of A, corner of B; normal and depth of the edge that starts there
+    gap: np.ndarray  # (11,) separation, normal, nearest points, corners they lie between
+
+
+def new_gap_workspace() -> GapWorkspace:
+    return GapWorkspace(np.zeros(5), np.zeros((3, 4)), np.zeros((64, 5)), np.zeros(11))
+
+
+@subkernel
+def support(corners, count, x, y):
+    """The corner furthest along a direction; the first of equal ones. O(count)."""
+    best = 0
+    most = 0.0
+    for k in range(1, count):
+        along = x * (corners[k, 0] - corners[0, 0]) + y * (corners[k, 1] - corners[0, 1])
+        if along > most:
+            most = along
+            best = k
+    return best
+
+
+@subkernel
+def difference_edge(a, b, i, j, k, m):
+    """From corner a[i] - b[j] of the difference to a[k] - b[m] [px]; free of rounding where one side stays."""
+    return (a[k, 0] - a[i, 0]) - (b[m, 0] - b[j, 0]), (a[k, 1] - a[i, 1]) - (b[m, 1] - b[j, 1])
+
+
+@subkernel
+def write_corner(a, b, i, j, k, simplex_out):
+    """Put corner a[i] - b[j] of the difference in place k."""
+    simplex_out[k, 0] = float(i)
+    simplex_out[k, 1] = float(j)
+    simplex_out[k, 2] = a[i, 0] - b[j, 0]
+    simplex_out[k, 3] = a[i, 1] - b[j, 1]
+
+
+@subkernel
+def copy_corner(source, target, simplex_inout):
+    """Copy a corner from one place to another."""
+    for k in range(4):
+        simplex_inout[target, k] = simplex_inout[source, k]
+
+
+@subkernel
+def edge_of(a, b, p, q, simplex):
+    """The edge between two places of the simplex [px]."""
+    return difference_edge(a, b, int(simplex[p, 0]), int(simplex[p, 1]), int(simplex[q, 0]), int(simplex[q, 1]))
+
+
+@subkernel
+def region_of(x, y, ex, ey):
+    """Where the origin lies along an edge (ex, ey) that starts at (x, y): -1 before it, 0 beside it, 1 behind it.
+
+    Past an end by no more than rounding is beside: parallel faces that end flush meet with the faces' normal.
+    """
+    along = -(x * ex + y * ey)
+    length2 = ex * ex + ey * ey
+    if length2 == 0.0 or along < -ROUNDING * length2:
+        return -1
+    if along > length2 + ROUNDING * length2:
+        return 1
+    return 0
+
+
+@subkernel
+def edge_distance(a, b, p, q, simplex):
+    """Distance [px] of the origin from an edge of the simplex."""
+    ex, ey = edge_of(a, b, p, q, simplex)
+    x = simplex[p, 2]
+    y = simplex[p, 3]
+    region = region_of(x, y, ex, ey)
+    if region < 0:
+        return length_of(x, y)
+    if region > 0:
+        return length_of(simplex[q, 2], simplex[q, 3])
+    length = length_of(ex, ey)
+    return abs(ex * y - ey * x) / length
+
+
+@subkernel
+def drop_corner(a, b, simplex_inout):
+    """Of a triangle whose last corner is the newest, keep the edge at that corner which is nearest to the origin.
+
+    Returns False when the origin lies in the triangle. The third edge is the one the search came across.
+    """
+    ex, ey = edge_of(a, b, 0, 1, simplex_inout)
+    fx, fy = edge_of(a, b, 0, 2, simplex_inout)
+    gx, gy = edge_of(a, b, 1, 2, simplex_inout)
+    area = ex * fy - ey * fx
+    across_f = fy * simplex_inout[0, 2] - fx * simplex_inout[0, 3]
+    across_g = gy * simplex_inout[1, 2] - gx * simplex_inout[1, 3]
+    beyond_f = (area <= 0.0 and across_f < 0.0) or (area >= 0.0 and across_f > 0.0)
+    beyond_g = (area <= 0.0 and across_g > 0.0) or (area >= 0.0 and across_g < 0.0)
+    if not (beyond_f or beyond_g):
+        return area == 0.0
+    if beyond_f and beyond_g:
+        beyond_g = edge_distance(a, b, 1, 2, simplex_inout) < edge_distance(a, b, 0, 2, simplex_inout)
+    if beyond_g:
+        copy_corner(1, 0, simplex_inout)
+    copy_corner(2, 1, simplex_inout)
+    return True
+
+
+@subkernel
+def reduce_simplex(a, b, state_inout, simplex_inout):
+    """Keep the corner or edge of the simplex that is nearest to the origin, and aim from it at the origin.
+
+    Returns SEARCHING, or TOUCHING when the origin is not outside.
+    """
+    count = int(state_inout[COUNT])
+    if count == 3:
+        if not drop_corner(a, b, simplex_inout):
+            return TOUCHING
+        count = 2
+    if count == 2:
+        ex, ey = edge_of(a, b, 0, 1, simplex_inout)
+        region = region_of(simplex_inout[0, 2], simplex_inout[0, 3], ex, ey)
+        if region > 0:
+            copy_corner(1, 0, simplex_inout)
+        if region != 0:
+            count = 1
+        else:
+            nx, ny = unit(ey, -ex, 1.0, 0.0)
+            along = -(nx * simplex_inout[0, 2] + ny * simplex_inout[0, 3])
+            side = -1.0 if along < 0.0 else 1.0
+            state_inout[NORMAL_X] = side * nx
+            state_inout[NORMAL_Y] = side * ny
+            state_inout[COUNT] = 2.0
+            return TOUCHING if along == 0.0 else SEARCHING
+    state_inout[COUNT] = 1.0
+    x = simplex_inout[0, 2]
+    y = simplex_inout[0, 3]
+    if x == 0.0 and y == 0.0:
+        return TOUCHING
+    nx, ny = unit(-x, -y, 1.0, 0.0)
+    state_inout[NORMAL_X] = nx
+    state_inout[NORMAL_Y] = ny
+    return SEARCHING
+
+
+@subkernel
+def start_walk(a, b, i, j, state_out, simplex_out):
+    """Begin at corner a[i] - b[j]; any will do, one that was near before saves rounds."""
+    write_corner(a, b, i, j, 0, simplex_out)
+    state_out[COUNT] = 1.0
+    state_out[NORMAL_X] = 1.0
+    state_out[NORMAL_Y] = 0.0
+    state_out[ROUNDS] = 0.0
+    state_out[CAPPED] = 0.0
+
+
+@subkernel
+def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
+    """One round: the nearest feature, then the corner furthest from it towards the origin. O(corners).
+
+    Returns SEARCHING; APART when there is none further, so that the feature is the nearest of all; or TOUCHING.
+    """
+    state_inout[ROUNDS] += 1.0
+    if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
+        return TOUCHING
+    nx = state_inout[NORMAL_X]
+    ny = state_inout[NORMAL_Y]
+    i = support(a, a_count, nx, ny)
+    j = support(b, b_count, -nx, -ny)
+    count = int(state_inout[COUNT])
+    for k in range(count):
+        if int(simplex_inout[k, 0]) == i and int(simplex_inout[k, 1]) == j:
+            return APART
+    ex, ey = difference_edge(a, b, int(simplex_inout[0, 0]), int(simplex_inout[0, 1]), i, j)
+    if nx * ex + ny * ey <= ROUNDING * (abs(ex) + abs(ey)):
+        return APART
+    write_corner(a, b, i, j, count, simplex_inout)
+    state_inout[COUNT] = float(count + 1)
+    return SEARCHING
+
+
+@subkernel
+def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
+    """Separation and nearest points for the edge of the difference from a[i] - b[j] to a[k] - b[m], with its normal."""
+    ex, ey = difference_edge(a, b, i, j, k, m)
+    length2 = ex * ex + ey * ey
+    t = 0.0
+    if length2 > 0.0:
+        t = min(1.0, max(0.0, -((a[i, 0] - b[j, 0]) * ex + (a[i, 1] - b[j, 1]) * ey) / length2))
+    gap_out[SEPARATION] = nx * (b[j, 0] - a[i, 0]) + ny * (b[j, 1] - a[i, 1])
+    gap_out[NX] = nx
+    gap_out[NY] = ny
+    gap_out[AX] = a[i, 0] + t * (a[k, 0] - a[i, 0])
+    gap_out[AY] = a[i, 1] + t * (a[k, 1] - a[i, 1])
+    gap_out[BX] = b[j, 0] + t * (b[m, 0] - b[j, 0])
+    gap_out[BY] = b[j, 1] + t * (b[m, 1] - b[j, 1])
+    gap_out[FIRST_A] = float(i)
+    gap_out[FIRST_B] = float(j)
+    gap_out[SECOND_A] = float(k)
+    gap_out[SECOND_B] = float(m)
+
+
+@subkernel
+def write_nearest(a, b, state, simplex, gap_out):
+    """Separation, normal and nearest points of what the walk ended at: an edge's own normal, or between two corners."""
+    i = int(simplex[0, 0])
+    j = int(simplex[0, 1])
+    if state[COUNT] == 2.0:
+        write_edge_gap(a, b, i, j, int(simplex[1, 0]), int(simplex[1, 1]), state[NORMAL_X], state[NORMAL_Y], gap_out)
+        return
+    write_edge_gap(a, b, i, j, i, j, state[NORMAL_X], state[NORMAL_Y], gap_out)
+    gap_out[SEPARATION] = length_of(simplex[0, 2], simplex[0, 3])
+
+
+@subkernel
+def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
+    """Walk until A and B are known to be APART, with workspace.gap written, or TOUCHING. At most GJK_CAP rounds.
+
+    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: corners to start from. When the cap is hit, what it had is
+    given and workspace.state counts it.
+    """
+    start_walk(a, b, i, j, workspace.state, workspace.simplex)
+    status = SEARCHING
+    while status == SEARCHING and workspace.state[ROUNDS] < GJK_CAP:
+        status = walk_on(a, a_count, b, b_count, workspace.state, workspace.simplex)
+    if status == SEARCHING:
+        workspace.state[CAPPED] += 1.0
+        status = reduce_simplex(a, b, workspace.state, workspace.simplex)
+    if status != TOUCHING:
+        write_nearest(a, b, workspace.state, workspace.simplex, workspace.gap)
+        if workspace.gap[SEPARATION] <= 0.0:
+            return TOUCHING
+        return APART
+    return TOUCHING
+
+
+# ---- epa -------------------------------------------------------------------------------------------------------------
+# Depth of two hulls that overlap: the edge of their difference A - B that is nearest to the origin.
+#
+# A polygon inside the difference grows through its edge nearest to the origin until that edge is one of the difference
+# itself: no corner lies further out. In the plane that is exact and takes at most as many rounds as the difference has
+# corners. The polygon starts as two corners, so that nothing depends on how the origin lies in a thin triangle, and a
+# depth may be slightly negative: hulls that are a hair apart get their face's normal as well. Source: van den Bergen
+# 2001.
+
+EPA_CAP = 60  # rounds, below the room of the polytope
+
+
+@subkernel
+def write_polytope_corner(i, j, k, polytope_out):
+    """Put corner a[i] - b[j] in place k."""
+    polytope_out[k, 0] = float(i)
+    polytope_out[k, 1] = float(j)
+
+
+@subkernel
+def measure_edge(a, b, k, count, polytope_inout):
+    """Write the outward normal of the edge that starts in place k, and how deep the origin lies behind it [px]."""
+    n = k + 1 if k + 1 < count else 0
+    i = int(polytope_inout[k, 0])
+    j = int(polytope_inout[k, 1])
+    ex, ey = difference_edge(a, b, i, j, int(polytope_inout[n, 0]), int(polytope_inout[n, 1]))
+    nx, ny = unit(ey, -ex, 1.0, 0.0)
+    polytope_inout[k, 2] = nx
+    polytope_inout[k, 3] = ny
+    polytope_inout[k, 4] = nx * (a[i, 0] - b[j, 0]) + ny * (a[i, 1] - b[j, 1])
+
+
+@subkernel
+def start_polytope(a, a_count, b, b_count, polytope_out):
+    """Two corners of the difference, furthest apart along x, or along y when it has no width. Returns their number.
+
+    One corner alone: the difference is a point.
+    """
+    for axis in range(2):
+        x = 1.0 - axis
+        y = float(axis)
+        i = support(a, a_count, x, y)
+        j = support(b, b_count, -x, -y)
+        k = support(a, a_count, -x, -y)
+        m = support(b, b_count, x, y)
+        write_polytope_corner(i, j, 0, polytope_out)
+        write_polytope_corner(k, m, 1, polytope_out)
+        ex, ey = difference_edge(a, b, i, j, k, m)
+        if ex != 0.0 or ey != 0.0:
+            measure_edge(a, b, 0, 2, polytope_out)
+            measure_edge(a, b, 1, 2, polytope_out)
+            return 2
+    return 1
+
+
+@subkernel
+def shallowest_edge(polytope, count):
+    """The edge nearest to the origin; the first of equal ones."""
+    best = 0
+    for k in range(1, count):
+        if polytope[k, 4] < polytope[best, 4]:
+            best = k
+    return best
+
+
+@subkernel
+def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
+    """Push the shallowest edge out to the corner of the difference beyond it. Returns the new number of corners.
+
+    The same number: no corner lies beyond, the edge is the difference's own. O(corners).
+    """
+    k = shallowest_edge(polytope_inout, count)
+    n = k + 1 if k + 1 < count else 0
+    nx = polytope_inout[k, 2]
+    ny = polytope_inout[k, 3]
+    i = support(a, a_count, nx, ny)
+    j = support(b, b_count, -nx, -ny)
+    # Against both ends: a corner next to one of them in line with the edge is no progress.
+    for end in range(2):
+        at = k if end == 0 else n
+        p = int(polytope_inout[at, 0])
+        q = int(polytope_inout[at, 1])
+        ex, ey = difference_edge(a, b, p, q, i, j)
+        if nx * ex + ny * ey <= ROUNDING * (abs(ex) + abs(ey)):
+            return count
+    for place in range(count, k + 1, -1):
+        for column in range(5):
+            polytope_inout[place, column] = polytope_inout[place - 1, column]
+    write_polytope_corner(i, j, k + 1, polytope_inout)
+    measure_edge(a, b, k, count + 1, polytope_inout)
+    measure_edge(a, b, k + 1, count + 1, polytope_inout)
+    return count + 1
+
+
+@subkernel
+def write_depth(a, b, count, polytope, gap_out):
+    """Separation (the negative depth), normal and points of the shallowest edge. A lone point: the normal is (1, 0)."""
+    if count < 2:
+        i = int(polytope[0, 0])
+        j = int(polytope[0, 1])
+        write_edge_gap(a, b, i, j, i, j, 1.0, 0.0, gap_out)
+        return
+    k = shallowest_edge(polytope, count)
+    n = k + 1 if k + 1 < count else 0
+    write_edge_gap(
+        a,
+        b,
+        int(polytope[k, 0]),
+        int(polytope[k, 1]),
+        int(polytope[n, 0]),
+        int(polytope[n, 1]),
+        polytope[k, 2],
+        polytope[k, 3],
+        gap_out,
+    )
+
+
+@subkernel
+def measure_depth(a, a_count, b, b_count, workspace):
+    """Write to workspace.gap how far, and along which normal, B has to move to touch A. O(corners squared).
+
+    Rounds are added to workspace.state, and whether they hit EPA_CAP.
+    """
+    count = start_polytope(a, a_count, b, b_count, workspace.polytope)
+    if count > 1:
+        capped = True
+        for _ in range(EPA_CAP):
+            workspace.state[ROUNDS] += 1.0
+            grown = grow_polytope(a, a_count, b, b_count, count, workspace.polytope)
+            if grown == count:
+                capped = False
+                break
+            count = grown
+        if capped:
+            workspace.state[CAPPED] += 1.0
+    write_depth(a, b, count, workspace.polytope, workspace.gap)
+
+
+# ---- separation ------------------------------------------------------------------------------------------------------
+# Signed distance of rounded hulls: GJK where their cores are apart, EPA where they overlap; then the radii.
+
+
+@subkernel
+def separate(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
+    """Write separation, unit normal from A to B and nearest points to workspace.gap. Returns the separation.
+
+    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; i, j: corners to start from. Negative where they
+    overlap: -(the move of B along the normal that ends it). workspace.state holds the rounds and how many hit their
+    cap.
+    """
+    if walk_to_nearest(a, a_count, b, b_count, i, j, workspace) == TOUCHING:
+        measure_depth(a, a_count, b, b_count, workspace)
+    gap = workspace.gap
+    gap[AX] += a_radius * gap[NX]
+    gap[AY] += a_radius * gap[NY]
+    gap[BX] -= b_radius * gap[NX]
+    gap[BY] -= b_radius * gap[NY]
+    gap[SEPARATION] -= a_radius + b_radius
+    return gap[SEPARATION]
+
+
+# ---- witness ---------------------------------------------------------------------------------------------------------
+# The nearest two of many convex parts: what the distance of concave shapes comes down to.
+
+
+@subkernel
+def box_gap(boxes_a, i, boxes_b, j):
+    """Distance [px] of two boxes (min_x, min_y, max_x, max_y), 0 when they overlap."""
+    across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
+    down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
+    return length_of(across, down)
+
+
+@subkernel
+def copy_part(corners, part, count, corners_out):
+    """Copy the corners of one part to corners_out (16, 2)."""
+    for k in range(count):
+        corners_out[k, 0] = corners[part, k, 0]
+        corners_out[k, 1] = corners[part, k, 1]
+
+
+@kernel
+def separate_parts(
+    # read
+    a,
+    b,
+    # write
+    corners_a_out,
+    corners_b_out,
+    workspace,
+    totals_out,
+):
+    """Write separation, normal and points of the nearest two parts to workspace.gap. Returns the separation [px].
+
+    a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts
+    whose boxes are further apart than the nearest so far are skipped. Infinite when one side has none. O(parts of A ·
+    parts of B).
+    """
+    best = math.inf
+    best_i = -1
+    best_j = -1
+    totals_out[0] = 0.0
+    totals_out[1] = 0.0
+    for i in range(len(a.counts)):
+        copy_part(a.corners, i, a.counts[i], corners_a_out)
+        for j in range(len(b.counts)):
+            if best_i >= 0 and box_gap(a.boxes, i, b.boxes, j) > max(best, 0.0):
+                continue
+            copy_part(b.corners, j, b.counts[j], corners_b_out)
+            separation = separate(
+                corners_a_out, a.counts[i], a.radii[i], corners_b_out, b.counts[j], b.radii[j], 0, 0, workspace
+            )
+            totals_out[0] += workspace.state[ROUNDS]
+            totals_out[1] += workspace.state[CAPPED]
+            if separation < best:
+                best = separation
+                best_i = i
+                best_j = j
+    if best_i >= 0 and len(a.counts) * len(b.counts) > 1:
+        copy_part(a.corners, best_i, a.counts[best_i], corners_a_out)
+        copy_part(b.corners, best_j, b.counts[best_j], corners_b_out)
+        separate(
+            corners_a_out,
+            a.counts[best_i],
+            a.radii[best_i],
+            corners_b_out,
+            b.counts[best_j],
+            b.radii[best_j],
+            0,
+            0,
+            workspace,
+        )
+    return best

@@ -1,0 +1,312 @@
+"""What no step can use is taken out of the simulation before it reaches anything else, and told by name.
+
+A number that is not finite spreads: through a contact to a neighbour, from there to a heap. So every number that a step
+reads of a body, a shape or a character is looked at before the first stage that reads it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.dynamics.integrate import refresh_centers
+from physics.islands.sleep import disturb
+from physics.jit import kernel, subkernel
+from physics.settings import POSITION_LIMIT
+from physics.tables.contact import QUARANTINE
+from physics.tables.shape import TILES
+from physics.tables.step_state import StepState, stage
+
+NOT_FINITE = "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be"
+BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 where it may not be"
+BAD_WALK = "a number of its character is not finite"
+TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
+REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order in which they are looked for
+NO_ROWS = np.zeros(0, np.int64)
+LARGEST = 1e100  # of inverse masses and of a surface: beyond, products of two are no doubles
+REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
+READS = (
+    "bodies",
+    "shapes",
+    "awake",
+    "sleepers",
+    "pairs",
+    "manifolds",
+    "anchors",
+    "touching",
+    "sensing",
+    "tolerances",
+    "library",
+    "effects",
+    "gravity",
+    "characters",
+    "dt",
+)
+WRITES = (
+    "events",
+    "pairs",
+    "awake",
+    "sleepers",
+    "manifolds",
+    "anchors",
+    "touching",
+    "sensing",
+    "shapes.proxy",
+    "bodies.sleep_time",
+    "bodies.island",
+    *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
+    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
+    "bodies.followed",
+    *(f"bodies.{name}" for name in REST),
+)
+
+
+@subkernel
+def put_aside(body_inout):
+    """Quarantine a body where it is: at rest, pulled by nothing."""
+    b = body_inout
+    b.previous_x = b.x
+    b.previous_y = b.y
+    b.previous_angle = b.angle
+    b.vx = 0.0
+    b.vy = 0.0
+    b.angular_velocity = 0.0
+    b.force_x = 0.0
+    b.force_y = 0.0
+    b.torque = 0.0
+    b.awake = False
+    b.quarantined = True
+
+
+@subkernel
+def is_somewhere(body):
+    """Whether the pose of a body is one that a double resolves."""
+    return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
+
+
+@subkernel
+def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
+    """Whether a step of dt [s] can use a body: a number that it reads and that is not finite, or an end of its motion
+    that a double does not resolve, would be its neighbours' too. gravity [px/s2], speed_limit [px/s]."""
+    b = body
+    vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
+    vy = b.vy + dt * (b.inverse_mass * b.force_y + b.gravity_scale * gravity_y)
+    spin = b.angular_velocity + dt * b.inverse_inertia * b.torque
+    # What is finite is 0 less than itself; what is not is not.
+    sizes = b.mass + b.inertia + b.smallest_half + b.thin_half + b.fraction
+    return (
+        abs(b.vx) < speed_limit
+        and abs(b.vy) < speed_limit
+        and abs(vx) < speed_limit
+        and abs(vy) < speed_limit
+        and abs(spin) * b.extent < speed_limit
+        and abs(b.x + dt * vx) < POSITION_LIMIT
+        and abs(b.y + dt * vy) < POSITION_LIMIT
+        and abs(b.angle + dt * spin) < POSITION_LIMIT
+        and abs(b.local_center_x) < POSITION_LIMIT
+        and abs(b.local_center_y) < POSITION_LIMIT
+        and abs(b.center_x) < 2.0 * POSITION_LIMIT
+        and abs(b.center_y) < 2.0 * POSITION_LIMIT
+        and 0.0 <= b.inverse_mass < LARGEST
+        and 0.0 <= b.inverse_inertia < LARGEST
+        and 0.0 <= b.extent < POSITION_LIMIT
+        and sizes - sizes == 0.0
+    )
+
+
+@subkernel
+def take_broken_bodies(
+    # read
+    rows,
+    course,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List the rows of bodies that a step cannot use, and put them to rest: back at the last finite pose, quarantined.
+    Returns the number. O(rows)."""
+    found = 0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        if b.quarantined:
+            continue
+        there = is_somewhere(b)
+        if not there or not is_sound(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
+            broken_out[found] = rows[k]
+            found += 1
+            if not there:
+                b.x = b.settled_x
+                b.y = b.settled_y
+                b.angle = b.settled_angle
+            put_aside(b)
+    return found
+
+
+@subkernel
+def is_sound_walk(character):
+    """Whether every number of a character is finite: what is finite is 0 less than itself."""
+    c = character
+    total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
+    total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
+    return total - total == 0.0 and abs(total) < POSITION_LIMIT
+
+
+@subkernel
+def take_broken_shapes(
+    # read
+    rows,
+    shapes,
+    first,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List, from `first` on, the rows of bodies one of whose shapes, of these rows, has a number that no step can use;
+    put them to rest, quarantined. Returns where the list ends. O(rows)."""
+    found = first
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        place = abs(s.local_x) + abs(s.local_y) + s.radius
+        surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
+        if place < POSITION_LIMIT and surface < LARGEST and s.radius >= 0.0 and s.friction >= 0.0:
+            continue
+        b = bodies_inout[s.body_row]
+        if not b.quarantined:
+            broken_out[found] = s.body_row
+            found += 1
+            put_aside(b)
+    return found
+
+
+@subkernel
+def take_turned_grids(
+    # read
+    rows,
+    shapes,
+    first,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List, from `first` on, the rows of bodies with TILES among these shape rows that turn or are turned, which only a
+    table can make them; set them upright and at rest, quarantined. Returns where the list ends. O(rows)."""
+    found = first
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        if s.kind != TILES:
+            continue
+        b = bodies_inout[s.body_row]
+        if b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0):
+            continue
+        broken_out[found] = s.body_row
+        found += 1
+        b.angle = 0.0
+        put_aside(b)
+    return found
+
+
+@subkernel
+def take_broken_characters(
+    # read
+    characters,
+    first,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """List, from `first` on, the body rows of characters with a number that is not finite, at rest and quarantined.
+    Returns where the list ends."""
+    found = first
+    for k in range(len(characters)):
+        b = bodies_inout[characters[k].body_row]
+        if not b.quarantined and not is_sound_walk(characters[k]):
+            broken_out[found] = characters[k].body_row
+            found += 1
+            put_aside(b)
+    return found
+
+
+class Course(NamedTuple):
+    """Where a step takes a body that nothing stops."""
+
+    gravity_x: float  # [px/s2]
+    gravity_y: float
+    speed_limit: float  # [px/s]
+    dt: float  # [s]
+
+
+@kernel
+def take_broken(
+    # read
+    rows,
+    shape_rows,
+    grid_rows,
+    shapes,
+    characters,
+    course,
+    # write
+    bodies_inout,
+    broken_out,
+    ends_out,
+):
+    """List the rows of bodies that no step can use, at rest and quarantined, and where in the list each of REASONS
+    ends: ends_out. Returns their number. grid_rows: shape rows that may be grids; broken_out (bodies): each is listed
+    once. O(rows + shape_rows)."""
+    ends_out[0] = take_broken_bodies(rows, course, bodies_inout, broken_out)
+    ends_out[1] = take_broken_shapes(shape_rows, shapes, ends_out[0], bodies_inout, broken_out)
+    ends_out[2] = take_turned_grids(grid_rows, shapes, ends_out[1], bodies_inout, broken_out)
+    ends_out[3] = take_broken_characters(characters, ends_out[2], bodies_inout, broken_out)
+    return ends_out[3]
+
+
+@kernel
+def take_broken_by_solver(
+    # read
+    rows,
+    course,
+    # write
+    bodies_inout,
+    broken_out,
+):
+    """As take_broken, of bodies alone: where a solver has put them."""
+    return take_broken_bodies(rows, course, bodies_inout, broken_out)
+
+
+@stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
+def quarantine(state: StepState) -> None:
+    """Take what no step can use out of the simulation, and tell it; its neighbours go on as if it had been removed."""
+    awake, bodies, workspace = state.awake, state.bodies, state.workspace
+    gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
+    course = Course(*gravity, state.tolerances.speed_limit, state.dt)
+    broken, ends = workspace.rows_for(len(bodies)), workspace.ends
+    grids = awake.shapes if state.library.grids.count else NO_ROWS
+    if take_broken(awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, broken, ends):
+        reasons = np.repeat(np.array(REASONS), np.diff(ends, prepend=0))
+        _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
+
+
+@stage("quarantine_solved", reads=(*READS, "unsound", "workspace"), writes=(*WRITES, "workspace"))
+def quarantine_solved(state: StepState) -> None:
+    """Take out what a solver could not keep finite, and what that touched, before it is swept and told of."""
+    if not state.unsound:
+        return
+    broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
+    found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
+    ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
+    kept = ~(np.isin(state.manifolds["body_a"], ids) | np.isin(state.manifolds["body_b"], ids))
+    state.manifolds, state.anchors = state.manifolds[kept], state.anchors[kept]
+
+
+def _take_out(state, told):
+    """Out of the broad phase and of what is awake; told: {body row: reason}. Returns the ids."""
+    bodies, shapes = state.bodies, state.shapes
+    broken = np.array(sorted(told), np.int64)
+    ids = bodies["id"][broken]
+    rows = np.array([(bodies["id"][row], told[row]) for row in sorted(told)], QUARANTINE)
+    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, rows]))
+    own = np.isin(shapes["body"], ids)
+    state.pairs.free_proxies(shapes["proxy"][own])
+    shapes["proxy"][own] = -1
+    refresh_centers(broken, bodies)
+    disturb(state, ids)
+    state.awake.start_over()
+    return ids

@@ -1,0 +1,701 @@
+"""Bodies and shapes added, changed and removed: arguments are checked before anything is changed."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from physics import checks
+from physics.broadphase.proxies import write_rectangles
+from physics.checks import Pair, Points
+from physics.collision.kept_forces import KeptForces
+from physics.dynamics.integrate import refresh_centers
+from physics.islands import sleep
+from physics.shapes.approximate import fit
+from physics.shapes.kinds import Shape
+from physics.shapes.library import check_shapes, find_equal, is_snapped, rounding_of, rows_in_tiles, set_mass, weigh
+from physics.shapes.mask import PixelMask
+from physics.shapes.outline import (
+    OutlinePart,
+    Stretch,
+    is_tiled,
+    keep_tiles,
+    outline_by_tile,
+    polygons,
+    surfaces_of,
+    tiled_parts,
+)
+from physics.shapes.values import Capsule, Chain, Circle, Filter, Material, Polygon, TileGrid
+from physics.solver.substeps import forget_loads
+from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, OFF, STATIC
+from physics.tables.shape import PART, PIXELS, WHOLE, WHOLE_MASK
+from physics.tables.table import rows_of
+from physics.world_state import WorldState
+
+# ---- shape rows ------------------------------------------------------------------------------------------------------
+# The SHAPE rows of bodies: what a body's shapes, and the parts of its masks' outlines, have in the tables.
+
+MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
+LAST_SHAPE = 2**31 - 1  # of the ids: candidates are told in 32 bits
+
+
+def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
+    """Raises ValueError where a world has no ids left for these shapes of so many new bodies; none is given twice."""
+    room = LAST_SHAPE - world._next_shape
+    if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
+        raise ValueError(
+            f"shapes must be at most {LAST_SHAPE} in the life of a world, whose ids are never given twice "
+            f"(got {bodies} bodies with {len(shapes)} more each, after {world._next_shape}): make a new World"
+        )
+
+
+def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
+    """Append the SHAPE rows of new shapes for each of the bodies that start at a row, with what the body says of them
+    or they of themselves, and give them places in the broad phase. Returns their ids."""
+    pieces = rows_of_shapes(shapes, world.effects.response)
+    rows = _append_rows(world, first_row, bodies, pieces)
+    for i, piece in enumerate(pieces):
+        each = rows[i :: len(pieces)]
+        each["owner"] = each["id"] - i + piece.owner
+    return rows["id"][rows["role"] != PART]
+
+
+def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
+    """SHAPE rows of pieces for each of the bodies that start at a row: all but who owns them."""
+    n, k = bodies, len(pieces)
+    ids = np.arange(world._next_shape, world._next_shape + n * k)
+    if n * k == 0:
+        return world._shapes.rows[:0]
+    world._tidy_library()
+    rows = world._shapes.append(n * k)
+    world._next_shape += n * k
+    owners = np.repeat(np.arange(first_row, first_row + n), k)
+    rows["id"], rows["body"], rows["body_row"] = ids, world.bodies["id"][owners], owners
+    given = world._given.rows[owners]
+    for i, (shape, role, inner, _, tile) in enumerate(pieces):
+        each = rows[i::k]
+        each["role"], each["inner"], each["tile"] = role, inner, tile
+        each["kind"], each["geometry"], each["wrapped"] = world.library.add(shape)
+        each["radius"], each["local_x"], each["local_y"] = rounding_of(shape)
+        each["snap"] = is_snapped(shape)
+        say(each, given[i::k], shape)
+    _enter(world, rows)
+    return rows
+
+
+class NewParts(NamedTuple):
+    """Parts of a mask's outline that have no rows yet."""
+
+    tiles: ArrayLike  # (n,) int64, as `tile` in SHAPE
+    inner: ArrayLike  # (n,) int64, as in SHAPE
+    shapes: Sequence[Circle | Capsule | Polygon | Chain]  # in body space
+
+
+NONE = NewParts((), (), ())
+
+
+def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
+    """Append SHAPE rows of further parts of a mask, whose own row is the one row of the template."""
+    count = len(parts.shapes)
+    if not count:
+        return
+    rows = world._shapes.append(count)
+    rows[:] = template
+    rows["id"] = np.arange(world._next_shape, world._next_shape + count)
+    world._next_shape += count
+    rows["role"], rows["snap"] = PART, False
+    rows["tile"], rows["inner"] = parts.tiles, parts.inner
+    rows["kind"], rows["geometry"], rows["wrapped"] = world.library.add_parts(parts.shapes).T
+    rows["radius"], rows["local_x"], rows["local_y"] = np.array([rounding_of(shape) for shape in parts.shapes]).T
+    _enter(world, rows)
+
+
+def _enter(world, rows):
+    """Give new rows places in the broad phase."""
+    owners = rows["body_row"]
+    world.pairs.add_proxies(rows, np.arange(len(rows)), world.bodies["kind"][owners] == STATIC)
+    if world.sleeps:
+        # Whose body is in the step already is not taken into it again.
+        world.pairs.set_awake(rows["proxy"][world.bodies["active"][owners]], True)
+
+
+def say(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
+    """Write what a body says of its shapes, GIVEN rows, to SHAPE rows, or what the shape says itself."""
+    for name in (*MATERIAL, "membership", "mask", "sensor"):
+        rows[name] = given[name]
+    for name in ("material", "filter", "sensor"):
+        rows["own_" + name] = getattr(shape, name) is not None
+    if shape.material is not None:
+        for name in MATERIAL:
+            rows[name] = getattr(shape.material, name)
+    if shape.filter is not None:
+        rows["membership"], rows["mask"] = shape.filter.membership, shape.filter.mask
+    if shape.sensor is not None:
+        rows["sensor"] = shape.sensor
+
+
+class Piece(NamedTuple):
+    """What one SHAPE row stands for."""
+
+    shape: Shape
+    role: int
+    inner: int  # see SHAPE
+    owner: int  # which piece it is a part of
+    tile: int  # see SHAPE
+
+
+def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
+    """The rows that a body's shapes need: one each, and where bodies are pushed, the parts of each mask's outline."""
+    found: list[Piece] = []
+    for shape in shapes:
+        masked = pushed and isinstance(shape, PixelMask)
+        owner = len(found)
+        found.append(Piece(shape, PIXELS if masked else WHOLE, 0, owner, WHOLE_MASK))
+        if masked:
+            found += _parts(shape, owner)
+    return found
+
+
+def _parts(mask, owner) -> list[Piece]:
+    """The parts of a mask's outline."""
+    return [
+        Piece(part.shape.with_(mask.material, mask.filter, mask.sensor), PART, part.inner, owner, tile)
+        for tile, parts in pushed_parts(mask)
+        for part in parts
+    ]
+
+
+def pushed_parts(mask: PixelMask) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
+    """(number of the tile, its parts) of a mask's outline, see outline_by_tile.
+
+    Of a mask that is open from below all of its upper side, in one piece.
+    """
+    return [(WHOLE_MASK, surfaces_of(mask))] if mask.one_way else outline_by_tile(mask)
+
+
+# ---- mask exchange ---------------------------------------------------------------------------------------------------
+# Another mask in the place of one of a body's: what is carved, and the next frame of an animation.
+
+
+def exchange_mask(
+    world: WorldState, identity: int, place: int, shape_id: int, mask: PixelMask, changed: Sequence[int] | None = None
+) -> None:
+    """Put another mask in the place of one of a body's: its id stays, and so do parts of its outline that are the same.
+
+    place: which of the body's shapes it is; changed: the tiles in which it differs, None: any. Bodies that touch what
+    is changed wake; contacts where the new surface is the old one keep their forces. O(what is changed), but for a few
+    passes over the SHAPE rows.
+    """
+    at, shapes = world._row_number(identity), world.shapes
+    body, used = world.bodies[at : at + 1], list(world._shapes_of[identity])
+    before, used[place] = used[place], mask
+    old, fresh = _differences(world, shape_id, before, mask, changed)
+    still = body["kind"][0] != DYNAMIC
+    if not (still and sleep.disturb_shapes(world, identity, shapes["id"][old])):
+        sleep.disturb(world, [identity])
+    kept = KeptForces(world, old)
+    own = rows_of(shapes, [shape_id])  # its parts come after it: what goes does not move it
+    shapes["geometry"][own] = world.library.replace(before.bare, mask.bare, changed, shapes)
+    if len(old):
+        keep = np.ones(len(shapes), bool)
+        keep[old] = False
+        world._drop_shapes(keep)
+    world._shapes_of[identity] = tuple(used)
+    if any(getattr(mask, name) != getattr(before, name) for name in ("material", "filter", "sensor", "snap")):
+        _say_again(world, at, shape_id, mask)
+    world._tidy_library()
+    append_parts(world, world.shapes[own], fresh)
+    given = world._given.rows[at]
+    set_mass(body, weigh(used, float(given["density"]), float(given["mass"])), used, world.effects.response)
+    refresh_centers(np.array([at]), world.bodies)
+    new = np.arange(len(world.shapes) - len(fresh.shapes), len(world.shapes))
+    _rejoin(world, at, np.append(own, new) if still else rows_of_owner(world, shape_id))
+    kept.hand_on(world, new)
+
+
+def rows_of_owner(world: WorldState, shape_id: int) -> np.ndarray:
+    """SHAPE rows of a shape and of its parts."""
+    return np.flatnonzero(world.shapes["owner"] == shape_id)
+
+
+def _differences(world, shape_id, before, mask, changed):
+    """(rows of the parts that go, NewParts); what else changed of the others is written."""
+    shapes = world.shapes
+    if not world.effects.response:
+        return np.zeros(0, np.int64), NONE
+    if changed is not None and all(is_tiled(each) and not each.one_way for each in (mask, before)):
+        return _differences_in_tiles(world, shape_id, before, mask, changed)
+    parts = np.flatnonzero((shapes["owner"] == shape_id) & (shapes["role"] == PART))
+    known = {world.library.shape_of(shapes[row]): row for row in parts.tolist()}
+    fresh = []
+    for tile, each in pushed_parts(mask):
+        for part in each:
+            row = known.pop(part.shape, -1)
+            if row < 0:
+                fresh.append((tile, part.inner, part.shape))
+            else:
+                shapes["inner"][row], shapes["tile"][row] = part.inner, tile
+    return np.array(sorted(known.values()), np.int64), NewParts(*zip(*fresh, strict=True)) if fresh else NONE
+
+
+def _differences_in_tiles(world, shape_id, before, mask, changed):
+    """The same of masks that differ in a few tiles."""
+    tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
+    if not tiles:
+        return np.zeros(0, np.int64), NONE
+    wanted = np.zeros(len(mask.tiles.words), bool)
+    wanted[tiles] = True
+    shapes, new = world.shapes, tiled_parts(mask.bare, tiles)
+    parts = rows_in_tiles(shapes, shape_id, wanted)
+    found = find_equal(world.library.tables, shapes, parts, new.corners, new.counts)
+    stays, goes = found >= 0, np.ones(len(parts), bool)
+    shapes["inner"][parts[found[stays]]] = new.inner[stays]
+    goes[found[stays]] = False
+    fresh = np.flatnonzero(~stays)
+    return parts[goes], NewParts(new.tiles[fresh], new.inner[fresh], polygons(new.corners, new.counts, fresh))
+
+
+def _say_again(world, at, shape_id, mask):
+    """Write what a mask says of itself to its rows."""
+    rows = rows_of_owner(world, shape_id)
+    shapes, pairs = world.shapes, world.pairs
+    some = shapes[rows]
+    say(some, world._given.rows[at], mask)
+    shapes[rows] = some
+    shapes["snap"][rows] = is_snapped(mask) & (some["role"] != PART)
+    pairs.set_filter(some["proxy"], Filter(*(some[name][0].item() for name in ("membership", "mask"))))
+    pairs.set_sensor(shapes, rows)
+
+
+def _rejoin(world, at, touched):
+    """Have shape rows of a body looked at by the broad phase, from the next step on."""
+    world.pairs.touch(world.shapes["proxy"][touched])
+    if world.bodies["quarantined"][at]:
+        world.pairs.free_proxies(world.shapes["proxy"][touched])
+        world.shapes["proxy"][touched] = -1
+    elif world.sleeps and not world.bodies["active"][at]:
+        # What is not awake gets no rectangle in the next step: here, at once.
+        count = write_rectangles(world, touched)
+        world.pairs.again.append(world.pairs.changed[:count].copy())
+    world.queries.seen = ()
+    sleep.forget(world)
+
+
+# ---- reshaping -------------------------------------------------------------------------------------------------------
+# What shapes a body has, and what it weighs with them: what a user asks for is checked first.
+
+
+def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
+    """Raises ValueError for a TileGrid whose body turns, or is turned."""
+    if turn != 0.0 and any(isinstance(shape, TileGrid) for shape in shapes):
+        raise ValueError(f"{what} must be 0 for a body with a TileGrid, which cannot turn (got {turn})")
+
+
+def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
+    """Have a body weigh so much, whatever its densities say."""
+    at = world._row_number(identity)
+    world._given.rows["mass"][at] = mass
+    used, density = world._shapes_of[identity], float(world._given.rows["density"][at])
+    set_mass(world.bodies[at : at + 1], weigh(used, density, mass), used, world.effects.response)
+    refresh_centers(np.array([at]), world.bodies)
+
+
+def refresh_mass(world: WorldState, identity: int) -> None:
+    """Weigh a body anew: its shapes, its kind or what it is made of changed. Its neighbours wake."""
+    at = world._row_number(identity)
+    given, used = world._given.rows[at], world._shapes_of[identity]
+    mass = weigh(used, float(given["density"]), float(given["mass"]))
+    set_mass(world.bodies[at : at + 1], mass, used, world.effects.response)
+    refresh_pose(world, identity)
+
+
+def refresh_pose(world: WorldState, identity: int) -> None:
+    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle.
+    Its neighbours wake."""
+    at = world._row_number(identity)
+    sleep.disturb(world, [identity])
+    refresh_centers(np.array([at]), world.bodies)
+    world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
+
+
+def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
+    """Ids of a body's shapes, in their order."""
+    world._row_number(identity)
+    own = (world.shapes["body"] == identity) & (world.shapes["role"] != PART)
+    return tuple(world.shapes["id"][own].tolist())
+
+
+def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
+    """Replace a body's shapes; what it says of them stays, and contacts where the new surface is the old one keep their
+    forces. Masks that take the place of masks keep their ids. Raises TypeError, ValueError."""
+    ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
+    _check(world, identity, shapes, ids)
+    check_ids(world, 1, shapes)
+    sleep.disturb(world, [identity])
+    masks = [each for each in shapes if isinstance(each, PixelMask)]
+    if len(before) == len(shapes) == len(masks) and all(isinstance(each, PixelMask) for each in before):
+        for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
+            exchange_mask(world, identity, place, shape_id, mask)
+    else:
+        kept = KeptForces(world, np.flatnonzero(world.shapes["body"] == identity))
+        world._drop_shapes(world.shapes["body"] != identity)
+        _add(world, identity, tuple(shapes), tuple(shapes))
+        kept.hand_on(world, np.flatnonzero(world.shapes["body"] == identity))
+    world._tiers.pop(identity, None)
+    world._sources.pop(identity, None)
+
+
+def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
+    """Add a shape behind those that a body has. Returns its id. Raises TypeError, ValueError."""
+    world._row_number(identity)
+    together = (*world._shapes_of[identity], shape)
+    _check(world, identity, together, [])
+    check_ids(world, 1, (shape,))
+    return int(_add(world, identity, together, (shape,))[0])
+
+
+def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
+    """Take a shape away from a body. Raises KeyError for an id that is none of its shapes', TypeError, ValueError."""
+    shape_id, ids = checks.whole("shape_id", shape_id, 0, 2**62), shape_ids(world, identity)
+    if shape_id not in ids:
+        raise checks.NoSuchId(f"shape_id must be one of body {identity}'s, {list(ids)} (got {shape_id})")
+    rest = tuple(shape for each, shape in zip(ids, world._shapes_of[identity], strict=True) if each != shape_id)
+    _check(world, identity, rest, [shape_id])
+    sleep.disturb(world, [identity])
+    world._drop_shapes(world.shapes["owner"] != shape_id)
+    _add(world, identity, rest, ())
+
+
+def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
+    """Raises ValueError for shapes that are sensors of their own in a world without the effect."""
+    world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
+
+
+def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
+    """Raises ValueError for masks without a pixel where they were all that weighs of a body that is pushed."""
+    empty = [each for each in shapes if isinstance(each, PixelMask) and not each.area]
+    if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
+        raise ValueError(
+            f"shapes of a dynamic body must have a solid pixel, or it a mass (got {checks.shown(empty[0])})"
+        )
+
+
+def _check(world, identity, shapes, gone):
+    """Raises what the shapes that a user wants for a body, and the ids of those that go, call for."""
+    world._unlocked()
+    if np.isin(world.characters.rows["shape"], gone).any():
+        raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
+    row = world._body_row(identity)
+    check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
+    check_grid_stands(shapes, row["angular_velocity"].item())
+    check_own_values(world, shapes)
+    check_weight(world, shapes, int(row["kind"]), world._given.rows["mass"][world._row_number(identity)].item())
+
+
+def _add(world, identity, shapes, new) -> np.ndarray:
+    """Give a body its shapes, of which the new ones have no rows yet. Returns the ids of these."""
+    at = world._row_number(identity)
+    world._shapes_of[identity] = shapes
+    ids = add_shapes(world, at, 1, new)
+    refresh_mass(world, identity)
+    if world.bodies["quarantined"][at]:
+        own = world.shapes["body"] == identity
+        world.pairs.free_proxies(world.shapes["proxy"][own])
+        world.shapes["proxy"][own] = -1
+    world.awake.forget_shapes()
+    sleep.forget(world)
+    world._tiers.pop(identity, None)
+    world._sources.pop(identity, None)
+    return ids
+
+
+def rebuild_masks(world: WorldState) -> None:
+    """Give masks the rows that the world's effects call for now: where bodies are pushed, the parts of their outlines.
+
+    Bodies keep their tiers; their shapes get new ids."""
+    for identity, shapes in [*world._shapes_of.items()]:
+        if any(isinstance(shape, PixelMask) for shape in shapes):
+            tier, source = world._tiers.get(identity), world._sources.get(identity)
+            sleep.disturb(world, [identity])
+            world._drop_shapes(world.shapes["body"] != identity)
+            _add(world, identity, shapes, shapes)
+            if tier is not None and source is not None:
+                world._tiers[identity], world._sources[identity] = tier, source
+
+
+def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
+    """The shapes that stand for one PixelMask in a tier; as they are for None. Raises ValueError, TypeError."""
+    if tier is None:
+        return tuple(shapes)
+    if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
+        raise ValueError(f"tier {tier!r} needs exactly one PixelMask (got {checks.shown(shapes)})")
+    return fit(shapes[0], tier)
+
+
+def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
+    """Collide a body's sprite more or less exactly.
+    Raises ValueError for an unknown tier or a body without a sprite."""
+    world._row_number(identity)
+    source = world._sources.get(identity, world._shapes_of[identity])
+    set_shapes(world, identity, shapes_for_tier(source, tier))
+    if tier is not None:
+        world._tiers[identity], world._sources[identity] = tier, source
+
+
+# ---- editing ---------------------------------------------------------------------------------------------------------
+# Bodies into a world, and changes to where and what they are: what a user asks for is checked first, so that the world
+# is unchanged by what is wrong. World and Body are the ways in. What shapes a body has: see "reshaping" above.
+
+
+class Wanted(NamedTuple):
+    """What a user asks of new bodies besides shapes and motion: see World.add_body."""
+
+    kind: str
+    angular_velocity: float
+    mass: float | None
+    material: Material
+    filter: Filter
+    sensor: bool
+    bullet: bool
+    continuous: str
+    fixed_rotation: bool
+    gravity_scale: float
+    tier: str | None
+    user: Any
+
+
+def add_rows(
+    world: WorldState,
+    shapes: Sequence[Shape],
+    positions: Points,
+    velocities: Points,
+    angles: Sequence[float] | np.ndarray,
+    wanted: Wanted,
+) -> np.ndarray:
+    """Check what a user asks for, and append BODY, GIVEN and SHAPE rows. Returns the ids. Raises TypeError,
+    ValueError."""
+    world._unlocked()
+    kind = KINDS.index(checks.choice("kind", wanted.kind, KINDS))
+    material, filter = checked_material(wanted.material), checked_filter(wanted.filter)
+    sensor, bullet = checked_sensor(world, wanted.sensor), checked_bullet(world, wanted.bullet)
+    swept = checked_continuous(world, wanted.continuous)
+    fixed_rotation = checks.flag("fixed_rotation", wanted.fixed_rotation)
+    gravity_scale = checks.number("gravity_scale", wanted.gravity_scale)
+    own_mass = 0.0 if wanted.mass is None else checks.number("mass", wanted.mass, above=0.0)
+    spin = checks.number("angular_velocity", wanted.angular_velocity)
+    world._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
+    if kind == STATIC and (np.any(np.asarray(velocities) != 0.0) or spin != 0.0):
+        raise ValueError(
+            f"velocity and angular_velocity must be 0 for a static body (got {np.asarray(velocities).tolist()}, {spin})"
+        )
+    used = shapes_for_tier(shapes, wanted.tier)
+    check_shapes(used, kind, angles)
+    check_grid_stands(used, spin)
+    check_own_values(world, used)
+    check_weight(world, used, kind, own_mass)
+    check_ids(world, len(positions), used)
+    mass = weigh(used, material.density, own_mass)
+    n = len(positions)
+    ids = np.arange(world._next_body, world._next_body + n, dtype=np.int64)
+    if n == 0:
+        return ids
+    world._next_body += n
+    given = world._given.append(n)
+    given["mass"], given["sensor"] = own_mass, sensor
+    write_material(given, material)
+    given["membership"], given["mask"] = filter.membership, filter.mask
+    rows = world._bodies.append(n)
+    rows["id"], rows["kind"] = ids, kind
+    rows["x"], rows["y"] = np.asarray(positions).T
+    rows["vx"], rows["vy"] = np.asarray(velocities).T
+    rows["angle"], rows["angular_velocity"] = angles, spin
+    for name in ("x", "y", "angle"):
+        rows["previous_" + name] = rows["still_" + name] = rows[name]
+    rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
+    rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
+    rows["active"] = not world.sleeps  # with it, the next step takes them in
+    if wanted.kind != "dynamic":
+        world.awake.stir(ids.tolist())
+    set_mass(rows, mass, used, world.effects.response)
+    refresh_centers(np.arange(n), rows)
+    add_shapes(world, world._bodies.count - n, n, used)
+    source = tuple(shapes)  # one for all: a swarm costs two entries each, and no object
+    for identity in ids.tolist():
+        world._shapes_of[identity] = used
+        if wanted.user is not None:
+            world._users[identity] = wanted.user
+        if wanted.tier is not None:
+            world._tiers[identity], world._sources[identity] = wanted.tier, source
+    return ids
+
+
+# --- what a user may ask of a body -------------------------------------------------------------------------------
+
+
+def checked_material(value: Any) -> Material:
+    """A Material. Raises TypeError."""
+    if not isinstance(value, Material):
+        raise TypeError(f"material must be a Material (got {checks.shown(value)})")
+    return value
+
+
+def checked_filter(value: Any) -> Filter:
+    """A Filter. Raises TypeError."""
+    if not isinstance(value, Filter):
+        raise TypeError(f"filter must be a Filter (got {checks.shown(value)})")
+    return value
+
+
+def checked_sensor(world: WorldState, value: Any) -> bool:
+    """A bool. Raises TypeError, and ValueError for True without the effect sensors."""
+    value = checks.flag("sensor", value)
+    world._needs("sensors", "sensor=True", value)
+    return value
+
+
+def checked_bullet(world: WorldState, value: Any) -> bool:
+    """A bool. Raises TypeError, and ValueError for True without the effect continuous."""
+    value = checks.flag("bullet", value)
+    world._needs("continuous", "bullet=True", value)
+    return value
+
+
+def checked_continuous(world: WorldState, value: Any) -> int:
+    """The number of a way of sweeping. Raises TypeError, and ValueError for one that needs the effect continuous."""
+    swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
+    world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
+    return swept
+
+
+# --- changes to a body that is there ----------------------------------------------------------------------------
+
+
+def write_material(rows: np.ndarray, material: Material) -> None:
+    """Write a material to rows that have its columns."""
+    for name in MATERIAL:
+        rows[name] = getattr(material, name)
+
+
+def _own_rows(world, identity, own) -> np.ndarray:
+    """Rows of the shapes of a body that have no value of their own of this name."""
+    return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
+
+
+def material_of(world: WorldState, identity: int) -> Material:
+    """Return the material of those shapes of a body that have none of their own."""
+    given = world._given.rows[world._row_number(identity)]
+    return Material(*(given[name].item() for name in MATERIAL))
+
+
+def filter_of(world: WorldState, identity: int) -> Filter:
+    """Return the filter of those shapes of a body that have none of their own."""
+    given = world._given.rows[world._row_number(identity)]
+    return Filter(given["membership"].item(), given["mask"].item())
+
+
+def set_material(world: WorldState, identity: int, value: Material) -> None:
+    """Change what a body's shapes are made of; those with a material of their own keep it. Raises TypeError."""
+    world._unlocked()
+    value = checked_material(value)
+    at = world._row_number(identity)
+    write_material(world._given.rows[at : at + 1], value)
+    for row in _own_rows(world, identity, "own_material"):
+        write_material(world.shapes[row : row + 1], value)
+    refresh_mass(world, identity)
+
+
+def set_filter(world: WorldState, identity: int, value: Filter) -> None:
+    """Change the filter of a body's shapes; those with one of their own keep it. Raises TypeError."""
+    world._unlocked()
+    value = checked_filter(value)
+    given = world._given.rows[world._row_number(identity)]
+    given["membership"], given["mask"] = value.membership, value.mask
+    rows = _own_rows(world, identity, "own_filter")
+    world.shapes["membership"][rows], world.shapes["mask"][rows] = value.membership, value.mask
+    world.pairs.set_filter(world.shapes["proxy"][rows], value)
+    sleep.disturb(world, [identity])
+
+
+def set_sensor(world: WorldState, identity: int, value: bool) -> None:
+    """Make a body's shapes sensors, or solid again; those that say so themselves stay. Raises TypeError, ValueError."""
+    world._unlocked()
+    value = checked_sensor(world, value)
+    world._given.rows["sensor"][world._row_number(identity)] = value
+    rows = _own_rows(world, identity, "own_sensor")
+    world.shapes["sensor"][rows] = value
+    world.pairs.set_sensor(world.shapes, rows)
+    sleep.disturb(world, [identity])
+
+
+def set_continuous(world: WorldState, identity: int, value: str) -> None:
+    """Change how a body is swept. Raises TypeError, ValueError."""
+    world._unlocked()
+    swept, row = checked_continuous(world, value), world._body_row(identity)
+    row["continuous"] = swept
+
+
+def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
+    """Say whether contacts and impulses leave a body's turn alone; who is fixed stops turning. Raises TypeError."""
+    world._unlocked()
+    value, row = checks.flag("fixed_rotation", value), world._body_row(identity)
+    row["fixed_rotation"] = value
+    if value:
+        row["angular_velocity"] = 0.0
+    refresh_mass(world, identity)
+
+
+def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
+    """Put a body at a position [px] and an angle (None: as it is). Raises ValueError for a turned TileGrid."""
+    world._unlocked()
+    row = world._body_row(identity)
+    check_grid_stands(world._shapes_of[identity], angle or 0.0, "angle")
+    row["x"], row["y"] = position
+    if angle is not None:
+        row["angle"] = angle
+    world._targets.pop(identity, None)
+    refresh_pose(world, identity)
+    if row["kind"] == DYNAMIC:
+        forget_loads(world, [identity])
+
+
+def touch(world: WorldState, ids: Any) -> None:
+    """Bring what is derived from the columns of bodies up to date. Raises KeyError, TypeError, ValueError."""
+    numbers = world._identities("ids", ids)
+    rows = world.rows(numbers)
+    sleep.disturb(world, numbers)
+    refresh_centers(rows, world.bodies)
+    world.pairs.touch(world.shapes["proxy"][np.isin(world.shapes["body_row"], rows)])
+
+
+def set_kind(world: WorldState, identity: int, kind: str) -> None:
+    """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles, and for what walks: the body of a
+    character is kinematic."""
+    world._unlocked()
+    row = world._body_row(identity)
+    if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
+        raise ValueError(f"kind must be 'kinematic' for the body of a character (got {kind!r}, body {identity})")
+    shapes, own_mass = world._shapes_of[identity], world._given.rows["mass"][world._row_number(identity)].item()
+    check_shapes(shapes, KINDS.index(kind), [row["angle"].item()])
+    check_weight(world, shapes, KINDS.index(kind), own_mass)
+    row["kind"] = KINDS.index(kind)
+    if kind == "static":
+        row["vx"] = row["vy"] = row["angular_velocity"] = 0.0
+    if kind != "kinematic":
+        world._targets.pop(identity, None)
+    refresh_mass(world, identity)
+    own = world.shapes["body"] == identity
+    world.pairs.set_still(world.shapes["proxy"][own], kind == "static")
+    world.awake.start_over()
+
+
+def restore(world: WorldState, identity: int) -> None:
+    """Take a quarantined body back into the simulation."""
+    world._unlocked()
+    row = world._body_row(identity)
+    if row["quarantined"]:
+        row["quarantined"], row["awake"] = False, True
+        world.awake.start_over()
+        world.awake.stir([identity])
+        own = np.flatnonzero(world.shapes["body"] == identity)
+        world.pairs.add_proxies(world.shapes, own, np.full(len(own), row["kind"] == STATIC))

@@ -1,1 +1,0 @@
-"""Simple shapes around pixels: arrays in, arrays out."""

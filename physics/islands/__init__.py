@@ -1,0 +1,1 @@
+"""Islands: the graph of bodies and constraints, what is awake, sleep."""

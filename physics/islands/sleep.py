@@ -1,0 +1,634 @@
+"""Sleeping and waking of islands, and the contacts of what sleeps."""
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.islands.awake import is_active, list_active, wakes
+from physics.islands.graph import join, root_of
+from physics.jit import kernel, subkernel
+from physics.math2d import length_of
+from physics.settings import SLEEP_TIME
+from physics.tables.body import DYNAMIC, KINEMATIC
+from physics.tables.contact import ANCHOR, EVENT, MANIFOLD
+from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
+from physics.tables.table import joined, row_of, rows_of
+
+# ---- sleepers --------------------------------------------------------------------------------------------------------
+# What sleeps: islands with the contacts that they keep, and the pairs that touch among what stands.
+
+
+class Island(NamedTuple):
+    """What sleeps together, and what it keeps."""
+
+    bodies: np.ndarray  # ids
+    manifolds: np.ndarray
+    anchors: np.ndarray
+    touching: np.ndarray  # EVENT rows: its pairs that touch
+
+
+class Sleepers:
+    """The sleeping islands of a world, by the lowest id of their bodies; and the pairs that touch among what stands."""
+
+    def __init__(self) -> None:
+        self.islands = {}
+        self.links = {}  # id of a body that is in none of them, or in another -> islands with a manifold that names it
+        self.touching = np.zeros(0, EVENT)  # pairs of which neither side is awake, nor asleep in an island
+        self.sensing = np.zeros(0, EVENT)
+
+    def put(self, key: int, island: Island) -> None:
+        """Keep an island."""
+        self.islands[key] = island
+        self._link(self._named(island), [key])
+
+    def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
+        """Keep many islands; named, owners: ids that manifolds name and that are none of their island's bodies, and the
+        island of each."""
+        self.islands.update(zip(keys, islands, strict=True))
+        for identity, key in set(zip(named, owners, strict=True)):
+            self._link([identity], [key])
+
+    def _link(self, named, keys):
+        for identity in named:
+            self.links.setdefault(identity, set()).update(keys)
+
+    def take(self, key: int) -> Island:
+        """Give an island back."""
+        island = self.islands.pop(key)
+        for identity in self._named(island):
+            keys = self.links[identity]
+            keys.discard(key)
+            if not keys:
+                del self.links[identity]
+        return island
+
+    @staticmethod
+    def _named(island) -> list:
+        """Ids that the manifolds of an island name, and that are none of its bodies."""
+        named = np.union1d(island.manifolds["body_a"], island.manifolds["body_b"])
+        return np.setdiff1d(named, island.bodies).tolist()
+
+    def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """The (manifolds, anchors, touching) of other islands that name a body, taken out of them."""
+        found = []
+        for key in sorted(self.links.get(identity, ())):
+            island = self.take(key)
+            m, t = island.manifolds, island.touching
+            goes = (m["body_a"] == identity) | (m["body_b"] == identity)
+            told = (t["body_a"] == identity) | (t["body_b"] == identity)
+            found.append((m[goes], island.anchors[goes], t[told]))
+            self.put(key, Island(island.bodies, m[~goes], island.anchors[~goes], t[~told]))
+        return found
+
+    def keep_touching(self, rows: np.ndarray, parked: np.ndarray, keys: np.ndarray) -> None:
+        """Give islands that have just been put aside the pairs of theirs that touch, EVENT rows."""
+        place = np.searchsorted(parked["shape_a"] << 32 | parked["shape_b"], rows["shape_a"] << 32 | rows["shape_b"])
+        owners = keys[place]
+        order = np.argsort(owners, kind="stable")
+        names, starts = np.unique(owners[order], return_index=True)
+        for key, part in zip(names.tolist(), np.split(rows[order], starts[1:]), strict=True):
+            self.islands[key] = self.islands[key]._replace(touching=part)
+
+    def naming(self, identity: int, own: int) -> np.ndarray:
+        """MANIFOLD rows that sleep and name a body; own: its island, if it sleeps in one."""
+        parts = [np.zeros(0, MANIFOLD)]
+        for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
+            m = self.islands[key].manifolds
+            parts.append(m[(m["body_a"] == identity) | (m["body_b"] == identity)])
+        return in_order(joined(parts))
+
+    def manifolds(self) -> np.ndarray:
+        """MANIFOLD rows of all islands in the order of shape ids."""
+        return in_order(joined([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
+
+    def keep_told(self, tables: WorldTables) -> None:
+        """Put the pairs aside that touch, or are sensed, and of which neither side is in the step any longer."""
+        self.touching = np.concatenate([self.touching, tables.touching.take_resting(tables.bodies)])
+        self.sensing = np.concatenate([self.sensing, tables.sensing.take_resting(tables.bodies)])
+
+    def return_all(self, tables: WorldTables) -> None:
+        """Bring all pairs that stand aside back into the step."""
+        for name in ("touching", "sensing"):
+            getattr(tables, name).give_back(getattr(self, name))
+            setattr(self, name, np.zeros(0, EVENT))
+
+    def return_told(self, tables: WorldTables, ids: np.ndarray) -> None:
+        """Bring the pairs that name one of these bodies back into the step."""
+        for name in ("touching", "sensing"):
+            kept = getattr(self, name)
+            if len(kept):
+                back = np.isin(kept["body_a"], ids) | np.isin(kept["body_b"], ids)
+                getattr(tables, name).give_back(kept[back])
+                setattr(self, name, kept[~back])
+
+
+def order_of(manifolds: np.ndarray) -> np.ndarray:
+    """The order of shape ids; the manifolds of a pair keep theirs."""
+    return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
+
+
+def in_order(manifolds: np.ndarray) -> np.ndarray:
+    """Manifolds in the order of shape ids."""
+    return manifolds[order_of(manifolds)]
+
+
+# ---- sleep -----------------------------------------------------------------------------------------------------------
+# Sleeping and waking: an island keeps its contacts aside while it sleeps, and comes back with their forces.
+#
+# An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its
+# pairs have not ended. See "rest" below for what falls asleep.
+#
+# These functions take a world, between steps, or the StepState of a step: both have the tables, `manifolds`, `anchors`,
+# `awake`, `sleepers`, `pairs`, `touching` and `sensing`.
+
+
+def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
+    """Wake the islands of bodies by id, and of what touches them: what is moved, changed or taken away; have these
+    bodies looked at in the next step, and the time begin again after which they fall asleep."""
+    awake, sleepers = tables.awake, tables.sleepers
+    if not awake.sleeping:
+        return
+    ids = [int(each) for each in ids]
+    sleepers.return_told(tables, ids)
+    awake.stir(ids)
+    rows = rows_of(tables.bodies, ids)
+    tables.bodies["sleep_time"][rows[rows >= 0]] = 0.0
+    keys = set()
+    for identity, row in zip(ids, rows.tolist(), strict=True):
+        keys |= sleepers.links.get(identity, set())
+        own = int(tables.bodies["island"][row]) if row >= 0 else -1
+        if own in sleepers.islands and row >= 0 and not tables.bodies["awake"][row]:
+            keys.add(own)
+            keys |= _islands_beside(tables, sleepers.islands[own].manifolds, identity)
+    wake(tables, keys)
+
+
+def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
+    """Wake the islands that rest on some shapes, by id, of a body that stands: the rest of it is as it was.
+
+    Returns False, and wakes nothing, where more than its islands may have to be told: then see disturb.
+    """
+    sleepers = tables.sleepers
+    row = rows_of(tables.bodies, [identity])[0]
+    if not tables.awake.sleeping or tables.bodies["active"][row]:
+        return False
+    for kept in (sleepers.touching, sleepers.sensing):
+        if len(kept) and ((kept["body_a"] == identity) | (kept["body_b"] == identity)).any():
+            return False
+    keys, some = [], set(shapes.tolist())
+    for key in sleepers.links.get(identity, ()):
+        named = sleepers.islands[key].manifolds
+        if not (some.isdisjoint(named["shape_a"].tolist()) and some.isdisjoint(named["shape_b"].tolist())):
+            keys.append(key)
+    wake(tables, keys)
+    return True
+
+
+def _islands_beside(tables, manifolds, identity):
+    """Other islands that manifolds with a body lead to."""
+    own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
+    others = np.union1d(own["body_a"], own["body_b"])
+    rows = rows_of(tables.bodies, others)
+    asleep = ~tables.bodies["awake"][rows] & (rows >= 0)
+    return {key for key in tables.bodies["island"][rows[asleep]].tolist() if key in tables.sleepers.islands}
+
+
+def wake_all(tables: WorldTables) -> None:
+    """Wake everything: gravity, or the solver, changed."""
+    wake(tables, list(tables.sleepers.islands))
+
+
+def wake(tables: WorldTables, keys: Iterable[int]) -> None:
+    """Wake islands: their bodies, and the contacts that name these, come back into the step."""
+    sleepers = tables.sleepers
+    keys = [key for key in sorted(keys) if key in sleepers.islands]
+    if not keys:
+        return
+    bodies, parts, told = tables.bodies, [], []
+    woken = [sleepers.take(key) for key in keys]
+    ids = np.concatenate([island.bodies for island in woken])
+    for island in woken:
+        parts.append((island.manifolds, island.anchors))
+        told.append(island.touching)
+    for identity in sorted(set(ids.tolist()) & sleepers.links.keys()):
+        for manifolds, anchors, touching in sleepers.take_naming(identity):
+            parts.append((manifolds, anchors))
+            told.append(touching)
+    rows = rows_of(bodies, ids)
+    rows = rows[rows >= 0]
+    bodies["awake"][rows] = True
+    bodies["sleep_time"][rows] = 0.0
+    bodies["island"][rows] = -1
+    tables.touching.give_back(joined(told))
+    sleepers.return_told(tables, ids)
+    tables.awake.include(tables, rows)
+    _bring_back(tables, joined([m for m, _ in parts]), joined([a for _, a in parts]))
+
+
+def _bring_back(tables, manifolds, anchors):
+    """Add manifolds whose pairs are not known to those of the step, with their rows of today."""
+    found = tables.manifolds
+    known = found["shape_a"] << 32 | found["shape_b"]
+    new = ~np.isin(manifolds["shape_a"] << 32 | manifolds["shape_b"], known)
+    again, anchors = with_rows(tables, manifolds[new], anchors[new])
+    if len(again):
+        again["previous"] = -1
+        both = joined([found, again])
+        order = order_of(both)
+        tables.manifolds, tables.anchors = both[order], joined([tables.anchors, anchors])[order]
+
+
+def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Manifolds and anchors with the rows that bodies and shapes have now; without those whose sides are gone."""
+    there = np.empty(len(manifolds), bool)
+    refresh_rows(tables.bodies, tables.shapes, manifolds, there)
+    return (manifolds, anchors) if there.all() else (manifolds[there], anchors[there])
+
+
+def forget(tables: WorldTables) -> None:
+    """Drop the manifolds of bodies and shapes that are gone; refresh the rows of the others."""
+    if len(tables.manifolds):
+        anchors = tables.anchors if len(tables.anchors) else np.zeros(len(tables.manifolds), ANCHOR)
+        found, kept = with_rows(tables, joined([tables.manifolds]), anchors)
+        tables.manifolds = found
+        tables.anchors = kept if len(tables.anchors) else tables.anchors
+
+
+@kernel
+def refresh_rows(bodies, shapes, manifolds_inout, there_out):
+    """Write the rows that the bodies and shapes of manifolds have, and which manifolds have all of theirs.
+    O(manifolds log shapes)."""
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        m.body_row_a = row_of(bodies, m.body_a)
+        m.body_row_b = row_of(bodies, m.body_b)
+        m.row_a = row_of(shapes, m.shape_a)
+        m.row_b = row_of(shapes, m.shape_b)
+        there_out[i] = min(m.body_row_a, m.body_row_b, m.row_a, m.row_b) >= 0
+
+
+@kernel
+def find_disturbed(
+    # read
+    bodies,
+    manifolds,
+    dt,
+    # write
+    rows_out,
+):
+    """List the sleeping bodies that something on its way, or changed by hand, touches or will within dt [s]. Returns
+    their number. O(manifolds).
+
+    rows_out (2 · manifolds) int64; one may be named twice.
+    """
+    found = 0
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        a = bodies[m.body_row_a]
+        b = bodies[m.body_row_b]
+        if m.sensor or (a.awake and b.awake):
+            continue
+        near = m.separation_1 <= max(0.0, m.speed_1 * dt)
+        if m.count == 2:
+            near = near or m.separation_2 <= max(0.0, m.speed_2 * dt)
+        if not near:
+            continue
+        if wakes(a, b):
+            rows_out[found] = m.body_row_b
+            found += 1
+        if wakes(b, a):
+            rows_out[found] = m.body_row_a
+            found += 1
+    return found
+
+
+@kernel
+def find_run_over(
+    # read
+    bodies,
+    shapes,
+    pairs,
+    dt,
+    # write
+    rows_out,
+):
+    """List the sleeping bodies that a kinematic one may jump over within dt [s]. Returns their number. O(pairs).
+
+    pairs (n, 2) int64: shape rows whose motion rectangles meet; rows_out (n,) int64; one may be named twice.
+    """
+    found = 0
+    for i in range(len(pairs)):
+        for side in range(2):
+            k = shapes[pairs[i, side]].body_row
+            b = bodies[k]
+            row = shapes[pairs[i, 1 - side]].body_row
+            if b.kind != KINEMATIC or not b.active or bodies[row].kind != DYNAMIC or bodies[row].awake:
+                continue
+            if dt * (length_of(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.thin_half:
+                rows_out[found] = row
+                found += 1
+    return found
+
+
+@stage(
+    "wake",
+    reads=("bodies", "shapes", "manifolds", "anchors", "awake", "sleepers", "pairs", "touching", "sensing", "dt"),
+    writes=(
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+        "pairs",
+        "touching",
+        "sensing",
+        "bodies.awake",
+        "bodies.active",
+        "bodies.sleep_time",
+        "bodies.island",
+    ),
+)
+def wake_disturbed(state: StepState) -> None:
+    """Wake the islands that something touches, or on which something that stood has begun to move."""
+    sleepers, bodies = state.sleepers, state.bodies
+    if not sleepers.islands:
+        return
+    keys = set()
+    rows = state.awake.bodies
+    fixed = rows[bodies["kind"][rows] != DYNAMIC]
+    if len(fixed) and sleepers.links:
+        moving = np.empty(len(fixed), np.int64)
+        moving = moving[: list_active(bodies, fixed, moving)]
+        for identity in bodies["id"][moving].tolist():
+            keys |= sleepers.links.get(identity, set())
+    near = np.empty(2 * len(state.manifolds), np.int64)
+    near = near[: find_disturbed(bodies, state.manifolds, state.dt, near)]
+    keys |= set(bodies["island"][near].tolist())
+    if len(fixed):
+        pairs = state.pairs.rows
+        near = np.empty(len(pairs), np.int64)
+        near = near[: find_run_over(bodies, state.shapes, pairs, state.dt, near)]
+        keys |= set(bodies["island"][near].tolist())
+    wake(state, keys)
+
+
+# ---- rest ------------------------------------------------------------------------------------------------------------
+# Falling asleep: which islands have got nowhere for long enough, and what is put aside with them.
+#
+# What counts is how far a body got, not how fast it is: in a heap of ragged things some tremble, and get nowhere.
+# Source: Jolt Physics, Body::UpdateSleepStateInternal, which asks whether three points of a body stay within spheres;
+# here it is the way of the furthest point from where the clock began. Speed and time: Box2D v3.2, solver.c.
+
+COUNTED = 2.0**62  # times that patience may have passed: more are no whole number of a kernel
+
+
+@kernel
+def list_edges(
+    # read
+    bodies,
+    manifolds,
+    anchors,
+    # write
+    edges_out,
+):
+    """List the rows (a, b) of awake dynamic bodies that touch. edges_out (manifolds, 2) int32. Returns their number.
+    O(manifolds)."""
+    found = 0
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        a = bodies[m.body_row_a]
+        b = bodies[m.body_row_b]
+        if m.sensor or a.kind != DYNAMIC or b.kind != DYNAMIC or not (a.awake and b.awake):
+            continue
+        touches = m.separation_1 <= 0.0 or anchors[i].normal_force_1 > 0.0
+        if m.count == 2:
+            touches = touches or m.separation_2 <= 0.0 or anchors[i].normal_force_2 > 0.0
+        if touches:
+            edges_out[found, 0] = m.body_row_a
+            edges_out[found, 1] = m.body_row_b
+            found += 1
+    return found
+
+
+@subkernel
+def is_pressed(manifold):
+    """Whether two sides touch or push each other: near ones have not met yet."""
+    m = manifold
+    if m.separation_1 <= 0.0 or m.normal_impulse_1 > 0.0:
+        return True
+    return m.count == 2 and (m.separation_2 <= 0.0 or m.normal_impulse_2 > 0.0)
+
+
+@kernel
+def start_islands(rows, parents_out):
+    """Each of the rows an island of its own. O(rows)."""
+    for k in range(len(rows)):
+        parents_out[rows[k]] = rows[k]
+
+
+@kernel
+def fall_asleep(
+    # read
+    rows,
+    manifolds,
+    anchors,
+    dt,
+    slow,
+    patience,
+    conveyor,
+    # write
+    parents_inout,
+    least_out,
+    excess_out,
+    bodies_inout,
+):
+    """Put the islands to sleep of which nobody got further for `patience` [s] than with the speed `slow` [px/s], and
+    which as a whole are slower now. Returns (islands of dynamic bodies that were awake, bodies that fell asleep).
+
+    So few may tremble, and what has only just begun to fall, or was shoved, stays awake. What touches a kinematic body
+    on its way does too, and so does what is on a surface that runs, with conveyor 1, however slowly. rows: the awake
+    ones; parents_inout: see graph.join; least_out, excess_out (bodies): scratch. O(rows + manifolds).
+    """
+    distance = slow * patience
+    islands = 0
+    for k in range(len(rows)):
+        i = rows[k]
+        b = bodies_inout[i]
+        least_out[i] = math.inf
+        excess_out[i] = 0.0
+        parents_inout[i] = root_of(i, parents_inout)
+        if b.kind == DYNAMIC and b.awake and parents_inout[i] == i:
+            islands += 1
+        if b.kind != DYNAMIC or not b.awake or b.quarantined:
+            continue
+        before = b.sleep_time
+        far = length_of(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
+        b.sleep_time = 0.0 if far else before + dt
+        # What creeps along, slower than this, stays near a pose that follows it.
+        times = b.sleep_time / patience
+        if far or (abs(times) < COUNTED and math.floor(times) > math.floor(before / patience)):
+            b.still_x = b.x
+            b.still_y = b.y
+            b.still_angle = b.angle
+        b.island = bodies_inout[parents_inout[i]].id
+    for i in range(len(manifolds)):
+        m = manifolds[i]
+        a = bodies_inout[m.body_row_a]
+        b = bodies_inout[m.body_row_b]
+        if m.sensor:
+            continue
+        if a.kind != DYNAMIC and is_active(a):
+            b.sleep_time = 0.0
+        if b.kind != DYNAMIC and is_active(b):
+            a.sleep_time = 0.0
+        if conveyor == 1 and anchors[i].surface_speed != 0.0 and is_pressed(m):
+            a.sleep_time = 0.0
+            b.sleep_time = 0.0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        root = parents_inout[rows[k]]
+        if b.kind == DYNAMIC and b.awake and not b.quarantined:
+            least_out[root] = min(least_out[root], b.sleep_time)
+            speed = length_of(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
+            excess_out[root] += speed * speed - slow * slow
+    slept = 0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        root = parents_inout[rows[k]]
+        calm = least_out[root] >= patience and excess_out[root] <= 0.0
+        if b.kind == DYNAMIC and b.awake and not b.quarantined and calm:
+            b.awake = False
+            b.vx = 0.0
+            b.vy = 0.0
+            b.angular_velocity = 0.0
+            b.previous_x = b.x  # or it would seem to have been moved, and wake
+            b.previous_y = b.y
+            b.previous_angle = b.angle
+            slept += 1
+    return islands, slept
+
+
+class IslandWorkspace:
+    """Scratch for the search for islands."""
+
+    def __init__(self) -> None:
+        self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)
+        self.edges = np.zeros((16, 2), np.int32)
+
+    def grow(self, bodies: int, manifolds: int) -> None:
+        """Make room; nothing is kept."""
+        if len(self.parents) < bodies:
+            self.parents = np.zeros(2 * bodies, np.int32)
+            self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
+        if len(self.edges) < manifolds:
+            self.edges = np.zeros((2 * manifolds, 2), np.int32)
+
+
+@stage(
+    "islands",
+    reads=(
+        "effects",
+        "bodies",
+        "shapes",
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+        "pairs",
+        "tolerances",
+        "dt",
+        "workspace",
+    ),
+    writes=(
+        "manifolds",
+        "anchors",
+        "awake",
+        "sleepers",
+        "pairs",
+        "parked",
+        "work",
+        "workspace",
+        "bodies.awake",
+        "bodies.active",
+        "bodies.island",
+        "bodies.still_x",
+        "bodies.still_y",
+        "bodies.still_angle",
+        "bodies.sleep_time",
+        "bodies.vx",
+        "bodies.vy",
+        "bodies.angular_velocity",
+        "bodies.previous_x",
+        "bodies.previous_y",
+        "bodies.previous_angle",
+    ),
+)
+def rest(state: StepState) -> None:
+    """Let islands fall asleep that have been slow for long enough; their contacts go with them."""
+    awake, bodies, manifolds, search = state.awake, state.bodies, state.manifolds, state.workspace.islands
+    if not len(awake.dynamic):
+        return
+    rows = awake.bodies
+    search.grow(len(bodies), len(manifolds))
+    start_islands(rows, search.parents)
+    join(search.edges, list_edges(bodies, manifolds, state.anchors, search.edges), search.parents)
+    state.work[ISLANDS], slept = fall_asleep(
+        rows,
+        manifolds,
+        state.anchors,
+        state.dt,
+        state.tolerances.sleep_speed,
+        SLEEP_TIME,
+        int(state.effects.conveyor),
+        search.parents,
+        search.least,
+        search.excess,
+        bodies,
+    )
+    if not slept:
+        return
+    slept = awake.dynamic[~bodies["awake"][awake.dynamic]]
+    awake.exclude(state, slept)
+    state.parked = _park(state, slept)
+
+
+def _park(state, slept):
+    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the
+    manifolds that went with them, in order, and the island of each."""
+    bodies, m, anchors = state.bodies, state.manifolds, state.anchors
+    still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
+    still &= (bodies["kind"][m["body_row_b"]] != DYNAMIC) | ~bodies["awake"][m["body_row_b"]]
+    new = np.isin(m["body_row_a"], slept)
+    parking = still & ~m["sensor"] & (new | np.isin(m["body_row_b"], slept))
+    slop = state.tolerances.slop
+    touching = (m["separation_1"] <= slop) | (m["normal_impulse_1"] > 0.0)
+    touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
+    kept = parking & touching
+    parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
+    parked["again"] = False  # the other side may be carried elsewhere meanwhile
+    # What is not dynamic is in no island, whatever it was in before it changed its kind.
+    sides = [
+        np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)
+        for side in ("body_row_a", "body_row_b")
+    ]
+    keys = np.where(new, *sides)
+    # By island: its bodies, and its manifolds in their order.
+    islands = bodies["island"][slept]
+    by_island, by_key = np.argsort(islands, kind="stable"), np.argsort(keys, kind="stable")
+    names, starts = np.unique(islands[by_island], return_index=True)
+    members = np.split(bodies["id"][slept][by_island], starts[1:])
+    own, own_anchors = parked[by_key], parked_anchors[by_key]
+    cuts = np.searchsorted(keys[by_key], names)
+    ends = [*cuts[1:].tolist(), len(own)]
+    untold = np.zeros(0, EVENT)
+    put_aside = [
+        Island(ids, own[start:end], own_anchors[start:end], untold)
+        for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
+    ]
+    foreign = [(sides[k] != keys, parked[name]) for k, name in enumerate(("body_a", "body_b"))]
+    named = np.concatenate([ids[outside] for outside, ids in foreign]).tolist()
+    owners = np.concatenate([keys[outside] for outside, _ in foreign]).tolist()
+    state.sleepers.put_many(names.tolist(), put_aside, named, owners)
+    state.manifolds, state.anchors = m[~parking], anchors[~parking]
+    return parked, keys

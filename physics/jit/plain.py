@@ -1,0 +1,233 @@
+"""Kernels without the compiler: views of tables, 64-bit words, and plain twins. Imports numba only on demand."""
+
+import math
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib.util import find_spec
+from types import CellType, CodeType, FunctionType, SimpleNamespace
+from typing import Any
+from weakref import ref
+
+import numpy as np
+
+# ---- compiler --------------------------------------------------------------------------------------------------------
+# The compiler: whether there is one, and the only place that imports it.
+
+# Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
+if os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0"):
+    os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
+    JIT = find_spec("numba") is not None
+else:
+    JIT = False
+
+_found: list[Any] = []  # numba, or None where it cannot be imported
+
+
+def compiler() -> Any:
+    """Return numba, imported at the first call; None where it cannot be imported, which is reported once."""
+    if not _found:
+        try:
+            import numba
+
+            _found.append(numba)
+        except ImportError as error:
+            warnings.warn(f"numba cannot be imported ({error}): kernels run as Python, slower", stacklevel=2)
+            _found.append(None)
+    return _found[0]
+
+
+# ---- views -----------------------------------------------------------------------------------------------------------
+# Arrays and tables as kernels see them that are not compiled.
+#
+# Structured arrays are handed over as arrays of C structures in the same memory, other arrays as memoryviews: both
+# return Python numbers. Measured: 46 ns to read a number of a row, where rows written in Python took 146, and NumPy's
+# own take more: plain steps of the platformer and the lander take three quarters of the time.
+
+_kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, and its view
+
+
+class TableView:
+    """A structured array as a sequence of rows; `view[i].x = 1.0` writes the array. Raises TypeError where C has no
+    such row."""
+
+    __slots__ = ("rows",)
+
+    def __init__(self, array: np.ndarray) -> None:
+        self.rows = (_row_class(array.dtype) * len(array)).from_buffer(array.view(np.uint8))
+
+    def __getitem__(self, index):
+        rows = self.rows
+        if not 0 <= index < len(rows):
+            raise IndexError(f"row {index} of a table of {len(rows)}")
+        return rows[index]
+
+    def __len__(self):
+        return len(self.rows)
+
+
+def _table_view(array):
+    """Return the view of a table, as long as the table lives the same one: most are called with again. Measured: a
+    tenth of a plain step of the three games."""
+    place = id(array)
+    kept = _kept.get(place)
+    if kept is not None and kept[0]() is array:
+        return kept[1]
+    view = TableView(array)
+    if type(array.base) is np.ndarray:  # that is what the view holds on to: the array itself can go
+        _kept[place] = ref(array, lambda gone: _forget(place, gone)), view
+    return view
+
+
+def _forget(place, gone):
+    if place in _kept and _kept[place][0] is gone:
+        del _kept[place]
+
+
+@cache
+def _row_class(dtype):
+    if any(dtype[name].base.kind not in "biuf" for name in dtype.names):
+        raise TypeError(f"a kernel's table must have columns of numbers only (got {dtype})")
+    return np.ctypeslib.as_ctypes_type(dtype)
+
+
+def view_of(argument: Any) -> Any:
+    """What a kernel gets for an argument: rows of a table, a memoryview of an array, Python's own numbers."""
+    kind = type(argument)
+    if kind is float or kind is int or kind is bool:
+        return argument
+    if kind is np.ndarray:
+        return memoryview(argument) if argument.dtype.names is None else _table_view(argument)
+    if isinstance(argument, tuple):
+        views = [view_of(each) for each in argument]
+        return kind(*views) if hasattr(argument, "_fields") else tuple(views)
+    if isinstance(argument, np.generic):
+        return argument.item()
+    return argument
+
+
+# ---- words -----------------------------------------------------------------------------------------------------------
+# Words of 64 bits in kernels: the count of their bits, and values as words, compiled and plain.
+
+WORD_MASK = 0xFFFFFFFFFFFFFFFF
+
+
+class Builtin:
+    """A function that kernels call and that has a form of its own for the compiler.
+
+    plain: the Python function; make: returns the function as numba knows it; sources: functions it is made of.
+    """
+
+    def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
+        self.plain, self.make, self.sources = plain, make, sources
+        self.made: Any = None
+
+    def __call__(self, value):
+        return self.plain(value)
+
+    @property
+    def compiled(self) -> Any:
+        """The function as numba knows it, made at the first use."""
+        if self.made is None:
+            self.made = self.make()
+        return self.made
+
+
+def _bits_of(word):
+    return word.bit_count()
+
+
+def _masked(value):
+    return value & WORD_MASK
+
+
+def _count_bits(typing_context, word):
+    """Type and generate the number of set bits of a uint64 (numba.extending.intrinsic)."""
+
+    def generate(context, builder, signature, args):
+        narrow = signature.args[0].bitwidth < 64
+        count = builder.ctpop(args[0])
+        return builder.zext(count, context.get_value_type(signature.return_type)) if narrow else count
+
+    numba = compiler()
+    return numba.types.int64(numba.types.uint64), generate
+
+
+def _as_word(value):
+    """Return the value as an unsigned 64-bit word."""
+    return np.uint64(value)
+
+
+def _total(function):
+    """Return a function of one number that gives NaN where math's raises: at infinity, as the compiled one does."""
+
+    def total(x):
+        return function(x) if abs(x) < math.inf else math.nan
+
+    return total
+
+
+# What plain twins find under the name math.
+plain_math = SimpleNamespace(**{**vars(math), "cos": _total(math.cos), "sin": _total(math.sin)})
+
+
+def _make_popcount():
+    from numba.extending import intrinsic
+
+    return intrinsic(_count_bits)
+
+
+def put_in(function: Callable) -> Callable[[], Any]:
+    """Return what makes the function as numba puts it in wherever it is called."""
+    return lambda: compiler().njit(inline="always")(function)
+
+
+popcount: Any = Builtin(_bits_of, _make_popcount, _count_bits) if JIT else _bits_of
+word: Any = Builtin(_masked, put_in(_as_word), _as_word) if JIT else _masked
+
+
+# ---- twins -----------------------------------------------------------------------------------------------------------
+# Copies of a function that call other forms of the kernels which it names: plain twins, and copies for the compiler.
+#
+# A kernel's source names Kernel objects. Its plain twin names the plain twins of these, so that nothing inside a plain
+# kernel goes through a dispatcher; the copy for numba names numba's dispatchers.
+
+Replace = Callable[[Any], Any]
+
+
+def names_in(code: CodeType) -> tuple[str, ...]:
+    """Return the names that code reads from its globals or as attributes, those of nested code too."""
+    names = set(code.co_names)
+    for each in code.co_consts:
+        if isinstance(each, CodeType):
+            names.update(names_in(each))
+    return tuple(sorted(names))
+
+
+def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
+    """Yield (name, value) of the module globals that a function may read, in the order of their names."""
+    for name in names_in(function.__code__):
+        if name in function.__globals__:
+            yield name, function.__globals__[name]
+
+
+def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
+    """Return a copy of a function in which every global and closed-over value is what replace() gives for it.
+
+    made(copy) is called before anything is replaced, so that a function that names itself can find its own copy.
+    """
+    names = {"__builtins__": __builtins__, "__name__": function.__module__}
+    cells = tuple(CellType() for _ in function.__closure__ or ())
+    twin = FunctionType(function.__code__, names, function.__name__, function.__defaults__, cells)
+    twin.__qualname__, twin.__doc__, twin.__kwdefaults__ = (
+        function.__qualname__,
+        function.__doc__,
+        function.__kwdefaults__,
+    )
+    made(twin)
+    for name, value in globals_of(function):
+        names[name] = replace(value)
+    for cell, original in zip(cells, function.__closure__ or (), strict=True):
+        cell.cell_contents = replace(original.cell_contents)
+    return twin

@@ -1,0 +1,1 @@
+"""Outlines around pixels: contours, simple shapes, convex decomposition."""

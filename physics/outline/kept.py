@@ -1,0 +1,117 @@
+"""Outlines of masks that were fitted before: convex parts by the pixels, the settings and the code they follow from.
+
+A game ships them beside its art (`use`), so that a start without compiled kernels does not fit them again. What is not
+there is fitted as ever; what other code or other pixels made has another key.
+"""
+
+import hashlib
+import zipfile
+import zlib
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+DIGEST = 16  # bytes of a key
+FOLDERS = ("outline", "raster")  # of this package: their code, math2d.py and settings.py decide what is fitted
+
+
+class Parts(NamedTuple):
+    """Convex polygons, one after another."""
+
+    corners: np.ndarray  # (n, 2) float64 [px]
+    inner: np.ndarray  # (n,) bool
+    counts: np.ndarray  # (k,) int64: corners of each polygon
+    radii: np.ndarray  # (k,) float64 [px]
+
+
+_files: list[Path] = []
+_kept: dict[bytes, Parts] = {}
+recorded: dict[bytes, Parts] | None = None  # what was asked for, while that is noted
+
+
+def use(path: Path) -> None:
+    """Take what a file of `write` holds from the first mask on; a file that is missing or damaged holds nothing."""
+    _files.append(path)
+
+
+def forget() -> None:
+    """Take nothing from any file any more, until the next `use`."""
+    _files.clear()
+    _kept.clear()
+
+
+def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
+    """Return the kept parts of these pixels, or what fit() returns.
+
+    name: of the method; pixels[row, col] bool; smooth [px]: as in fitting.outline.
+    """
+    key = _key(name, pixels, smooth)
+    while _files:
+        _kept.update(_read(_files.pop()))
+    found = _kept.get(key)
+    if found is None:
+        found = fit()
+    if recorded is not None:
+        recorded[key] = found
+    return found
+
+
+def _key(name, pixels, smooth):
+    digest = hashlib.blake2b(f"{name} {pixels.shape} {smooth!r} ".encode() + code_stamp(), digest_size=DIGEST)
+    digest.update(np.packbits(pixels).tobytes())
+    return digest.digest()
+
+
+@cache
+def code_stamp() -> bytes:
+    """Return a hash of the sources that the parts follow from."""
+    digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
+    paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
+    for path in sorted((home / "settings.py", home / "math2d.py", *paths)):
+        digest.update(path.name.encode() + path.read_bytes())
+    return digest.digest()
+
+
+def write(path: Path, found: Mapping[bytes, Parts]) -> None:
+    """Keep parts in a file: the same bytes for the same parts."""
+    order = sorted(found)
+    np.savez_compressed(
+        path,
+        keys=np.frombuffer(b"".join(order), np.uint8).reshape(-1, DIGEST),
+        parts=np.array([len(found[key].counts) for key in order], np.int64),
+        counts=_joined([found[key].counts for key in order], np.int64),
+        radii=_joined([found[key].radii for key in order], np.float64),
+        corners=_joined([found[key].corners for key in order], np.float64).reshape(-1, 2),
+        inner=_joined([found[key].inner for key in order], np.bool_),
+    )
+
+
+def _joined(arrays, dtype):
+    return np.concatenate([np.zeros((0, *arrays[0].shape[1:]), dtype), *arrays]) if arrays else np.zeros(0, dtype)
+
+
+def _read(path):
+    """Return what a file holds; {} where it cannot be read, is damaged or of another form."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            held = {name: file[name] for name in ("keys", "parts", "counts", "radii", "corners", "inner")}
+        return _split(**held)
+    except (OSError, ValueError, KeyError, IndexError, EOFError, zipfile.BadZipFile, zlib.error):
+        return {}
+
+
+def _split(keys, parts, counts, radii, corners, inner):
+    if not (len(keys) == len(parts) and parts.sum() == len(counts) == len(radii)):
+        raise ValueError("the numbers of parts do not agree")
+    if not (counts.sum() == len(corners) == len(inner) and (counts > 0).all() and (parts >= 0).all()):
+        raise ValueError("the numbers of corners do not agree")
+    found, part, corner = {}, 0, 0
+    for key, count in zip(keys, parts.tolist(), strict=True):
+        own = slice(part, part + count)
+        end = corner + int(counts[own].sum())
+        found[key.tobytes()] = Parts(corners[corner:end], inner[corner:end], counts[own], radii[own])
+        part, corner = part + count, end
+    return found

@@ -1,0 +1,141 @@
+"""The convex parts of a mask's outline, with known inner sides."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.outline.contour import pieces_of, smoothed_piece
+from physics.outline.kept import Parts, fitted
+from physics.outline.rings import SIDE, bridge, close_ring, cut_large, cut_reflex, merge, put_side
+from physics.outline.rounding import rounded_core
+from physics.outline.tiled import put_parts
+from physics.settings import MAX_CORNERS
+
+# ---- few parts -------------------------------------------------------------------------------------------------------
+# A polygon in few convex parts, at once: for the outlines of masks, which are made while a game runs.
+#
+# fitting.convex_parts finds the fewest parts in milliseconds; this takes a hundredth of the time by kernels, for about
+# as many (fitting.few_cuts).
+
+
+def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Parts as fitting.convex_parts.partition has them: (corners (k, 2) clockwise on the screen, inner (k,)).
+
+    rings: known to be simple, of coordinates whose products are exact; the outer one (n, 2) [px] clockwise on the
+    screen, holes the other way.
+    """
+    points = np.concatenate(rings)
+    counts = np.array([len(ring) for ring in rings])
+    room = 5 * len(points) + 4 * len(rings)  # each corner is cut off once or twice, each hole bridged
+    sides = np.zeros(room, SIDE)
+    corners, inner, found = np.empty((room, 2)), np.empty(room, bool), np.empty(room, np.int64)
+    parts = cut_rings(points, counts, MAX_CORNERS, sides, corners, inner, found)
+    if parts < 0:
+        raise RuntimeError("the outline of a mask is no polygon: a defect of fitting.outline")
+    ends = np.cumsum(found[:parts])
+    return [
+        (corners[last - count : last].copy(), inner[last - count : last].copy())
+        for last, count in zip(ends.tolist(), found[:parts].tolist(), strict=True)
+    ]
+
+
+@subkernel
+def join_touching(n, sides_inout):
+    """Make one of rings that touch in a corner: there each goes on along the other one, so that the corner between
+    them is the inside's. O(sides squared)."""
+    for a in range(n):
+        p = sides_inout[a]
+        for b in range(a + 1, n):
+            q = sides_inout[b]
+            if p.x == q.x and p.y == q.y and p.apart != q.apart and p.alive and q.alive:
+                before = p.previous
+                sides_inout[before].next = b
+                sides_inout[q.previous].next = a
+                p.previous = q.previous
+                q.previous = before
+                apart = min(p.apart, q.apart)
+                p.apart = apart
+                k = p.next
+                while k != a:
+                    sides_inout[k].apart = apart
+                    k = sides_inout[k].next
+
+
+@kernel
+def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
+    """The convex parts of rings: points (n, 2) [px], counts (rings,), most corners of a part; sides_inout: SIDE, room
+    to work in; corners (n, 2), inner (n,), counts (parts,). Returns how many; -1: they are of no polygon."""
+    n = 0
+    start = 0
+    for ring in range(len(counts)):
+        first = n
+        for k in range(start, start + counts[ring]):
+            n = put_side(n, first, points[k, 0], points[k, 1], False, sides_inout)
+        start += counts[ring]
+        n = close_ring(n, first, sides_inout)
+        for k in range(first, n):
+            sides_inout[k].apart = ring
+    if len(counts) > 1:
+        join_touching(n, sides_inout)
+    n = bridge(n, sides_inout)
+    if n < 0:
+        return -1
+    n = cut_reflex(n, sides_inout)
+    if n < 0:
+        return -1
+    n = cut_large(n, most, sides_inout)
+    merge(n, most, sides_inout)
+    return put_parts(n, 0, sides_inout, corners_out, inner_out, counts_out)
+
+
+# ---- mask parts ------------------------------------------------------------------------------------------------------
+# What a mask's outline is made of: rounded convex parts with known inner sides.
+
+
+class Part(NamedTuple):
+    """A convex polygon in raster pixels, grown by a radius."""
+
+    corners: np.ndarray  # (k, 2) float64: 1 to 16, clockwise on the screen; 1: a disc, 2: a capsule
+    inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part, no boundary
+    radius: float  # [px]
+
+
+def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
+    """Convex parts of the outline of solid[row, col] bool; none of no pixels.
+
+    Each piece in turn: its rounded core if it is round (fitting.rounding), else the convex parts of its outline with
+    radius 0 (fitting.few_parts), each from its topmost, then leftmost corner on. smooth [px] as in fitting.outline,
+    whose contract holds for the parts together. A full rectangle is one part: its four corners from the upper left on.
+    """
+    parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
+    ends = np.cumsum(parts.counts)[:-1]
+    corners, inner = np.split(parts.corners, ends), np.split(parts.inner, ends)
+    if not len(parts.counts):
+        return []
+    return [Part(*each) for each in zip(corners, inner, parts.radii.tolist(), strict=True)]
+
+
+def _joined(parts):
+    if not parts:
+        return Parts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64), np.zeros(0))
+    return Parts(
+        np.concatenate([each.corners for each in parts]),
+        np.concatenate([each.inner for each in parts]),
+        np.array([len(each.corners) for each in parts], np.int64),
+        np.array([each.radius for each in parts], float),
+    )
+
+
+def _fit(solid, smooth):
+    found = []
+    for piece in pieces_of(solid, smooth):
+        outer, holes = smoothed_piece(piece, smooth)
+        round_one = None if holes else rounded_core(outer, piece.outer, smooth)
+        if round_one is not None:
+            core, radius = round_one
+            found.append(Part(core, np.zeros(len(core), bool), radius))
+        else:
+            found += [Part(corners, inner, 0.0) for corners, inner in few_parts([outer, *holes])]
+    return found

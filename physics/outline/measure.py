@@ -1,0 +1,513 @@
+"""How well hulls stand for pixels: the union of rounded hulls, its area and moments, and the Hausdorff distance."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.outline.contour import contours
+
+# ---- union -----------------------------------------------------------------------------------------------------------
+# The boundary of the union of rounded convex hulls: lines and arcs, exactly, however the hulls overlap.
+#
+# Each hull's own boundary is cut wherever something of another hull's may begin or end on it; then of every stretch its
+# middle tells whether it is on the boundary of all: not inside another hull, not along one that lies on the other side,
+# and of stretches that lie on each other, the first hull's only.
+
+ROUNDING = 1e-9  # of the hulls' size: nearer than this to a boundary is on it
+
+Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a disc, 2: a capsule; and radius [px]
+
+
+class Stretch(NamedTuple):
+    """A line, or an arc that is walked clockwise on the screen, the inside to the right."""
+
+    start: np.ndarray  # (2,) [px]
+    end: np.ndarray  # (2,)
+    center: np.ndarray  # (2,) of an arc
+    radius: float  # 0: a line
+    first: float  # [rad] angle at which the arc starts
+    turn: float  # [rad] > 0
+
+    def at(self, shares: np.ndarray) -> np.ndarray:
+        """Points (m, 2) at shares (m,) of the way."""
+        if self.radius == 0.0:
+            return self.start + shares[:, None] * (self.end - self.start)
+        angles = self.first + shares * self.turn
+        return self.center + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+    def between(self, a: float, b: float) -> "Stretch":
+        """From one share of the way to another."""
+        start, end = self.at(np.array([a, b]))
+        return Stretch(start, end, self.center, self.radius, self.first + a * self.turn, (b - a) * self.turn)
+
+    @property
+    def length(self) -> float:
+        return self.radius * self.turn if self.radius > 0.0 else math.hypot(*(self.end - self.start))
+
+
+def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
+    """The stretches of the boundary of a union of hulls, the inside to the right of each; [] of no hulls.
+
+    Where hulls share a side it is none of it. O(sides squared) at worst; only those with common bounds are compared.
+    """
+    if not hulls:
+        return []
+    low = np.array([corners.min(axis=0) - radius for corners, radius in hulls])
+    high = np.array([corners.max(axis=0) + radius for corners, radius in hulls])
+    near = ROUNDING * float((high.max(axis=0) - low.min(axis=0)).max())
+    around = [_around(corners, radius) for corners, radius in hulls]
+    found = []
+    for k in range(len(hulls)):
+        meet = ((low <= high[k] + near) & (high >= low[k] - near)).all(axis=1)
+        others = [i for i in np.flatnonzero(meet).tolist() if i != k]
+        sides = [side for i in others for side in around[i]]
+        for side in around[k]:
+            shares = _cuts(side, sides, near)
+            for a, b in zip(shares[:-1], shares[1:], strict=True):
+                stretch = side.between(a, b)
+                if stretch.length > near and not any(_covered(stretch, hulls[i], i < k, near) for i in others):
+                    found.append(stretch)
+    return found
+
+
+def line(start: np.ndarray, end: np.ndarray) -> Stretch:
+    """A straight stretch between two points."""
+    return Stretch(np.asarray(start, float), np.asarray(end, float), np.zeros(2), 0.0, 0.0, 0.0)
+
+
+def _around(corners, radius):
+    """A hull's own boundary: its sides moved outward, and arcs of a quarter turn at most about its corners."""
+    if len(corners) == 1:
+        bounds = [(k * math.pi / 2.0, math.pi / 2.0) for k in range(4)]
+        return [_arc(corners[0], radius, first, turn) for first, turn in bounds]
+    sides = np.roll(corners, -1, axis=0) - corners
+    normals = np.stack([sides[:, 1], -sides[:, 0]], axis=1) / np.hypot(*sides.T)[:, None]
+    found = []
+    for k, normal in enumerate(normals):
+        start, end = corners[k] + radius * normal, corners[(k + 1) % len(corners)] + radius * normal
+        found.append(line(start, end))
+        if radius > 0.0:
+            after = normals[(k + 1) % len(corners)]
+            first, last = math.atan2(normal[1], normal[0]), math.atan2(after[1], after[0])
+            turn = (last - first) % math.tau
+            count = max(1, math.ceil(turn / (math.pi / 2.0) - 1e-9))
+            for i in range(count):
+                found.append(_arc(corners[(k + 1) % len(corners)], radius, first + i * turn / count, turn / count))
+    return [each for each in found if each.length > 0.0]
+
+
+def _arc(center, radius, first, turn):
+    ends = np.array([first, first + turn])
+    start, end = center + radius * np.stack([np.cos(ends), np.sin(ends)], axis=1)
+    return Stretch(start, end, np.asarray(center, float), radius, first, turn)
+
+
+def _cuts(side, others, near):
+    """Shares of the way, from 0 to 1, between which nothing of the others begins, ends or crosses."""
+    shares = [0.0, 1.0]
+    for other in others:
+        points = [other.start, other.end]
+        if side.radius == 0.0:
+            points += _line_meets(side, other)
+        else:
+            points += _arc_meets(side, other)
+        shares += [_share(side, point, near) for point in points]
+    kept = sorted(each for each in shares if 0.0 <= each <= 1.0)
+    return [a for k, a in enumerate(kept) if k == 0 or a > kept[k - 1]]
+
+
+def _share(side, point, near):
+    """How far along the way a point of it is; less than 0: it is not on it."""
+    if side.radius == 0.0:
+        along = side.end - side.start
+        share = float((point - side.start) @ along / (along @ along))
+        off = abs(along[0] * (point - side.start)[1] - along[1] * (point - side.start)[0]) / math.hypot(*along)
+    else:
+        x, y = (point - side.center).tolist()
+        share = (math.atan2(y, x) - side.first) % math.tau / side.turn
+        off = abs(math.hypot(x, y) - side.radius)
+    return share if off <= near else -1.0
+
+
+def _line_meets(side, other):
+    """Points where the line of a straight side meets another stretch's line or circle."""
+    along = side.end - side.start
+    if other.radius > 0.0:
+        return _on_circle(side.start, along, other.center, other.radius)
+    way = other.end - other.start
+    cross = along[0] * way[1] - along[1] * way[0]
+    if cross == 0.0:
+        return []
+    to = other.start - side.start
+    return [side.start + (to[0] * way[1] - to[1] * way[0]) / cross * along]
+
+
+def _arc_meets(side, other):
+    """Points where the circle of an arc meets another stretch's line or circle."""
+    if other.radius == 0.0:
+        return _on_circle(other.start, other.end - other.start, side.center, side.radius)
+    apart = other.center - side.center
+    distance = math.hypot(*apart)
+    if distance == 0.0:
+        return []
+    # The line through both meeting points stands square on the line of the centres.
+    ahead = (distance * distance + side.radius * side.radius - other.radius * other.radius) / (2.0 * distance)
+    foot = side.center + ahead / distance * apart
+    return _on_circle(foot, np.array([-apart[1], apart[0]]), side.center, side.radius)
+
+
+def _on_circle(start, along, center, radius):
+    """Where an endless line meets a circle; the nearest point twice where it only touches, or does not reach."""
+    length = math.hypot(*along)
+    along = along / length
+    ahead = float((center - start) @ along)
+    foot = start + ahead * along
+    half = math.sqrt(max(radius * radius - float((center - foot) @ (center - foot)), 0.0))
+    return [foot - half * along, foot + half * along]
+
+
+def _covered(stretch, hull, earlier, near):
+    """Whether a hull takes a stretch off the boundary: that lies in it, against it, or on an earlier one's."""
+    point = stretch.at(np.array([0.5]))[0]
+    gap, normal = gap_and_normal(hull, point)
+    if abs(gap) > near:
+        return gap < 0.0
+    if stretch.radius > 0.0:
+        outward = (point - stretch.center) / stretch.radius
+    else:
+        along = stretch.end - stretch.start
+        outward = np.array([along[1], -along[0]]) / math.hypot(*along)
+    return bool(outward @ normal < 0.0) or earlier
+
+
+def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
+    """How far a point lies outside of a hull (negative: how deep inside) [px], and its outward normal there."""
+    corners, radius = hull
+    if len(corners) == 1:
+        away = point - corners[0]
+        distance = math.hypot(*away)
+        return distance - radius, away / distance if distance > 0.0 else np.array([1.0, 0.0])
+    sides = np.roll(corners, -1, axis=0) - corners
+    normals = np.stack([sides[:, 1], -sides[:, 0]], axis=1) / np.hypot(*sides.T)[:, None]
+    to = point - corners
+    over = (to * normals).sum(axis=1)
+    if len(corners) > 2 and over.max() <= 0.0:
+        return float(over.max()) - radius, normals[over.argmax()]
+    share = np.clip((to * sides).sum(axis=1) / (sides * sides).sum(axis=1), 0.0, 1.0)
+    away = to - share[:, None] * sides
+    distance = np.hypot(*away.T)
+    k = int(distance.argmin())
+    # So near to a sharp side that rounding would say where it points.
+    flat = distance[k] <= ROUNDING * float(np.abs(sides).max())
+    return float(distance[k]) - radius, normals[k] if flat else away[k] / distance[k]
+
+
+# ---- moments ---------------------------------------------------------------------------------------------------------
+# Area, centre and inertia of what lies inside a boundary of lines and arcs: integrals round it (Green's theorem), by
+# Gauss's rule, exact but for rounding.
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; of a quarter turn the error is far below rounding
+
+
+class Moments(NamedTuple):
+    """Of a figure of density 1."""
+
+    area: float  # [px2]
+    x: float  # centre of area [px]; nan of no area
+    y: float
+    inertia: float  # about that [px4]
+
+
+def moments(around: Sequence[Stretch]) -> Moments:
+    """Of the figure inside a boundary."""
+    if not around:
+        return Moments(0.0, math.nan, math.nan, 0.0)
+    base = around[0].start  # integrals about a point nearby: no digits are lost far from the raster's corner
+    place, step = nodes(around)
+    x, y, dx, dy = *(place - base).transpose(2, 0, 1), *step.transpose(2, 0, 1)
+    area = float((((x * dy - y * dx) / 2.0) @ WEIGHTS).sum())
+    if area <= 0.0:
+        return Moments(0.0, math.nan, math.nan, 0.0)
+    center_x, center_y = (float((each @ WEIGHTS).sum()) / area for each in (x * x * dy / 2.0, -y * y * dx / 2.0))
+    x, y = x - center_x, y - center_y
+    inertia = float(((x * x * x * dy - y * y * y * dx) @ WEIGHTS).sum()) / 3.0
+    return Moments(area, float(base[0]) + center_x, float(base[1]) + center_y, inertia)
+
+
+def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
+    """Places (n, 16, 2) on each stretch where Gauss's rule looks, and how fast they move with the share of the way."""
+    place = np.array([each.at(NODES) for each in around])
+    step = np.empty_like(place)
+    for k, each in enumerate(around):
+        if each.radius == 0.0:
+            step[k] = each.end - each.start
+        else:
+            out = place[k] - each.center
+            step[k] = each.turn * np.stack([-out[:, 1], out[:, 0]], axis=1)
+    return place, step
+
+
+# ---- hausdorff -------------------------------------------------------------------------------------------------------
+# Hausdorff distance of two boundaries of lines and arcs, by halving: exact to NEAR.
+#
+# The farthest point of one boundary from the other is closed in on. How far the points of a stretch can be at most is
+# known from its middle (nobody is farther from the other boundary than by the way there) and from its ends: along a
+# line the distance from one and the same line is convex, so it is greatest at an end, and an arc is no farther than its
+# chord and its height above it. What cannot beat the best found so far is left out.
+
+NEAR = 1e-6  # [px]
+ROWS = 1 << 20  # distances that are kept at a time: bounds the memory
+
+
+def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
+    """The largest distance of a point of either boundary from the other one [px]; at most 1e-6 less than that.
+
+    0 where both are none, inf where one is.
+    """
+    if not a or not b:
+        return 0.0 if not a and not b else math.inf
+    return max(_farthest(a, b, 0.0), _farthest(b, a, 0.0))
+
+
+class _Figure:
+    """A boundary as arrays: its lines, and its arcs."""
+
+    def __init__(self, stretches):
+        lines = [each for each in stretches if each.radius == 0.0]
+        self.start = np.array([each.start for each in lines]).reshape(-1, 2)
+        self.along = np.array([each.end for each in lines]).reshape(-1, 2) - self.start
+        arcs = [each for each in stretches if each.radius > 0.0]
+        self.center = np.array([each.center for each in arcs]).reshape(-1, 2)
+        self.radius, self.first, self.turn = (
+            np.array([getattr(each, name) for each in arcs]) for name in ("radius", "first", "turn")
+        )
+        self.ends = np.array([[each.start, each.end] for each in arcs]).reshape(-1, 2, 2)
+
+    def from_lines(self, points):
+        """(m, lines) distances [px]."""
+        to = points[:, None] - self.start
+        share = np.clip((to * self.along).sum(axis=2) / (self.along * self.along).sum(axis=1), 0.0, 1.0)
+        return np.hypot(*(to - share[:, :, None] * self.along).transpose(2, 0, 1))
+
+    def from_arcs(self, points):
+        """(m,) distances from the nearest arc [px]; inf: there is none."""
+        if not len(self.center):
+            return np.full(len(points), math.inf)
+        to = points[:, None] - self.center
+        angle = (np.arctan2(to[:, :, 1], to[:, :, 0]) - self.first) % math.tau
+        round_one = np.where(angle <= self.turn, np.abs(np.hypot(*to.transpose(2, 0, 1)) - self.radius), math.inf)
+        corners = np.hypot(*(points[:, None, None] - self.ends).transpose(3, 0, 1, 2)).min(axis=2)
+        return np.minimum(round_one, corners).min(axis=1)
+
+
+def _farthest(a, b, best):
+    other = _Figure(b)
+    rows = max(1, ROWS // (len(b) + 1))
+    todo = list(a)
+    while todo:
+        left = []
+        for first in range(0, len(todo), rows):
+            some = todo[first : first + rows]
+            best, open_ones = _looked_at(some, other, best)
+            left += open_ones
+        todo = [
+            half
+            for bound, each in left
+            if bound > best + NEAR
+            for half in (each.between(0.0, 0.5), each.between(0.5, 1.0))
+        ]
+    return best
+
+
+def _looked_at(some, other, best):
+    """The greatest distance at ends and middles, and (bound, stretch) of those that may hold a greater one."""
+    points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
+    lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
+    nearest = np.minimum(lines.min(axis=2, initial=math.inf), other.from_arcs(points.reshape(-1, 2)).reshape(-1, 3))
+    best = max(best, float(nearest.max()))
+    length = np.array([each.length for each in some])
+    height = np.array([each.radius * (1.0 - math.cos(each.turn / 2.0)) for each in some])
+    by_ends = np.maximum(lines[:, 0], lines[:, 2]).min(axis=1, initial=math.inf) + height
+    bound = np.minimum(nearest[:, 1] + length / 2.0, by_ends)
+    return best, [(bound[k], some[k]) for k in np.flatnonzero(bound > best + NEAR).tolist()]
+
+
+# ---- cells -----------------------------------------------------------------------------------------------------------
+# Pixels of several masks on a common grid of unequal columns and rows, and their sums: area and first and second
+# moments, alone or shared with what lies inside a boundary of lines and arcs. Exact but for rounding.
+#
+# What cells and a boundary share are integrals round the boundary (Green's theorem), cut where it crosses a line of the
+# grid, of functions that say what is solid left of a point in its row.
+
+Placed = tuple[np.ndarray, float, float]  # solid[row, col] bool; left, top [px] of its corner
+Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
+
+
+class Cells(NamedTuple):
+    """A grid whose lines are those of all masks in it."""
+
+    x: np.ndarray  # (w + 1,) lines between columns [px], rising
+    y: np.ndarray  # (h + 1,) lines between rows
+    count: np.ndarray  # (h, w) masks that are solid there
+
+
+class Sums(NamedTuple):
+    """Integrals over a figure, about a base."""
+
+    area: float  # [px2]
+    x: float  # [px3]
+    y: float
+    second: float  # of the squared distance [px4]
+
+    def plus(self, other: "Sums", share: float = 1.0) -> "Sums":
+        """With so many times another's."""
+        return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
+
+    def moments(self, base: tuple[float, float]) -> Moments:
+        """Of these sums about a base; without an area there is no centre."""
+        if self.area <= 0.0:
+            return Moments(0.0, math.nan, math.nan, 0.0)
+        x, y = self.x / self.area, self.y / self.area
+        return Moments(self.area, base[0] + x, base[1] + y, self.second - self.area * (x * x + y * y))
+
+
+NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
+
+
+def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
+    """What moments are about a base."""
+    if found.area == 0.0:
+        return NO_SUMS
+    x, y = found.x - base[0], found.y - base[1]
+    return Sums(found.area, found.area * x, found.area * y, found.inertia + found.area * (x * x + y * y))
+
+
+def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
+    """What several masks have in a window, on a common grid."""
+    lines = []
+    for axis in (0, 1):
+        low, high = window[axis], window[axis + 2]
+        grids = [np.arange(solid.shape[1 - axis] + 1.0) + (left, top)[axis] for solid, left, top in masks]
+        lines.append(np.unique(np.clip(np.concatenate([*grids, [low, high]]), low, high)))
+    x, y = lines
+    count = np.zeros((len(y) - 1, len(x) - 1), np.int64)
+    for solid, left, top in masks:
+        rows, columns = _places(y, top, solid.shape[0]), _places(x, left, solid.shape[1])
+        count += solid[np.ix_(np.maximum(rows, 0), np.maximum(columns, 0))] & (rows >= 0)[:, None] & (columns >= 0)
+    return Cells(x, y, count)
+
+
+def _places(lines, first, size):
+    """In which row or column of a mask the stretches between lines lie; -1: in none."""
+    place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
+    return np.where((place >= 0) & (place < size), place, -1)
+
+
+def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
+    """Of cells (h, w) that weigh so much a px2."""
+    width, height = np.diff(cells.x), np.diff(cells.y)
+    x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
+    in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
+    area, first, second = in_rows
+    return Sums(
+        float((height * area).sum()),
+        float((height * first).sum()),
+        float((height * y * area).sum()),
+        float((height * (second + (y * y + height * height / 12.0) * area)).sum()),
+    )
+
+
+def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
+    """Of what lies inside a boundary and in cells that any mask fills."""
+    parts = [part for each in around for part in _cut_by_lines(each, cells)]
+    if not parts or not cells.count.any():
+        return NO_SUMS
+    middle = np.array([each.at(np.array([0.5]))[0] for each in parts])
+    row, column = (np.searchsorted(lines, middle[:, axis]) - 1 for axis, lines in ((1, cells.y), (0, cells.x)))
+    within = (row >= 0) & (row < len(cells.y) - 1) & (column >= 0)
+    parts = [each for each, kept in zip(parts, within.tolist(), strict=True) if kept]
+    if not parts:
+        return NO_SUMS
+    row, column = row[within], column[within]
+    place, step = nodes(parts)
+    x, y = place[:, :, 0] - base[0], place[:, :, 1] - base[1]
+    so_far = [_left_of(cells, power, base[0], row, column, x) for power in (0, 1, 2)]
+    rise = step[:, :, 1]
+    area, first, second = ((each * rise @ WEIGHTS).sum() for each in so_far)
+    down, square = ((so_far[0] * each * rise @ WEIGHTS).sum() for each in (y, y * y))
+    return Sums(float(area), float(first), float(down), float(second + square))
+
+
+def _left_of(cells, power, base, row, column, x):
+    """Integrals (n, 16) of x to a power over what is solid in a row left of points (n, 16)."""
+    lines = cells.x - base
+    filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # right of the last line there is nothing
+    whole = lines ** (power + 1) / (power + 1)
+    left = np.zeros((len(filled), len(lines)))
+    left[:, 1:] = np.cumsum(np.where(filled[:, :-1], np.diff(whole), 0.0), axis=1)
+    part = np.where(filled[row, column][:, None], x ** (power + 1) / (power + 1) - whole[column][:, None], 0.0)
+    return left[row, column][:, None] + part
+
+
+def _cut_by_lines(stretch, cells):
+    """A stretch in parts that each lie in one column and one row."""
+    shares = [np.array([0.0, 1.0])]
+    for axis, lines in enumerate((cells.x, cells.y)):
+        if stretch.radius == 0.0:
+            along = stretch.end[axis] - stretch.start[axis]
+            if along != 0.0:
+                shares.append((lines - stretch.start[axis]) / along)
+            continue
+        away = (lines - stretch.center[axis]) / stretch.radius
+        angle = np.arccos(away[np.abs(away) <= 1.0]) if axis == 0 else np.arcsin(away[np.abs(away) <= 1.0])
+        for each in (angle, -angle if axis == 0 else math.pi - angle):
+            shares.append((each - stretch.first) % math.tau / stretch.turn)
+    cuts = np.unique(np.concatenate(shares))
+    cuts = cuts[(cuts >= 0.0) & (cuts <= 1.0)]
+    return [stretch.between(a, b) for a, b in zip(cuts[:-1].tolist(), cuts[1:].tolist(), strict=True)]
+
+
+# ---- measure ---------------------------------------------------------------------------------------------------------
+# How well hulls stand for pixels: what they cover too much and too little, and how their mass lies.
+#
+# The hulls are taken as their union, the pixels as the union of their squares. All areas and moments are integrals
+# round the boundary of the union by Gauss's rule, exact but for rounding, and so is what both share ("cells" above).
+
+
+class Measured(NamedTuple):
+    """Hulls beside pixels."""
+
+    over: float  # area of the hulls outside the pixels [px2]
+    missed: float  # area of the pixels outside the hulls [px2]
+    hulls: Moments
+    pixels: Moments
+    hausdorff: float  # of the two boundaries [px]: 0 where both are none, inf where one is
+
+
+def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
+    """Hulls [(corners (k, 2) clockwise on the screen, radius)] in raster pixels beside solid[row, col] bool."""
+    around = boundary(hulls)
+    cracks = edges(solid)
+    ours, theirs = moments(around), _of_pixels(solid)
+    height, width = solid.shape
+    cells = Cells(np.arange(width + 1.0), np.arange(height + 1.0), solid.astype(np.int64))
+    both = shared_sums(around, cells, (0.0, 0.0)).area
+    return Measured(max(ours.area - both, 0.0), max(theirs.area - both, 0.0), ours, theirs, hausdorff(around, cracks))
+
+
+def edges(solid: np.ndarray) -> list[Stretch]:
+    """The pixels' edges as straight stretches, the solid to the right."""
+    loops = [loop.corners for piece in contours(solid) for loop in (piece.outer, *piece.holes)]
+    return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
+
+
+def _of_pixels(solid):
+    rows, columns = np.nonzero(solid)
+    if not len(rows):
+        return Moments(0.0, math.nan, math.nan, 0.0)
+    x, y = columns + 0.5, rows + 0.5
+    second = ((x - x.mean()) ** 2 + (y - y.mean()) ** 2).sum() + len(rows) / 6.0
+    return Moments(float(len(rows)), float(x.mean()), float(y.mean()), float(second))

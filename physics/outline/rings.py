@@ -1,0 +1,377 @@
+"""Rings of sides in one table, and their convex decomposition inside a kernel."""
+
+import math
+
+import numpy as np
+
+from physics.jit import subkernel
+
+# ---- rings -----------------------------------------------------------------------------------------------------------
+# Rings of sides around the inside of a polygon, in one table: to be joined, cut and merged.
+#
+# A side starts at (x, y) and ends where the next one starts; the inside lies to its right. A cut is two sides, one
+# there and one back, each other's twin: between corners of one ring it parts this in two, between two rings it makes
+# them one.
+
+SIDE = np.dtype(
+    [
+        ("x", np.float64),  # [px]
+        ("y", np.float64),
+        ("next", np.int64),
+        ("previous", np.int64),
+        ("twin", np.int64),  # -1: no cut
+        ("inner", np.bool_),  # more of the inside lies beyond it
+        ("alive", np.bool_),
+        ("apart", np.int64),  # 0: its ring is joined to what is around it; else a hole's number
+        ("seen", np.bool_),
+    ],
+    align=True,
+)
+
+
+@subkernel
+def put_side(n, first, x, y, inner, sides_inout):
+    """Append a side to the ring that starts at a row; none without length. Returns how many sides there are."""
+    if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
+        sides_inout[n - 1].inner = inner
+        return n
+    side = sides_inout[n]
+    side.x = x
+    side.y = y
+    side.next = n + 1
+    side.previous = n - 1
+    side.twin = -1
+    side.inner = inner
+    side.alive = True
+    side.apart = 0
+    side.seen = False
+    return n + 1
+
+
+@subkernel
+def close_ring(n, first, sides_inout):
+    """Join the last side of a ring to its first one; corners in a line between sides of a kind go.
+    Returns how many sides there are: as many as before the ring when nothing is left of it."""
+    if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
+        n -= 1
+    if n - first < 3:
+        return first
+    sides_inout[n - 1].next = first
+    sides_inout[first].previous = n - 1
+    left = n - first
+    for k in range(first, n):
+        side = sides_inout[k]
+        before = sides_inout[side.previous]
+        if left > 3 and side.inner == before.inner and turn_at(sides_inout, side.previous, k, side.next) == 0.0:
+            before.next = side.next
+            sides_inout[side.next].previous = side.previous
+            side.alive = False
+            left -= 1
+    return n
+
+
+@subkernel
+def turn_at(sides, a, b, c):
+    """How the way over three corners turns at the second one: > 0 clockwise on the screen, the way of a convex corner
+    [px2]."""
+    p = sides[a]
+    q = sides[b]
+    r = sides[c]
+    return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)
+
+
+@subkernel
+def is_reflex(sides, k):
+    """Whether the inside is more than half a turn at a corner; or just that, where a side that is inner goes on in one
+    that is not: no part may have both in one edge."""
+    side = sides[k]
+    turn = turn_at(sides, side.previous, k, side.next)
+    return turn < 0.0 or (turn == 0.0 and side.inner != sides[side.previous].inner)
+
+
+@subkernel
+def faces(sides, k, m):
+    """Whether the line from corner k to corner m starts into the inside, along no side."""
+    side = sides[k]
+    to = sides[m]
+    after = sides[side.next]
+    before = sides[side.previous]
+    x = to.x - side.x
+    y = to.y - side.y
+    from_after = (after.x - side.x) * y - (after.y - side.y) * x
+    to_before = x * (before.y - side.y) - y * (before.x - side.x)
+    turn = turn_at(sides, side.previous, k, side.next)
+    if turn < 0.0:
+        return from_after > 0.0 or to_before > 0.0
+    return from_after > 0.0 and (turn == 0.0 or to_before > 0.0)
+
+
+@subkernel
+def blocks(sides, k, a, b):
+    """Whether side k crosses the line between corners a and b, or starts on it between its ends."""
+    p = sides[a]
+    q = sides[b]
+    r = sides[k]
+    s = sides[r.next]
+    x = q.x - p.x
+    y = q.y - p.y
+    start = x * (r.y - p.y) - y * (r.x - p.x)
+    if start == 0.0:
+        along = x * (r.x - p.x) + y * (r.y - p.y)
+        return 0.0 < along < x * x + y * y
+    end = x * (s.y - p.y) - y * (s.x - p.x)
+    if end == 0.0 or (start > 0.0) == (end > 0.0):
+        return False
+    u = s.x - r.x
+    v = s.y - r.y
+    of_p = u * (p.y - r.y) - v * (p.x - r.x)
+    of_q = u * (q.y - r.y) - v * (q.x - r.x)
+    return (of_p > 0.0 and of_q < 0.0) or (of_p < 0.0 and of_q > 0.0)
+
+
+@subkernel
+def sees(sides, a, b):
+    """Whether the line between two corners of a ring lies inside it and meets no other side of it. O(corners)."""
+    if not faces(sides, a, b) or not faces(sides, b, a):
+        return False
+    k = sides[a].next
+    while k != a:
+        if blocks(sides, k, a, b):
+            return False
+        k = sides[k].next
+    return True
+
+
+@subkernel
+def sees_through(sides, count, a, b):
+    """The same between corners of two rings, past the sides of all. O(sides)."""
+    if not faces(sides, a, b) or not faces(sides, b, a):
+        return False
+    for k in range(count):
+        if sides[k].alive and blocks(sides, k, a, b):
+            return False
+    return True
+
+
+@subkernel
+def put_cut(n, a, b, sides_inout):
+    """Append a cut between corners a and b. Returns how many sides there are."""
+    there = sides_inout[n]
+    back = sides_inout[n + 1]
+    start = sides_inout[a]
+    end = sides_inout[b]
+    there.x = start.x
+    there.y = start.y
+    back.x = end.x
+    back.y = end.y
+    there.previous = start.previous
+    sides_inout[start.previous].next = n
+    back.previous = end.previous
+    sides_inout[end.previous].next = n + 1
+    there.next = b
+    end.previous = n
+    back.next = a
+    start.previous = n + 1
+    there.twin = n + 1
+    back.twin = n
+    for k in range(n, n + 2):
+        sides_inout[k].inner = True
+        sides_inout[k].alive = True
+        sides_inout[k].seen = False
+        sides_inout[k].apart = 0
+    return n + 2
+
+
+@subkernel
+def take_out(k, sides_inout):
+    """Take a cut out again: the pieces on its two sides become one."""
+    m = sides_inout[k].twin
+    for a, b in ((k, m), (m, k)):
+        before = sides_inout[a].previous
+        after = sides_inout[b].next
+        sides_inout[before].next = after
+        sides_inout[after].previous = before
+        sides_inout[a].alive = False
+
+
+@subkernel
+def corners_of(sides, first):
+    """How many corners the ring of a side has."""
+    count = 1
+    k = sides[first].next
+    while k != first:
+        count += 1
+        k = sides[k].next
+    return count
+
+
+# ---- few cuts --------------------------------------------------------------------------------------------------------
+# Rings with holes in few convex pieces, for kernels: holes bridged, reflex corners cut away, needless cuts taken out.
+#
+# A reflex corner takes one cut, if that leaves less than half a turn on either side of it; a cut between two of them
+# can do for both, so such cuts come first, the shortest of each corner. The cuts left that no corner needs go, longest
+# first: so there are never more pieces than Hertel and Mehlhorn 1983 leave, and mostly as many as there must be.
+
+
+@subkernel
+def bridge(n, sides_inout):
+    """Join each hole to the ring around it by its shortest free line. Returns how many sides there are; -1: a hole
+    sees nothing, so the rings were none of a polygon."""
+    while True:
+        waiting = 0
+        joined = 0
+        for start in range(n):
+            if sides_inout[start].alive and sides_inout[start].apart > 0:
+                waiting += 1
+                a, b = shortest_bridge(n, start, sides_inout)
+                if a >= 0:
+                    k = start
+                    while sides_inout[k].apart > 0:
+                        sides_inout[k].apart = 0
+                        k = sides_inout[k].next
+                    n = put_cut(n, a, b, sides_inout)
+                    joined += 1
+        if waiting == 0:
+            return n
+        if joined == 0:
+            return -1
+
+
+@subkernel
+def shortest_bridge(n, start, sides):
+    """(corner of the hole that a side is of, corner of what is joined already) with the shortest free line between
+    them; -1, -1: there is none."""
+    best = math.inf
+    best_a = -1
+    best_b = -1
+    a = start
+    while True:
+        p = sides[a]
+        for b in range(n):
+            q = sides[b]
+            if q.alive and q.apart == 0:
+                distance = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)
+                if 0.0 < distance < best and sees_through(sides, n, a, b):
+                    best = distance
+                    best_a = a
+                    best_b = b
+        a = p.next
+        if a == start:
+            return best_a, best_b
+
+
+@subkernel
+def is_resolved(sides, a, b):
+    """Whether a cut from corner a to corner b leaves no reflex corner at a."""
+    side = sides[a]
+    return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
+
+
+@subkernel
+def best_partner(sides, a, both):
+    """The corner of its ring that reflex corner a is cut to: what resolves most reflex corners, of those the nearest.
+
+    both: only one that resolves two. -1: there is none.
+    """
+    best = -1
+    best_score = 1 if both else -1
+    best_distance = math.inf
+    p = sides[a]
+    b = sides[p.next].next
+    while b != p.previous and b != a:
+        q = sides[b]
+        score = 1 if is_resolved(sides, a, b) else 0
+        if is_reflex(sides, b) and is_resolved(sides, b, a):
+            score += 1
+        distance = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)
+        better = score > best_score or (score == best_score and distance < best_distance)
+        if better and distance > 0.0 and not (both and score < 2) and sees(sides, a, b):
+            best = b
+            best_score = score
+            best_distance = distance
+        b = q.next
+    return best
+
+
+@subkernel
+def cut_reflex(n, sides_inout):
+    """Cut all reflex corners away. Returns how many sides there are; -1: a corner sees no other."""
+    for both in (True, False):
+        k = 0
+        while k < n:
+            if sides_inout[k].alive and is_reflex(sides_inout, k):
+                partner = best_partner(sides_inout, k, both)
+                if partner >= 0:
+                    n = put_cut(n, k, partner, sides_inout)
+                    continue  # it may be reflex still
+                if not both:
+                    return -1
+            k += 1
+    return n
+
+
+@subkernel
+def cut_large(n, most, sides_inout):
+    """Halve convex pieces until they have at most so many corners. Returns how many sides there are."""
+    k = 0
+    while k < n:
+        if sides_inout[k].alive:
+            count = corners_of(sides_inout, k)
+            while count > most:
+                far = k
+                for _ in range(count // 2):
+                    far = sides_inout[far].next
+                if not faces(sides_inout, k, far):
+                    break  # all in one line with it: another corner's turn
+                n = put_cut(n, k, far, sides_inout)
+                count = corners_of(sides_inout, k)
+        k += 1
+    return n
+
+
+@subkernel
+def is_needed(sides, k, m):
+    """Whether the corner where a cut starts (side k, its twin m) would be reflex without it."""
+    p = sides[sides[k].previous]
+    q = sides[k]
+    after = sides[sides[m].next]
+    r = sides[after.next]
+    turn = (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)
+    return turn < 0.0 or (turn == 0.0 and p.inner != after.inner)
+
+
+@subkernel
+def is_needless(sides, k, most):
+    """Whether the pieces on both sides of a cut are convex together and have few enough corners."""
+    m = sides[k].twin
+    if is_needed(sides, k, m) or is_needed(sides, m, k):
+        return False
+    count = 1
+    at = sides[k].next
+    while at != k:
+        if at == m:
+            return False  # a bridge with one piece on both sides
+        count += 1
+        at = sides[at].next
+    return count + corners_of(sides, m) - 2 <= most
+
+
+@subkernel
+def merge(n, most, sides_inout):
+    """Take out the cuts that no corner needs, longest first."""
+    while True:
+        best = -1
+        longest = 0.0
+        for k in range(n):
+            side = sides_inout[k]
+            if side.alive and side.twin > k and not side.seen:
+                end = sides_inout[side.twin]
+                length = (end.x - side.x) * (end.x - side.x) + (end.y - side.y) * (end.y - side.y)
+                if length > longest:
+                    longest = length
+                    best = k
+        if best < 0:
+            return
+        sides_inout[best].seen = True
+        if is_needless(sides_inout, best, most):
+            take_out(best, sides_inout)

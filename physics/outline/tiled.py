@@ -1,0 +1,707 @@
+"""The outline of a large raster tile by tile: crossings of borders, paths, regions and convex parts."""
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.outline.contour import (
+    JOINING,
+    LARGEST_REACH,
+    PLACE,
+    RUN,
+    SHARP,
+    Window,
+    backward,
+    cheapest,
+    cheapest_loop,
+    down_of,
+    follow,
+    is_own,
+    is_solid,
+    record,
+    right_of,
+    walked_back,
+)
+from physics.outline.kept import Parts, fitted
+from physics.outline.rings import SIDE, bridge, close_ring, cut_large, cut_reflex, merge, put_side, turn_at
+from physics.settings import MAX_CORNERS
+
+# ---- crossings -------------------------------------------------------------------------------------------------------
+# Where an outline crosses the border of two tiles: one point, found in the same way from both sides.
+#
+# Only cracks within SEEN of where the path of cracks changes from one tile's pixels to another's are looked at: the
+# line along the longest stretch of them that is straight crosses the border there, on the run of a path that turns at
+# it, or a little beside a path that goes straight on. A corner between long runs is crossed in itself.
+
+SEEN = 12  # [px] of the path on either side. More: a wider halo; fewer: gentle slopes are less straight at borders
+STRAIGHT = 0.6  # [px] from a line that the middles of a straight path's cracks lie at most: of slight slopes 0.5
+KNOWN = SEEN - SHARP - 1  # [px] a run of at most this length is seen whole, with its neighbours
+BESIDE = 0.25  # [px] crossings are off a run's ends
+GRAINS = 1024.0  # [1/px]
+GRAIN = 1.0 / GRAINS  # [px] crossings are multiples of it: sums with whole pixels are exact in every tile
+
+
+@subkernel
+def whole_grains(length):
+    """The length, not longer, in whole grains [px]."""
+    return math.floor(length * GRAINS) * GRAIN
+
+
+@subkernel
+def to_border(window, x, y, direction):
+    """Distance [px] from a corner on the tile's border to its next border line ahead, or more than KNOWN."""
+    at = y if direction & 1 else x
+    ahead = window.high - at if direction < 2 else at - window.low
+    return ahead if ahead > 0 else KNOWN + 1
+
+
+@subkernel
+def stretch(runs, count, at, seen, x, y):
+    """The line through the middles of the cracks within a way of the corner (x, y) after so many cracks of a path.
+
+    Least squares. Returns (x, y [px] of a point of it, off the corner; its slope; whether that is dx / dy, not
+    dy / dx; whether all middles lie near it).
+    """
+    n = 0
+    sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
+    right = down = 0
+    for k in range(count):
+        run = runs[k]
+        first = max(run.at, at - seen) - run.at
+        end = min(run.at + run.length, at + seen) - run.at
+        if first >= end:
+            continue
+        if right * right_of(run.direction) < 0 or down * down_of(run.direction) < 0:
+            return 0.0, 0.0, 0.0, False, False
+        right += right_of(run.direction)
+        down += down_of(run.direction)
+        for step in range(first, end):
+            off_x = run.x - x + (step + 0.5) * right_of(run.direction)
+            off_y = run.y - y + (step + 0.5) * down_of(run.direction)
+            n += 1
+            sum_x += off_x
+            sum_y += off_y
+            sum_xx += off_x * off_x
+            sum_yy += off_y * off_y
+            sum_xy += off_x * off_y
+    if n < 2:
+        return 0.0, 0.0, 0.0, False, False
+    x_x = sum_xx - sum_x * sum_x / n
+    y_y = sum_yy - sum_y * sum_y / n
+    steep = y_y > x_x
+    spread = max(x_x, y_y)
+    slope = (sum_xy - sum_x * sum_y / n) / spread if spread > 0.0 else 0.0
+    room = STRAIGHT * math.sqrt(1.0 + slope * slope)
+    for k in range(count):
+        run = runs[k]
+        first = max(run.at, at - seen) - run.at
+        end = min(run.at + run.length, at + seen) - run.at
+        for step in (first, end - 1):
+            off_x = run.x - x + (step + 0.5) * right_of(run.direction) - sum_x / n
+            off_y = run.y - y + (step + 0.5) * down_of(run.direction) - sum_y / n
+            off = off_x - slope * off_y if steep else off_y - slope * off_x
+            if first < end and abs(off) > room:
+                return 0.0, 0.0, 0.0, False, False
+    return sum_x / n, sum_y / n, slope, steep, True
+
+
+@subkernel
+def line_at(runs, count, at, x, y):
+    """The line along the longest stretch of a path that is straight about a corner; as stretch."""
+    for seen in range(SEEN, 1, -1):
+        line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
+        if straight:
+            return line_x, line_y, slope, steep
+    line_x, line_y, slope, steep, _ = stretch(runs, count, at, 1, x, y)
+    return line_x, line_y, slope, steep
+
+
+@subkernel
+def meets(runs, count, at, x, y, level):
+    """How far [px] from a corner of a path the line along it meets the row (level) or column of the corner."""
+    line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
+    if level == steep:
+        return line_x - slope * line_y if level else line_y - slope * line_x
+    if slope == 0.0:
+        return 0.0
+    return line_x - line_y / slope if level else line_y - line_x / slope
+
+
+@subkernel
+def room_in(window, runs, count, k, x, y, after):
+    """How far [px] a crossing moves from a corner (x, y) into run k, which starts there (after) or ends there."""
+    run = runs[k]
+    direction = run.direction if after else (run.direction + 2) & 3
+    ahead = to_border(window, x, y, direction)
+    length = 0.5 * min(run.length, KNOWN)  # its other end may be a crossing, too
+    if ahead < run.length:
+        length = min(ahead, KNOWN)
+    elif run.length <= KNOWN:
+        length = run.length
+        # A run whose ends turn to the same side is no part of a staircase.
+        other = k + 1 if after else k
+        if other == 0 or other >= count or runs[other].direction != (runs[other - 1].direction + 1) & 3:
+            return 0.0
+    level = direction & 1 == 0
+    room = meets(runs, count, run.at if after else run.at + run.length, x, y, level)
+    room = min(max(room * (right_of(direction) if level else down_of(direction)), BESIDE), length - BESIDE)
+    # Not so far from the corner that a line past it finds no place to end half a pixel behind it.
+    if room * (0.5 - window.reach) > 0.5 * window.reach:
+        room = 0.5 * window.reach / max(0.5 - window.reach, GRAIN * GRAIN)
+    return whole_grains(room)
+
+
+@subkernel
+def aside(window, runs, count, k, distance):
+    """How far [px] beside run k, a distance after its start, the line along the path passes.
+
+    Positive in the direction in which the path came to the run.
+    """
+    run = runs[k]
+    if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
+        return 0.0
+    side = -1 if 2 * distance < run.length else 1
+    step = runs[k + side]
+    if runs[k - 1].direction != runs[k + 1].direction or min(step.length, run.length) >= SHARP:
+        return 0.0
+    x = run.x + right_of(run.direction) * distance
+    y = run.y + down_of(run.direction) * distance
+    level = run.direction & 1 == 1
+    way = runs[k - 1].direction
+    off = meets(runs, count, run.at + distance, x, y, level) * (right_of(way) if level else down_of(way))
+    return whole_grains(min(off, window.reach)) if off > 0.0 else -whole_grains(min(-off, window.reach))
+
+
+@subkernel
+def crossing(window, runs, count, at, after):
+    """Where the outline crosses the border at the corner after so many cracks of a path.
+
+    runs: RUN of the path, SEEN cracks on either side; after: at a corner of the tile, on the run that follows, not
+    the one before. Returns (cracks along the path, x, y [px] off the path there).
+    """
+    k = 0
+    while k + 1 < count and runs[k + 1].at <= at:
+        k += 1
+    run = runs[k]
+    distance = at - run.at
+    x = run.x + right_of(run.direction) * distance
+    y = run.y + down_of(run.direction) * distance
+    at_side = x == window.low or x == window.high
+    at_end = y == window.low or y == window.high
+    if distance > 0:
+        if at_side and at_end:
+            return float(at), 0.0, 0.0
+        off = aside(window, runs, count, k, distance)
+        way = runs[k - 1].direction if k > 0 else 0
+        return float(at), off * right_of(way), off * down_of(way)
+    if k == 0 or min(runs[k - 1].length, run.length) >= SHARP:
+        return float(at), 0.0, 0.0
+    if not (at_side and at_end):
+        after = at_side == (run.direction & 1 == 1)
+    room = room_in(window, runs, count, k if after else k - 1, x, y, after)
+    if at_side and at_end:
+        # A line leads from one border to the other there: past the corner, and along neither of them.
+        other = room_in(window, runs, count, k - 1 if after else k, x, y, not after)
+        if other == 0.0:
+            return float(at), 0.0, 0.0
+        if room * other > window.reach * (room + other):
+            room = min(room, whole_grains(1.9 * window.reach))
+    return at + room if after else at - room, 0.0, 0.0
+
+
+# ---- tile paths ------------------------------------------------------------------------------------------------------
+# The outline in one tile: its paths of cracks, from border to border or closed, in straight lines.
+
+NEAREST = 0.24  # [px] places nearer to a crossing are left out: they would make slivers
+
+POINT = np.dtype([("x", np.float64), ("y", np.float64)], align=True)
+PIECE = np.dtype(
+    [  # a stretch of the outline: lines from point to point
+        ("first", np.int64),
+        ("count", np.int64),
+        ("closed", np.bool_),  # from the last point back to the first one; else from border to border
+        ("start", np.float64),  # [px] along the tile's border, clockwise from its top left corner
+        ("end", np.float64),
+        ("used", np.bool_),
+    ],
+    align=True,
+)
+
+
+class Paths(NamedTuple):
+    """Room to work in, as large as a tile can need, and what is found."""
+
+    marks: np.ndarray  # [row, col] uint8 of the window
+    runs: np.ndarray  # RUN
+    places: np.ndarray  # PLACE
+    chain: np.ndarray  # int64
+    pieces: np.ndarray  # PIECE
+    points: np.ndarray  # POINT
+    counts: np.ndarray  # int64: pieces, points
+
+
+def room_for_paths(size: int, halo: int) -> Paths:
+    """For tiles of so many pixels a side."""
+    cracks = 2 * size * size + 4 * SEEN + 8  # of a checkerboard: no tile has more
+    wide = size + 2 * halo
+    return Paths(
+        np.zeros((wide, wide), np.uint8),
+        np.zeros(cracks, RUN),
+        np.zeros(4 * cracks + 8, PLACE),
+        np.zeros(4 * cracks + 8, np.int64),
+        np.zeros(cracks, PIECE),
+        np.zeros(2 * cracks, POINT),
+        np.zeros(2, np.int64),
+    )
+
+
+@subkernel
+def along_border(window, x, y):
+    """Distance [px] of a point on the tile's border from its top left corner, clockwise."""
+    size = float(window.high - window.low)
+    if y == window.low:
+        return x - window.low
+    if x == window.high:
+        return size + y - window.low
+    if y == window.high:
+        return 2.0 * size + window.high - x
+    return 3.0 * size + window.high - y
+
+
+@subkernel
+def stays(runs, count, k, closed):
+    """Whether the corner at the start of run k stays: between long runs, and of rectangles."""
+    if not closed and k == 0:
+        return False
+    run = runs[k]
+    before = runs[k - 1 if k > 0 else count - 1]
+    if run.joined:
+        return False
+    if min(before.length, run.length) >= SHARP:
+        return True
+    if not closed and (k < 2 or k > count - 2):
+        return False
+    turn = (run.direction - before.direction) & 3
+    earlier = runs[(k - 2 + count) % count]
+    later = runs[(k + 1) % count]
+    return (before.direction - earlier.direction) & 3 == turn and (later.direction - run.direction) & 3 == turn
+
+
+@subkernel
+def put_place(n, x, y, run, corner, allowed, places_inout):
+    """Append a place on a run to places (PLACE)."""
+    place = places_inout[n]
+    place.x = x
+    place.y = y
+    place.right = right_of(run.direction)
+    place.down = down_of(run.direction)
+    place.corner = corner
+    place.allowed = allowed
+    place.anchor = False
+    place.swept = 0.0
+    if n > 0:
+        last = places_inout[n - 1]
+        place.swept = last.swept + last.x * y - last.y * x
+
+
+@subkernel
+def put_run(n, run, start, end, places_inout):
+    """Append the places within a run, those between two lengths of the path. Returns how many places there are."""
+    for step in range(3):
+        if step != 1 and run.length == 1:
+            continue
+        along = 0.5 if step == 0 else (run.length / 2.0 if step == 1 else run.length - 0.5)
+        if start < run.at + along < end:
+            x = run.x + along * right_of(run.direction)
+            y = run.y + along * down_of(run.direction)
+            put_place(n, x, y, run, False, True, places_inout)
+            n += 1
+    return n
+
+
+@subkernel
+def put_end(n, runs, count, at, off_x, off_y, places_inout):
+    """Append a crossing, off a place of the path."""
+    k = 0
+    while k + 1 < count and runs[k + 1].at <= at:
+        k += 1
+    run = runs[k]
+    x = run.x + (at - run.at) * right_of(run.direction) + off_x
+    y = run.y + (at - run.at) * down_of(run.direction) + off_y
+    put_place(n, x, y, run, False, True, places_inout)
+
+
+@subkernel
+def put_points(window, found, closed, workspace):
+    """Append the chain of so many places as a piece (PIECE), backward: points (POINT). Returns whether there is one."""
+    if found == 0:
+        return False
+    counts = workspace.counts
+    piece = workspace.pieces[counts[0]]
+    piece.first = counts[1]
+    piece.count = found - 1 if closed else found
+    piece.closed = closed
+    piece.used = False
+    for k in range(piece.count):
+        place = workspace.places[workspace.chain[found - 1 - k]]
+        point = workspace.points[counts[1] + k]
+        point.x = place.x
+        point.y = place.y
+    a = workspace.points[piece.first]
+    b = workspace.points[piece.first + piece.count - 1]
+    piece.start = along_border(window, a.x, a.y)
+    piece.end = along_border(window, b.x, b.y)
+    counts[0] += 1
+    counts[1] += piece.count
+    return True
+
+
+@subkernel
+def add_open(window, x, y, direction, cracks, workspace):
+    """Append the piece of a path between two borders: so many cracks from a corner on; 0: the path only passes the
+    corner of the tile from one border to another. Returns whether it could be done."""
+    runs, places = workspace.runs, workspace.places
+    x, y, direction = walked_back(window, x, y, direction, SEEN)
+    count = record(window, x, y, direction, cracks + 2 * SEEN, runs)
+    start, start_x, start_y = crossing(window, runs, count, SEEN, cracks > 0)
+    end, end_x, end_y = crossing(window, runs, count, SEEN + cracks, cracks == 0)
+    put_end(0, runs, count, start, start_x, start_y, places)
+    n = 1
+    for k in range(count):
+        run = runs[k]
+        if start < run.at < end:
+            # A crossing on another tile's pixels: the line from it leaves the border at once.
+            barred = (run.at == SEEN and start < run.at) or (run.at == SEEN + cracks and end > run.at)
+            put_place(n, float(run.x), float(run.y), run, True, not (run.joined or barred), places)
+            places[n].anchor = not barred and stays(runs, count, k, False)
+            n += 1
+        n = put_run(n, run, max(start + NEAREST, float(SEEN)), min(end - NEAREST, float(SEEN + cracks)), places)
+    put_end(n, runs, count, end, end_x, end_y, places)
+    return put_points(window, cheapest(0, n, window.reach, places, workspace.chain), False, workspace)
+
+
+@subkernel
+def add_closed(window, x, y, direction, cracks, workspace):
+    """Append the piece of a loop of so many cracks, from a corner on where it turns. Returns whether it could be
+    done."""
+    runs, places = workspace.runs, workspace.places
+    count = record(window, x, y, direction, cracks, runs)
+    n = 0
+    around = 0
+    anchor = -1
+    for turn in range(2):
+        for k in range(count):
+            run = runs[k]
+            put_place(n, float(run.x), float(run.y), run, True, not run.joined, places)
+            places[n].anchor = stays(runs, count, k, True)
+            if anchor < 0 and places[n].anchor:
+                anchor = n
+            n = put_run(n + 1, run, -1.0, cracks + 1.0, places)
+        if turn == 0:
+            around = n
+    found, _ = cheapest_loop(around, anchor, window.reach, places, workspace.chain)
+    return put_points(window, found, True, workspace)
+
+
+@subkernel
+def add_at_corner(window, x, y, workspace):
+    """Append all pieces that start at a corner of the grid on the tile's border. Returns whether it could be done."""
+    pixels = window.pixels
+    done = True
+    solid = 0
+    for quadrant in range(4):
+        solid += 1 if is_solid(pixels, x, y, quadrant) else 0
+    if solid == 0 or solid == 4:
+        return True
+    for d in range(4):
+        if is_solid(pixels, x, y, d) and not is_solid(pixels, x, y, d + 3) and is_own(window, x, y, d):
+            arriving = backward(window, x, y, d)
+            if not is_own(window, x, y, arriving + 1):
+                cracks = follow(window, x, y, d, workspace.marks)
+                done = add_open(window, x, y, d, cracks, workspace) and done
+    at_both = (x == window.low or x == window.high) and (y == window.low or y == window.high)
+    if solid == 3 and at_both:
+        for quadrant in range(4):
+            if not is_solid(pixels, x, y, quadrant) and is_own(window, x, y, quadrant):
+                done = add_open(window, x, y, (quadrant + 1) & 3, 0, workspace) and done
+    return done
+
+
+@subkernel
+def find_paths(window, workspace):
+    """Find all pieces of the outline in a tile. Returns whether it could be done.
+
+    workspace: Paths. Linear in pixels and corners, but for the lines.
+    """
+    low, high = window.low, window.high
+    workspace.counts[0] = 0
+    workspace.counts[1] = 0
+    for y in range(low, high + 1):
+        for x in range(low, high + 1):
+            workspace.marks[y, x] = 0
+    done = True
+    for k in range(high - low):
+        done = add_at_corner(window, low + k, low, workspace) and done
+        done = add_at_corner(window, high, low + k, workspace) and done
+        done = add_at_corner(window, high - k, high, workspace) and done
+        done = add_at_corner(window, low, high - k, workspace) and done
+    for y in range(low, high):
+        for x in range(low, high):
+            if window.pixels[y, x] != 0 and window.pixels[y - 1, x] == 0 and workspace.marks[y, x] == 0:
+                cracks = follow(window, x, y, 0, workspace.marks)
+                done = add_closed(window, x, y, 0, cracks, workspace) and done
+    return done
+
+
+# ---- tile regions ----------------------------------------------------------------------------------------------------
+# What is solid in one tile as rings of sides: its pieces of the outline, and the tile's border between them.
+#
+# A piece that ends on the border goes on along it, clockwise on the screen, to where the next one starts. There is
+# solid on the other side too, so these sides are inner.
+
+
+@subkernel
+def tile_corner(window, number):
+    """(x, y) of a tile's corner: 0 is top left, then clockwise."""
+    number &= 3
+    return (
+        float(window.high if number == 1 or number == 2 else window.low),
+        float(window.high if number >= 2 else window.low),
+    )
+
+
+@subkernel
+def put_piece(n, first, piece, points, sides_inout):
+    """Append the sides of a piece to a ring; its last point's side is inner. Returns how many sides there are."""
+    for k in range(piece.count):
+        point = points[piece.first + k]
+        n = put_side(n, first, point.x, point.y, not piece.closed and k == piece.count - 1, sides_inout)
+    return n
+
+
+@subkernel
+def next_piece(pieces, count, at, around):
+    """The piece from border to border that starts next, clockwise from a place on the border; and how far on [px]."""
+    best = -1
+    nearest = math.inf
+    for k in range(count):
+        piece = pieces[k]
+        if not piece.closed:
+            ahead = piece.start - at
+            if ahead < 0.0:
+                ahead += around
+            if ahead < nearest:
+                nearest = ahead
+                best = k
+    return best, nearest
+
+
+@subkernel
+def put_border(window, n, first, start, length, sides_inout):
+    """Append the corners of the tile that lie strictly within a length of its border from a place on."""
+    size = float(window.high - window.low)
+    number = math.floor(start / size) + 1
+    while number * size < start + length:
+        x, y = tile_corner(window, number)
+        n = put_side(n, first, x, y, True, sides_inout)
+        number += 1
+    return n
+
+
+@subkernel
+def put_open(window, n, number, workspace, sides_inout):
+    """Append the ring of a piece from border to border. Returns how many sides there are."""
+    around = 4.0 * (window.high - window.low)
+    pieces = workspace.pieces
+    first = n
+    while not pieces[number].used:
+        piece = pieces[number]
+        piece.used = True
+        n = put_piece(n, first, piece, workspace.points, sides_inout)
+        number, ahead = next_piece(pieces, workspace.counts[0], piece.end, around)
+        n = put_border(window, n, first, piece.end, ahead, sides_inout)
+    return close_ring(n, first, sides_inout)
+
+
+@subkernel
+def is_hole(piece, points):
+    """Whether a closed piece goes the other way round: counter-clockwise on the screen."""
+    doubled = 0.0
+    before = points[piece.first + piece.count - 1]
+    for k in range(piece.first, piece.first + piece.count):
+        point = points[k]
+        doubled += before.x * point.y - before.y * point.x
+        before = point
+    return doubled < 0.0
+
+
+@subkernel
+def put_regions(window, workspace, sides_out):
+    """Write the rings of all that is solid in a tile (SIDE), its holes apart. Returns how many sides there are.
+
+    workspace: Paths, as find_paths left them.
+    """
+    n = 0
+    holes = 0
+    crossed = False
+    for k in range(workspace.counts[0]):
+        piece = workspace.pieces[k]
+        if not piece.closed:
+            crossed = True
+            if not piece.used:
+                n = put_open(window, n, k, workspace, sides_out)
+            continue
+        first = n
+        n = close_ring(put_piece(n, n, piece, workspace.points, sides_out), first, sides_out)
+        if n > first and is_hole(piece, workspace.points):
+            holes += 1
+            for side in range(first, n):
+                sides_out[side].apart = holes
+    low = window.low
+    if not crossed and is_solid(window.pixels, low, low, 0) and is_solid(window.pixels, low, low, 3):
+        first = n
+        for number in range(4):
+            x, y = tile_corner(window, number)
+            n = put_side(n, first, x, y, True, sides_out)
+        n = close_ring(n, first, sides_out)
+    return n
+
+
+# ---- tile parts ------------------------------------------------------------------------------------------------------
+# The outline of one tile of a larger mask in convex parts: where it is carved only touched tiles are made anew.
+#
+# A tile's parts cover what is solid in it; where its border has solid on the other side too the parts' sides are inner.
+# The parts of neighbouring tiles have the same points on their common border (fitting.crossings) and together are an
+# outline as in fitting.outline, within the same distances of the pixels' edges.
+
+HALO = SEEN + SHARP + 1  # [px] of its neighbours' pixels that a tile's outline depends on
+
+
+class TileParts(NamedTuple):
+    """Convex polygons, one after another."""
+
+    corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; each from its topmost, then leftmost corner on
+    inner: np.ndarray  # (n,) bool: the side that starts there is shared with another part, of this tile or the next
+    counts: np.ndarray  # (k,) int64: corners of each polygon
+
+
+NONE = TileParts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64))
+
+
+def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) -> TileParts:
+    """Convex parts of at most 16 corners of a tile, whose top left corner is at a place [px], all without radius.
+
+    window[row, col] bool: the tile's pixels, a square, and HALO pixels more on each side: its neighbours', clear beyond
+    the mask. smooth [px] as in fitting.outline, whose contract the parts of all tiles keep together. An empty tile has
+    no parts, one with solid all around too is one square of inner sides. Raises ValueError for a window of another
+    form, or whose halo of tiles is not narrower than the tile.
+    """
+    height, width = window.shape
+    size = width - 2 * HALO
+    if height != width or size <= HALO:
+        raise ValueError(f"window must be square, its tile larger than {HALO} (got {width} x {height})")
+    near = window[HALO - 1 : HALO + size + 1, HALO - 1 : HALO + size + 1]
+    solid = np.count_nonzero(near)
+    if solid == 0 or not np.count_nonzero(near[1:-1, 1:-1]):
+        if not _is_cornered(near):
+            return NONE
+    if solid == near.size:
+        square = np.array([(0, 0), (size, 0), (size, size), (0, size)], float)
+        return TileParts(square + at, np.ones(4, bool), np.array([4]))
+    found = fitted("tile_parts", window, smooth, lambda: _fit(window, size, smooth))
+    return TileParts(found.corners + at, found.inner.copy(), found.counts.copy())
+
+
+def _fit(window, size, smooth):
+    pixels = np.ascontiguousarray(window, dtype=np.uint8)
+    paths, sides, corners, inner, counts = _room(size)
+    found = convex_tile(
+        Window(pixels, HALO, HALO + size, min(smooth, LARGEST_REACH), smooth >= JOINING),
+        MAX_CORNERS,
+        paths,
+        sides,
+        corners,
+        inner,
+        counts,
+    )
+    if found < 0:
+        raise RuntimeError("the outline of a tile is no polygon: a defect of fitting.tile_paths")
+    n = sum(counts[:found].tolist())
+    return Parts(corners[:n].copy(), inner[:n].copy(), counts[:found].copy(), np.zeros(found))
+
+
+def _is_cornered(near):
+    """Whether the outline fills a bit of a clear tile: at a corner of it with solid all round."""
+    return (
+        (near[:2, :2].sum() == 3)
+        or (near[:2, -2:].sum() == 3)
+        or (near[-2:, :2].sum() == 3)
+        or (near[-2:, -2:].sum() == 3)
+    )
+
+
+@cache
+def _room(size):
+    """Room for one tile at a time: 12 MB for 64 px."""
+    paths = room_for_paths(size, HALO)
+    most = 3 * len(paths.points)
+    return (paths, np.zeros(most, SIDE), np.zeros((most, 2)), np.zeros(most, bool), np.zeros(most, np.int64))
+
+
+@subkernel
+def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
+    """Write the rings of sides (SIDE) as parts, in pixels of a tile that begins at row and column low.
+    Returns how many."""
+    sides = sides_inout
+    n = 0
+    parts = 0
+    for k in range(count):
+        sides[k].seen = False
+    for start in range(count):
+        if not sides[start].alive or sides[start].seen:
+            continue
+        first = start
+        k = start
+        while not sides[k].seen:
+            sides[k].seen = True
+            if (sides[k].y, sides[k].x) < (sides[first].y, sides[first].x):
+                first = k
+            k = sides[k].next
+        begin = n
+        k = first
+        while True:
+            side = sides[k]
+            if side.inner != sides[side.previous].inner or turn_at(sides, side.previous, k, side.next) != 0.0:
+                corners_out[n, 0] = side.x - low
+                corners_out[n, 1] = side.y - low
+                inner_out[n] = side.inner
+                n += 1
+            k = side.next
+            if k == first:
+                break
+        counts_out[parts] = n - begin
+        parts += 1
+    return parts
+
+
+@kernel
+def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
+    """The convex parts of a tile: corners (n, 2) [px], inner (n,), counts (parts,). Returns how many; -1: what was
+    found is no polygon.
+
+    window: Window; most: corners of a part; workspace: Paths; sides_inout: SIDE, room to work in.
+    """
+    if not find_paths(window, workspace):
+        return -1
+    n = bridge(put_regions(window, workspace, sides_inout), sides_inout)
+    if n < 0:
+        return -1
+    n = cut_reflex(n, sides_inout)
+    if n < 0:
+        return -1
+    n = cut_large(n, most, sides_inout)
+    merge(n, most, sides_inout)
+    return put_parts(n, window.low, sides_inout, corners_out, inner_out, counts_out)

@@ -1,1 +1,0 @@
-"""How far apart two convex shapes are, and along which normal."""

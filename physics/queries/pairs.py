@@ -1,0 +1,595 @@
+"""Two shapes without a world: collide, distance and time_of_impact."""
+
+import math
+from dataclasses import dataclass
+from struct import Struct
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from physics import checks
+from physics.ccd.rotational import advance_on_ground, advance_parts, new_rotational_workspace, sweep_unions
+from physics.ccd.time_of_impact import MISS, TOLERANCE, sweep_circles
+from physics.checks import Pose
+from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
+from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
+from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_work
+from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate, separate_parts
+from physics.jit import kernel, subkernel
+from physics.math2d import Vec2
+from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.library import KIND_OF, Library, place, rounding_of
+from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.parts import (
+    Parts,
+    chain_outlines,
+    mask_outlines,
+    outline_parts,
+    parts_of,
+    placed_parts,
+    rectangle,
+    tile_outlines,
+    turned_parts,
+)
+from physics.shapes.placement import hull_at, refresh_aabbs, rounding
+from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
+from physics.tables.body import BODY
+from physics.tables.contact import MANIFOLD
+from physics.tables.geometry import CORNER, SPAN, Geometry
+from physics.tables.shape import CIRCLE, SHAPE
+
+# ---- pair rows -------------------------------------------------------------------------------------------------------
+# Two shapes at two poses as the rows that kernels read, without a world.
+#
+# What depends on a shape alone is kept with the shape, which never changes. Convex shapes need little more than their
+# corners; whatever is concave gets a library of its own.
+
+Placed = tuple[float, float, float]
+
+
+class PairRows(NamedTuple):
+    """The first shape is row 0, the second row 1."""
+
+    geometry: Geometry
+    bodies: np.ndarray  # BODY
+    shapes: np.ndarray  # SHAPE
+
+
+class HullRow(NamedTuple):
+    """What is kept of a hull: bytes, which are joined at a tenth of what joining structured arrays costs."""
+
+    first: bytes  # its SHAPE row as the first of a pair
+    second: bytes
+    corners: bytes  # CORNER rows; none of a circle
+    count: int  # of them
+
+
+def _kept(shape, name, make) -> Any:
+    """What `make` finds out about a shape, asked once."""
+    kept = vars(shape.bare)
+    if name not in kept:
+        kept[name] = make(shape.bare)
+    return kept[name]
+
+
+def hull_row(shape: Shape) -> HullRow | None:
+    """The row of a convex shape, but for its place; None for a mask, tiles, a chain, and a Bounds, which is its box."""
+    return _kept(shape, "_hull_row", _make_hull_row)
+
+
+def _make_hull_row(shape) -> HullRow | None:
+    if not isinstance(shape, (Circle, Capsule, Polygon, Segment)):
+        return None
+    rows = np.zeros(2, SHAPE)
+    rows["id"] = rows["body"] = rows["body_row"] = 0, 1
+    kind = CIRCLE if isinstance(shape, Circle) else KIND_OF[type(shape)]
+    rows["kind"], rows["wrapped"] = kind, -1
+    rows["geometry"] = (-1, -1) if kind == CIRCLE else (0, 1)
+    rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
+    points = np.array([] if isinstance(shape, Circle) else list(shape.points), CORNER)
+    return HullRow(rows[:1].tobytes(), rows[1:].tobytes(), points.tobytes(), len(points))
+
+
+def order_of(shape: Shape) -> tuple:
+    """A key that orders any two shapes, so that which one is named first changes no bit of a result but the signs."""
+    return _kept(shape, "_order", _make_order)
+
+
+def _make_order(shape) -> tuple:
+    kind = next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
+    if isinstance(shape, Bounds):
+        return (kind, *_make_order(shape.shape))
+    if isinstance(shape, TileGrid):
+        pixels = (shape.solid.tobytes(), shape.slopes.tobytes(), shape.one_way.tobytes())
+        return (kind, *shape.solid.shape, shape.tile_size, *pixels)
+    if isinstance(shape, PixelMask):
+        return (kind, *shape.size, *shape.origin, shape.snap, shape.solid.tobytes())
+    points = (shape.center,) if isinstance(shape, Circle) else shape.points
+    return (kind, getattr(shape, "radius", 0.0), len(points), *(each for point in points for each in point))
+
+
+def name_of(shape: Shape) -> tuple:
+    """Another such key, of how a shape is written."""
+    return _kept(shape, "_name", _make_name)
+
+
+def _make_name(shape) -> tuple:
+    pixels = shape.solid.tobytes() if isinstance(shape, (PixelMask, TileGrid)) else b""
+    return SHAPES.index(type(shape)), repr(shape), pixels
+
+
+NOTHING = Library().tables  # of what a pair of hulls has none
+BODIES = np.zeros(2, BODY)
+BODIES["id"] = 0, 1
+SPANS = Struct("4q")
+POSE = Struct("3d")  # x, y, angle, which stand side by side in BODY
+FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_interface__["data"][0])  # [bytes]
+
+
+def hull_pair(a: HullRow, pose_a: Placed, b: HullRow, pose_b: Placed) -> PairRows:
+    """Two hulls at two poses; their boxes are not written."""
+    spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
+    corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
+    shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)
+    bodies = bytearray(BODIES.tobytes())
+    POSE.pack_into(bodies, FIRST_POSE, *pose_a)
+    POSE.pack_into(bodies, BODY.itemsize + FIRST_POSE, *pose_b)
+    return PairRows(Geometry(spans, corners, *NOTHING[2:]), np.frombuffer(bodies, BODY), shapes)
+
+
+def any_pair(shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed) -> tuple[Library, PairRows]:
+    """Any two shapes at two poses, and the library that they stand in."""
+    library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
+    for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
+        place(library, shape, bodies, shapes, row, pose)
+    refresh_aabbs(np.arange(2), library.tables, bodies, shapes)
+    return library, PairRows(library.tables, bodies, shapes)
+
+
+# ---- pair manifold ---------------------------------------------------------------------------------------------------
+# Two shapes at two poses, without a world.
+
+# What a pass over one pair is given and only reads.
+PAIRS = {False: np.array([[0, 1]], np.int64), True: np.array([[1, 0]], np.int64)}
+KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS)}
+HULL_PASSES = {
+    CIRCLES: collide_circle_pairs,
+    POLYGON_CIRCLE: collide_polygon_circle_pairs,
+    POLYGONS: collide_polygon_pairs,
+}
+NAMES = MANIFOLD.names or ()
+
+
+@dataclass(frozen=True)
+class Manifold:
+    """Where two shapes touch: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,)
+    negative where they overlap, features (n,) that tell the points apart, shared area of two masks [px2].
+
+    len() is the number of points; without any the normal is (0, 0).
+    """
+
+    normal: Vec2
+    points: np.ndarray
+    separations: np.ndarray
+    features: np.ndarray
+    area: float
+
+    def __len__(self):
+        return len(self.points)
+
+
+def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
+    """Contact of two shapes at poses (x, y) or (x, y, angle); apart by more than margin [px]: no points.
+
+    Asked in the other order the points and separations are the same, and the normal is turned round. Against a TileGrid
+    or a Chain the points of all tiles or links stand together, with the normal of the deepest one; two of these never
+    meet. Raises TypeError, ValueError.
+    """
+    for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
+        if not isinstance(shape, SHAPES):
+            raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
+    margin = checks.number("margin", margin, low=0.0)
+    poses = []
+    for name, shape, pose in (("pose_a", shape_a, pose_a), ("pose_b", shape_b, pose_b)):
+        poses.append(checks.pose(name, pose))
+        if isinstance(shape, TileGrid) and poses[-1][2] != 0.0:
+            raise ValueError(f"{name} must have angle 0 for a TileGrid (got {poses[-1][2]})")
+    key_a, key_b = name_of(shape_a), name_of(shape_b)
+    swapped = (*key_b[:2], poses[1], key_b[2]) < (*key_a[:2], poses[0], key_a[2])
+    row_a, row_b = hull_row(shape_a), hull_row(shape_b)
+    if row_a is None or row_b is None:
+        return _collide_any(shape_a, poses[0], shape_b, poses[1], margin, swapped)
+    return _collide_hulls(hull_pair(row_a, poses[0], row_b, poses[1]), margin, swapped)
+
+
+def _collide_hulls(rows, margin, swapped) -> Manifold:
+    """Of two convex shapes: the one pass that they need, and at most one manifold."""
+    low, high = sorted(rows.shapes["kind"].tolist())
+    kind = kind_of_pair(low, high)
+    batch = Batch(rows.geometry, rows.bodies, rows.shapes, PAIRS[swapped], KINDS[kind], 1, margin, 0.0)
+    found = np.frombuffer(bytearray(MANIFOLD.itemsize), MANIFOLD)
+    if not HULL_PASSES[kind](batch, new_workspace(), found, 0, no_work()):
+        return nowhere()
+    m = dict(zip(NAMES, found[0].item(), strict=True))
+    sign, points = -1.0 if swapped else 1.0, range(1, 1 + m["count"])
+    return Manifold(
+        Vec2(sign * m["normal_x"] + 0.0, sign * m["normal_y"] + 0.0),
+        np.array([(m[f"x_{k}"], m[f"y_{k}"]) for k in points]),
+        np.array([m[f"separation_{k}"] for k in points]),
+        np.array([m[f"feature_{k}"] for k in points], np.int64),
+        0.0,
+    )
+
+
+def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
+    library, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
+    narrow = exact_narrow_phase()
+
+    def points_of(swapped):
+        return contacts_of(narrow.collide(library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))
+
+    contacts = points_of(swapped)
+    if not len(contacts):
+        return nowhere()
+    deepest = contacts[np.argmin(contacts["separation"])]
+    sign = -1.0 if swapped else 1.0
+    features = contacts["feature"].copy()
+    if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
+        features = points_of(False)["feature"].copy()  # a pixel of the mask that was named first
+    return Manifold(
+        Vec2(sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
+        np.stack([contacts["point_x"], contacts["point_y"]], axis=1),
+        contacts["separation"].copy(),
+        features,
+        float(contacts["area"].sum()),
+    )
+
+
+def nowhere() -> Manifold:
+    """Of shapes that do not touch."""
+    return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
+
+
+# ---- pair distance ---------------------------------------------------------------------------------------------------
+# How far apart two shapes are at two poses, without a world; and GJK's steps between them, for drawing.
+
+ROUNDING_BAND = 1e-11  # of the size: within it the contact test says on which side of touching two shapes are
+NEXT_TO_NOTHING = math.ulp(0.0)  # [px] apart, and no number is smaller: shapes that touch without a contact
+
+
+@dataclass(frozen=True)
+class Distance:
+    """Distance [px], negative when they overlap; nearest points; unit normal from A to B; rounds of GJK and EPA.
+
+    point_b = point_a + distance · normal. Of shapes that overlap the distance is -(the move of B along the normal that
+    ends it), and the points are the two surfaces' along it.
+    """
+
+    distance: float
+    point_a: Vec2
+    point_b: Vec2
+    normal: Vec2
+    iterations: int
+
+
+def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
+    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact, of masks
+    < 0.
+
+    Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
+    `collide` gives. What touches a mask without sharing area is 0 from it, without a contact; where other shapes touch
+    or cross without a contact (a Chain from behind; tiles on tiles) it is the smallest number above 0. A mask is
+    measured by its pixels, a snapped one as it is drawn, on the pixel grid. Infinite, with the normal (1, 0), to a
+    shape without a solid cell or pixel. Raises TypeError, ValueError.
+    """
+    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
+    if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
+        found = _measure(shape_b, pose_b, shape_a, pose_a)
+        return Distance(
+            found.distance,
+            found.point_b,
+            found.point_a,
+            Vec2(0.0 - found.normal[0], 0.0 - found.normal[1]),
+            found.iterations,
+        )
+    return _measure(shape_a, pose_a, shape_b, pose_b)
+
+
+def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
+    # Seen from A, so that far from the origin no digits are lost.
+    x, y = pose_a[0], pose_a[1]
+    workspace, row_a, row_b = new_gap_workspace(), hull_row(shape_a), hull_row(shape_b)
+    boxes = isinstance(shape_a, Bounds) or isinstance(shape_b, Bounds)  # which stand where they stand in the world
+    if row_a is not None and row_b is not None and not boxes:
+        rows = hull_pair(row_a, pose_a, row_b, pose_b)
+        found, size, rounds = separate_hulls(*rows, x, y, np.zeros((16, 2)), np.zeros((16, 2)), workspace)
+    else:
+        found, size, rounds = _separate_any(shape_a, pose_a, shape_b, pose_b, workspace)
+    if math.isinf(found):
+        return Distance(math.inf, Vec2(*pose_a[:2]), Vec2(*pose_b[:2]), Vec2(1.0, 0.0), 0)
+    nx, ny, ax, ay = (float(workspace.gap[k]) for k in (NX, NY, AX, AY))
+    convex = not any(isinstance(each, (TileGrid, PixelMask, Chain)) for each in (shape_a, shape_b))
+    band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
+    if any(isinstance(each, Chain) for each in (shape_a, shape_b)):
+        band = size  # what was pressed through a link may hang wholly behind it and still be pushed out
+    if found <= band and not (convex and found < -band):
+        contact = collide(shape_a, pose_a, shape_b, pose_b)
+        if not len(contact):
+            found = max(found, 0.0 if _are_open(shape_a, shape_b) else NEXT_TO_NOTHING)
+        elif convex:
+            found = min(found, 0.0)
+        else:
+            deepest = int(np.argmin(contact.separations))
+            found, (nx, ny) = min(float(contact.separations[deepest]), 0.0), contact.normal
+            ax, ay = contact.points[deepest] - 0.5 * found * np.array((nx, ny)) - (x, y)
+    point_a = Vec2(x + float(ax), y + float(ay))
+    nx, ny = nx + 0.0, ny + 0.0
+    point_b = Vec2(point_a[0] + found * nx, point_a[1] + found * ny)
+    return Distance(float(found), point_a, point_b, Vec2(nx, ny), int(rounds))
+
+
+def _are_open(shape_a, shape_b) -> bool:
+    """Whether one is a mask, the other no chain: touching, they are 0 apart and share nothing."""
+    pair = (shape_a, shape_b)
+    return any(isinstance(each, PixelMask) for each in pair) and not any(isinstance(each, Chain) for each in pair)
+
+
+@kernel
+def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
+    """Write separation, normal and points, seen from (x, y) [px], of the hulls in rows 0 and 1 to workspace.gap.
+
+    corners_a_out, corners_b_out (16, 2): scratch. Returns (separation [px], the greater size of both [px], rounds of
+    GJK and EPA).
+    """
+    a = bodies[0]
+    b = bodies[1]
+    count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
+    count_b = hull_at(geometry, shapes, 1, b.x - x, b.y - y, b.angle, corners_b_out)
+    radius_a = rounding(shapes, 0)
+    radius_b = rounding(shapes, 1)
+    separation = separate(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
+    size = max(size_of(corners_a_out, count_a, radius_a), size_of(corners_b_out, count_b, radius_b))
+    return separation, size, workspace.state[ROUNDS]
+
+
+@subkernel
+def size_of(corners, count, radius):
+    """The longer side of the box [px] around a rounded hull."""
+    longest = 0.0
+    for axis in range(2):
+        low = corners[0, axis]
+        high = low
+        for k in range(1, count):
+            low = min(low, corners[k, axis])
+            high = max(high, corners[k, axis])
+        longest = max(longest, (high + radius) - (low - radius))
+    return longest
+
+
+def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
+    """What separate_hulls tells, of any two shapes; infinite where one has no parts."""
+    parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
+    totals = np.zeros(2)
+    found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
+    if math.isinf(found):
+        return found, 0.0, 0
+    size = max(np.ptp(parts.boxes.reshape(-1, 2, 2), axis=(0, 1)).max() for parts in (parts_a, parts_b))
+    return found, float(size), totals[0]
+
+
+def parts_of_pair(
+    shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed, x: float, y: float
+) -> tuple[Parts, ...]:
+    """Return the convex parts of both shapes, seen from (x, y)."""
+    library, (_, bodies, shapes) = any_pair(shape_a, pose_a, shape_b, pose_b)
+    return tuple(placed_parts(library, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])) for row in (0, 1))
+
+
+def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
+    """The pose as numbers. Raises TypeError or ValueError that names the argument."""
+    if not isinstance(shape, SHAPES):
+        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
+    pose = checks.pose(pose_name, pose)
+    if isinstance(shape, TileGrid) and pose[2] != 0.0:
+        raise ValueError(f"{pose_name} must have angle 0 for a TileGrid (got {pose[2]})")
+    return pose
+
+
+# ---- pair impact -----------------------------------------------------------------------------------------------------
+# When two moving shapes first touch, without a world.
+
+BOX_STOPS = 4000  # of a turning box, whose speed is only bounded: each is before the impact
+LOOKS = 1024  # of shapes that touch and do not approach
+
+
+@dataclass(frozen=True)
+class TimeOfImpact:
+    """Whether two motions meet; the first fraction 0..1 at which they touch; where [px];
+    the unit normal from A to B."""
+
+    hit: bool
+    fraction: float
+    point: Vec2 | None
+    normal: Vec2 | None
+
+
+NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
+
+
+def time_of_impact(
+    shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
+) -> TimeOfImpact:
+    """First fraction at which two shapes touch while their poses (x, y) or (x, y, angle) go straight from start to end,
+    angles unwrapped.
+
+    Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
+    fraction 0 when they approach; when they part or slide they are looked at until they approach. A Chain is met from
+    its front, a one-way tile from above; no seam of ground is felt, and what only grazes tiles or links does not meet
+    them; nor does what only grazes a PixelMask, which is its outline at the exact pose. A Bounds whose shape turns
+    changes its size on the way: to 1e-12 of it. Tiles and chains do not meet each other. Raises TypeError, ValueError.
+    """
+    moves = [
+        [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
+        for side, shape, start, end in (("a", shape_a, start_a, end_a), ("b", shape_b, start_b, end_b))
+    ]
+    ground = [isinstance(each, (TileGrid, Chain)) for each in (shape_a, shape_b)]
+    if all(ground):
+        return NO_IMPACT
+    swap = ground[0] or (not ground[1] and (*order_of(shape_b), *moves[1]) < (*order_of(shape_a), *moves[0]))
+    given = [(shape_a, moves[0]), (shape_b, moves[1])]
+    (a, move_a), (b, move_b) = reversed(given) if swap else given
+    fraction, nx, ny = _first(a, move_a, b, move_b)
+    if fraction > 1.0:
+        return NO_IMPACT
+    side = -1.0 if swap else 1.0
+    return TimeOfImpact(
+        True, float(fraction), _point(a, move_a, b, move_b, fraction), Vec2(side * nx + 0.0, side * ny + 0.0)
+    )
+
+
+def _first(a, move_a, b, move_b):
+    if any(isinstance(each, Bounds) and _turns(move) for each, move in ((a, move_a), (b, move_b))):
+        return _advance_boxes(a, move_a, b, move_b)
+    if isinstance(a, Circle) and isinstance(b, Circle) and not (_swings(a, move_a) or _swings(b, move_b)):
+        (ax, ay), (bx, by) = (_turned_point(each.center, move[0][2]) for each, move in ((a, move_a), (b, move_b)))
+        x, y = (move_b[0][0] - move_a[0][0]) + (bx - ax), (move_b[0][1] - move_a[0][1]) + (by - ay)
+        dx, dy = ((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1))
+        return sweep_circles(x, y, dx, dy, a.radius + b.radius)
+    workspace, found, totals = new_rotational_workspace(), np.zeros(3), np.zeros(2)
+    parts_a, motion_a = _local(a, move_a)
+    if isinstance(b, (TileGrid, Chain)):
+        library = Library()
+        row = library.add(b)[1]
+        advance_on_ground(
+            library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), workspace, found, totals
+        )
+    else:
+        parts_b, motion_b = _local(b, move_b)
+        sweep = sweep_unions if isinstance(a, PixelMask) or isinstance(b, PixelMask) else advance_parts
+        sweep(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
+    return found.tolist()
+
+
+def _turns(move) -> bool:
+    return move[0][2] != move[1][2]
+
+
+def _swings(circle, move) -> bool:
+    return _turns(move) and circle.center != (0.0, 0.0)
+
+
+def _turned_point(point, angle):
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]
+
+
+def _motion(move):
+    start, end = move
+    return np.array([*start, *(q - p for p, q in zip(start, end, strict=True))])
+
+
+def _local(shape, move) -> tuple[Parts, np.ndarray]:
+    """Parts in body space, and the motion they make; a Bounds that does not turn is the box it has at its angle."""
+    motion = _motion(move)
+    if not isinstance(shape, Bounds):
+        return _body_parts(shape), motion
+    angle, motion[2] = move[0][2], 0.0
+    return _box_at(shape.shape, angle), motion
+
+
+def _body_parts(shape) -> Parts:
+    """In body space; of a mask its outline."""
+    if isinstance(shape, PixelMask):
+        return outline_parts(shape)
+    if isinstance(shape, TileGrid):
+        return parts_of(tile_outlines(shape, 0.0, 0.0, -math.inf))
+    if isinstance(shape, Chain):
+        return parts_of(chain_outlines(shape))
+    if isinstance(shape, Circle):
+        return parts_of([[shape.center]], shape.radius)
+    return parts_of([shape.points], getattr(shape, "radius", 0.0))
+
+
+def _boxed_parts(shape) -> Parts:
+    """As _body_parts, of what a Bounds wraps: of a mask its pixels."""
+    if isinstance(shape, PixelMask):
+        return parts_of(mask_outlines(shape, 0, -shape.origin[0], -shape.origin[1]))
+    return _body_parts(shape)
+
+
+def _box_at(shape, angle) -> Parts:
+    """The box around a shape that is turned by an angle; around a mask's pixels as it is drawn at that angle."""
+    parts = _boxed_parts(shape)
+    if isinstance(shape, PixelMask) and shape.snap and shape.area:
+        turned = shape.turned(angle)
+        rows, columns = np.nonzero(turned.solid)
+        x, y = turned.origin
+        return parts_of([rectangle(columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)])
+    if not len(parts.counts):
+        return parts
+    placed = _placed(parts, (0.0, 0.0, angle))
+    return parts_of([rectangle(*placed.boxes[:, :2].min(axis=0), *placed.boxes[:, 2:].max(axis=0))])
+
+
+def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
+    """Parts at a pose, seen from (x, y)."""
+    return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
+
+
+def _at(move, fraction):
+    return tuple(p + fraction * (q - p) for p, q in zip(*move, strict=True))
+
+
+def _parts_at(shape, move, fraction, x, y) -> Parts:
+    pose = _at(move, fraction)
+    if isinstance(shape, Bounds):
+        return _placed(_box_at(shape.shape, pose[2]), (pose[0], pose[1], 0.0), x, y)
+    return _placed(_body_parts(shape), pose, x, y)
+
+
+def _point(a, move_a, b, move_b, fraction):
+    """Midway between the nearest points at a fraction [px]."""
+    x, y = move_a[0][:2]
+    gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
+    return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
+
+
+def _gap_at(parts_a, parts_b):
+    workspace = new_gap_workspace()
+    separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, np.zeros(2))
+    return workspace.gap
+
+
+def _advance_boxes(a, move_a, b, move_b):
+    """Conservative advancement by the distance and a bound on the speed: where a box changes its size as it turns."""
+    x, y = move_a[0][:2]
+    parts = [_boxed_parts(each.shape) if isinstance(each, Bounds) else _body_parts(each) for each in (a, b)]
+    if not all(len(each.counts) for each in parts):
+        return MISS, 1.0, 0.0
+    reach = [float(np.hypot(*np.abs(each.boxes).reshape(-1, 2, 2).max(axis=(0, 1)))) for each in parts]
+    turn = [abs(move[1][2] - move[0][2]) for move in (move_a, move_b)]
+    path = math.hypot(*((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1)))
+    # Each side of a turning box moves no faster than its shape's furthest point, and a normal meets two sides.
+    speed = path + math.sqrt(2.0) * (turn[0] * reach[0] + turn[1] * reach[1])
+    tolerance = 1e-12 * (sum(reach) + path)
+
+    def look(fraction):
+        gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
+        return float(gap[0]), float(gap[NX]), float(gap[NY])
+
+    fraction, was_apart = 0.0, False
+    for _ in range(BOX_STOPS):
+        separation, nx, ny = look(fraction)
+        if separation <= tolerance:
+            soon = min(1.0, fraction + 1.0 / (LOOKS * LOOKS))
+            if was_apart or look(soon)[0] < separation - TOLERANCE * speed:
+                return fraction, nx, ny
+            fraction += 1.0 / LOOKS
+        else:
+            was_apart = True
+            if fraction == 1.0:
+                return MISS, nx, ny
+            fraction = min(1.0, fraction + separation / speed) if speed > 0.0 else 1.0
+        if fraction > 1.0:
+            return MISS, nx, ny
+    return fraction, nx, ny
