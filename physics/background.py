@@ -1,4 +1,4 @@
-"""Compiling beside the program, or ahead of it, in worker processes."""
+"""Compilation beside the program, or ahead of it, in worker processes."""
 
 import json
 import sys
@@ -20,9 +20,9 @@ from physics.jit.tiers import code_of, parts_of, spec_of
 from physics.jit.workers import Task, Workers, short_turns, unhurried_imports
 
 WORKER = f"{__package__}.compile_worker"
-FIRST_STEPS = 0.2  # [s] in which the first steps tell which kernels take the time
+FIRST_STEPS = 0.2  # [s] of first steps, which show the kernels that take the time
 ALONE = 0.8  # [s] after which the compiler is imported here: no worker has compiled a kernel before that
-LINK = 500  # bytes of code that take as long to compile as a kernel's own share, whatever its length
+LINK = 500  # bytes of code that cost as much as the fixed cost of compiling a kernel
 FEW = 2  # kernels that are compiled here: a worker takes about as long to start
 Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
 
@@ -30,13 +30,13 @@ _running: "list[Background]" = []
 
 
 def compile_in_background(workers: int | None = None) -> "Background":
-    """Never wait for the compiler from now on: run kernels as plain Python while worker processes compile them.
+    """Run kernels as plain Python from now on, while worker processes compile them.
 
-    Compiled forms take over between two steps. Both forms give the same bits, so nothing but the speed changes. The
-    kernels that take most of the time for their length are compiled first. workers: how many processes, None: one fewer
-    than there are cores, at least one. They start when something is to be compiled, as `python -m`, so a script needs
-    no guard; a frozen program has none, and compiles in a thread. Without numba nothing changes. Call it before the
-    first step; another call returns the same object. Raises ValueError for a number of workers below 0.
+    Compiled forms take over between two steps. Both forms give the same bits, so only the speed changes. Kernels with
+    the largest share of the time for their length are compiled first. workers: number of processes, None: the number of
+    cores less one, at least one. The workers start when a kernel is needed, as `python -m`, so a script needs no guard.
+    A frozen program has no workers and compiles in a thread. Without numba the call has no effect. Call it before the
+    first step; another call returns the same object. Raises ValueError for a negative number of workers.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
@@ -46,18 +46,18 @@ def compile_in_background(workers: int | None = None) -> "Background":
 
 
 class Background:
-    """What is to be compiled for this program, and how far that is. Made by compile_in_background()."""
+    """The compilation of this program's kernels. Made by compile_in_background()."""
 
     def __init__(self, workers: int | None = None) -> None:
         self.workers = Workers(WORKER, workers)
         if workers is None:
             self.workers.limit = max(1, self.workers.count - 1)
         self.failed: list[str] = []  # names of kernels that stay plain
-        self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> what is to run from it
+        self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> kernels and types that run from it
         self._ordered: set[str] = set()
         self._seen: set[tuple[Kernel, Keys]] = set()  # ordered or loaded
         self._came: deque[tuple[Kernel, Keys]] = deque()  # compiled before the compiler was imported here
-        self._compiled: set[Kernel] = set()  # whose code a later kernel need not wait for
+        self._compiled: set[Kernel] = set()  # parts that are compiled: they cost a later kernel nothing
         self._expected: deque[tuple[int, dict[str, Any]]] = deque()
         self._jobs = 0
         self._wake, self._stopped = threading.Event(), False
@@ -68,23 +68,23 @@ class Background:
 
     @property
     def share(self) -> float:
-        """How many of the kernels that were called run compiled, 0..1."""
+        """The share of the called kernels that run compiled, 0..1."""
         return tiers.share_taken_over()
 
     @property
     def idle(self) -> bool:
-        """Whether nothing is wanted, expected or being compiled."""
+        """Whether no kernel is needed, expected or being compiled."""
         return not tiers.wanted and not self._expected and not self.workers.left
 
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
-        """Compile what physics.warmup(**job) would, when nothing is wanted at once; the first job first."""
+        """Compile the kernels of physics.warmup(**job) once no kernel is needed at once, the first job first."""
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))
             self._jobs += 1
         self._wake.set()
 
     def stop(self) -> None:
-        """End the processes; what is compiled stays. From now on a kernel is compiled at its first call again."""
+        """End the worker processes; compiled kernels stay. From now on a kernel compiles at its first call."""
         self._stopped = True
         self._wake.set()
         self.workers.stop()
@@ -93,8 +93,8 @@ class Background:
             tiers.stop()
 
     def _work(self):
-        """Look for what is wanted, until stopped, in a thread of its own."""
-        if store().empty and self.workers.alive:  # there is nothing to load: the compiler is not needed here yet
+        """Load and order needed kernels until stopped, in a thread."""
+        if store().empty and self.workers.alive:  # an empty store: the compiler is not needed here yet
             self._wake.wait()
             if tiers.wanted:
                 sleep(FIRST_STEPS)
@@ -124,7 +124,7 @@ class Background:
                     self._list(*self._expected.popleft())
 
     def _import(self):
-        """Import the compiler, and start it; return whether there is one."""
+        """Import and start the compiler. Return whether there is one."""
         with short_turns():
             if compiler() is None:
                 return False
@@ -135,7 +135,7 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Have a kernel compiled while it is not known here yet under which name it will be kept."""
+        """Order a kernel before its file name is known, which needs the compiler."""
         each = kernel, keys
         self._seen.add(each)
 
@@ -153,20 +153,22 @@ class Background:
         self.workers.add([Task(("compile", spec_of(kernel), keys), lambda: self._urgency([each]), done)])
 
     def _take_in(self):
-        """Load what was compiled before the compiler was imported here."""
-        with suppress(IndexError):  # another thread has taken the last one
+        """Load the kernels that arrived before the compiler was imported."""
+        with suppress(IndexError):  # another thread took the last one
             while self._came:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a wanted kernel, or have it compiled."""
+        """Load a needed kernel, or order it."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
             return
         self._seen.add((kernel, keys))
         name = compiling.name_of(kernel, keys)
-        self._waiting.setdefault(name, []).append((kernel, keys))  # before the look on disk: it may just be finished
+        self._waiting.setdefault(name, []).append(
+            (kernel, keys)
+        )  # before the store is read: a worker may finish it just now
         form = compiling.load(kernel, keys)
         if form is None and self.workers.alive:
             self._order(name, spec_of(kernel), keys, 0)
@@ -176,10 +178,10 @@ class Background:
                 self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
-        """Have a kernel compiled: at once if it is wanted, else in its turn.
+        """Order a kernel: at once if it is needed, otherwise in its turn.
 
-        Of those wanted the one first that takes most of the time for what it takes to compile (Smith's rule, which has
-        the least sum of the times spent waiting: Smith 1956).
+        Of the needed kernels, the one with the largest time spent per time to compile goes first (Smith's rule, which
+        minimises the sum of the waiting times: Smith 1956).
         """
         if name in self._ordered:
             return
@@ -194,15 +196,16 @@ class Background:
                 self._arrive(name)
             elif self.workers.alive:
                 self._fail(name, self._waiting.pop(name, []))
-            else:  # there are no processes: the thread compiles it
+            else:  # no workers are left: the thread compiles it
                 self._seen.difference_update(self._waiting.pop(name, []))
                 self._wake.set()
 
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the time that kernels of one code have taken, for how much code is to be compiled: their own, and of
-        what they call what no other had."""
+        """Return the time spent in kernels of one code, divided by the amount of code to compile: their own, and parts
+        that are new.
+        """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 
@@ -219,7 +222,7 @@ class Background:
 
         for kernel, keys in waiting:
             form = compiling.load(kernel, keys)
-            if form is None:  # it could not be kept
+            if form is None:  # it could not be stored
                 self._fail(kernel.__qualname__, [(kernel, keys)])
             else:
                 self._take(kernel, keys, form)
@@ -229,7 +232,7 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Have a job's kernels listed and compiled, unless an earlier start found nothing left of it."""
+        """Order the kernels of a job, unless an earlier start found all of them compiled."""
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
             return
@@ -244,7 +247,7 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a file that says: all kernels of this job are compiled, from these sources."""
+    """Return the name of the file that marks all kernels of a job as compiled from these sources."""
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -260,10 +263,10 @@ def _sources():
 
 
 def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | None = None) -> None:
-    """Compile kernels with all cores, load them, and return when they are ready.
+    """Compile kernels with all cores and load them.
 
-    found: (kernel, types), as tiers.collecting() gives them; progress(done, total, name) is called before each is
-    ready. What no process can compile is compiled here.
+    found: (kernel, types), as tiers.collecting() gives them. progress(done, total, name) is called before each kernel
+    is ready. A kernel that no process can compile is compiled here.
     """
     order = _spread(dict.fromkeys(found))
     if not order:
@@ -296,10 +299,10 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
 def compile_jobs(
     jobs: Iterable[Mapping[str, Any]], progress: Progress | None = None, processes: int | None = None
 ) -> None:
-    """Compile what physics.warmup(**job) would compile, for many jobs, with all cores; nothing is loaded here.
+    """Compile the kernels of physics.warmup(**job) for many jobs, with all cores, without loading them.
 
-    progress(done, total, name): of kernels; `total` grows while jobs are listed. A job of which an earlier call has
-    left nothing to compile is not listed again. Raises RuntimeError naming what could not be compiled.
+    progress(done, total, name) counts kernels; `total` grows while jobs are listed. A job that an earlier call
+    completed is not listed again. Raises RuntimeError naming the kernels that could not be compiled.
     """
     if not JIT or compiler() is None:
         return
@@ -347,9 +350,11 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return kernels in the order in which each adds most to those before: processes that share the work are then at
-    different parts of the physics, and seldom wait for one another (measured with the platformer on two cores: 1 % of
-    the processes' time was waiting, 14 % with the longest code first)."""
+    """Return kernels in the order in which each adds the most new code.
+
+    Processes that share the work then compile different parts of the physics and seldom wait for one another: 1 % of
+    their time against 14 % with the longest code first (the platformer, two cores).
+    """
     left, order, covered = list(found), [], set()
     while left:
         first = max(left, key=lambda each: code_of(each[0], covered))
@@ -360,8 +365,9 @@ def _spread(found):
 
 
 class StderrProgress:
-    """Says on standard error how far compiling is, once it has taken over a second: over one line of a terminal, else a
-    line every ten seconds."""
+    """Progress of compilation on standard error once it has taken a second: one line of a terminal, else a line every
+    ten seconds.
+    """
 
     def __init__(self, quiet: float = 1.0) -> None:
         self.started = self.told = perf_counter()
@@ -369,7 +375,7 @@ class StderrProgress:
         self.shown = False
 
     def __call__(self, done: int, total: int, name: str) -> None:
-        """Say it, if it is time to."""
+        """Write the progress if it is time to."""
         now = perf_counter()
         if sys.stderr is None or now - self.started < self.quiet:
             return
@@ -382,7 +388,7 @@ class StderrProgress:
         sys.stderr.flush()
 
     def end(self) -> None:
-        """Say how long it took, if anything was said."""
+        """Write the total time if progress was written."""
         if self.shown and sys.stderr is not None:
             lead = "\r" if sys.stderr.isatty() else ""
             sys.stderr.write(f"{lead}hitbox: physics compiled in {perf_counter() - self.started:.0f} s{' ' * 24}\n")

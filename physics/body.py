@@ -20,19 +20,19 @@ from physics.world_state import Handle
 
 
 class Body(Handle):
-    """A body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
+    """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
-    What is set raises TypeError or ValueError naming the argument, KeyError for a removed body, RuntimeError during a
-    step; the world is unchanged then.
+    A setter raises TypeError or ValueError naming the argument, KeyError for a removed body, RuntimeError during a
+    step. The world is then unchanged.
     """
 
     __slots__ = ()
 
-    # --- where it is -------------------------------------------------------------------------------------------------
+    # --- pose -------------------------------------------------------------------------------------------------------
 
     @property
     def position(self) -> Vec2:
-        """The body's origin [px]. Set, it is put there as by move_to."""
+        """The origin of the body [px]. Setting it teleports the body, as move_to does."""
         return self._pair("x", "y")
 
     @position.setter
@@ -41,7 +41,7 @@ class Body(Handle):
 
     @property
     def angle(self) -> float:
-        """Turn of the body [rad]. Set, it is turned about its origin as by move_to."""
+        """The angle of the body [rad]. Setting it rotates the body about its origin, as move_to does."""
         return self._value("angle")
 
     @angle.setter
@@ -55,12 +55,12 @@ class Body(Handle):
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """(min_x, min_y, max_x, max_y) [px] of its shapes as they stand now; None when they hold nothing."""
+        """The AABB (min_x, min_y, max_x, max_y) [px] of the shapes at the present pose; None if they are empty."""
         self._must_exist()
         return bounds_of(self.world, self.id)
 
     def to_world(self, point: Pair) -> Vec2:
-        """The place in the world [px] of a point in body space."""
+        """Return the world point [px] of a point in body space."""
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
@@ -68,14 +68,14 @@ class Body(Handle):
         return Vec2(row["x"].item() + u, row["y"].item() + v)
 
     def to_local(self, point: Pair) -> Vec2:
-        """The place in body space [px] of a point in the world."""
+        """Return the point in body space [px] of a world point."""
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
         return Vec2(*turned(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Put the origin at a position [px], and turn to an angle [rad], without sweeping what lies between."""
+        """Teleport the body to a position [px] and an angle [rad]; nothing in between is swept."""
         edit.move_to(
             self.world,
             self.id,
@@ -84,12 +84,15 @@ class Body(Handle):
         )
 
     def set_target(self, position: Pair, angle: float | None = None) -> None:
-        """Have a kinematic body arrive at a position [px] and an angle [rad] (None: as it is) at the end of the next
-        step, whatever its length: riders come along, what is in the way is pushed. It stands there until it is told
-        anew. Another velocity, or a teleport, before that step takes the target back."""
+        """Move a kinematic body to a position [px] and an angle [rad] (None: unchanged) by the end of the next step.
+
+        The velocity follows from the length of that step; riders come along, and bodies in the way are pushed.
+        Afterwards the body stands still until a new target is set. Setting a velocity, or a teleport, before that step
+        cancels the target.
+        """
         step.set_target(self.world, self.id, position, angle)
 
-    # --- how it moves ------------------------------------------------------------------------------------------------
+    # --- motion -----------------------------------------------------------------------------------------------------
 
     @property
     def velocity(self) -> Vec2:
@@ -109,8 +112,11 @@ class Body(Handle):
 
     @property
     def angular_velocity(self) -> float:
-        """[rad/s]. Raises ValueError when set to other than 0 without the rotation effect, on a static body, or on one
-        with a TileGrid."""
+        """Angular velocity [rad/s].
+
+        Raises ValueError when set to other than 0 without the rotation effect, on a static body, or on a body with a
+        TileGrid.
+        """
         return self._value("angular_velocity")
 
     @angular_velocity.setter
@@ -128,12 +134,12 @@ class Body(Handle):
 
     @property
     def awake(self) -> bool:
-        """Whether it takes part in the simulation."""
+        """Whether the body takes part in the simulation."""
         return self._value("awake")
 
     @property
     def mass(self) -> float:
-        """Mass; 0 for a body without any."""
+        """Mass; 0 for a body without mass."""
         return self._value("mass")
 
     @property
@@ -143,13 +149,13 @@ class Body(Handle):
 
     @property
     def kinetic_energy(self) -> float:
-        """m v² / 2 + I ω² / 2 [mass px²/s²]."""
+        """Kinetic energy, m v² / 2 + I ω² / 2 [mass px²/s²]."""
         row = self._row
         vx, vy, spin = row["vx"].item(), row["vy"].item(), row["angular_velocity"].item()
         return 0.5 * row["mass"].item() * (vx * vx + vy * vy) + 0.5 * row["inertia"].item() * spin * spin
 
     def velocity_at(self, point: Pair) -> Vec2:
-        """Velocity [px/s] of the point of the body that is at a place in the world [px]."""
+        """Return the velocity [px/s] of the body at a world point [px]."""
         row = self._row
         x, y = checks.vector("point", point)
         spin = row["angular_velocity"].item()
@@ -173,7 +179,9 @@ class Body(Handle):
             row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
-        """Change the velocity at once by impulse / mass; with a point [px] outside the centre also the spin."""
+        """Change the velocity by impulse / mass. At a point [px] off the centre of mass, change the angular velocity
+        too.
+        """
         self.world._unlocked()
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
@@ -205,11 +213,11 @@ class Body(Handle):
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
         return row
 
-    # --- what it meets, and whether it takes part ----------------------------------------------------------------
+    # --- contacts, carving, sleep, removal ----------------------------------------------------------------------
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT rows that name it, of the last step or asleep, in the order of shape ids: a copy."""
+        """A copy of the CONTACT rows that name this body, of the last step or asleep, in the order of shape ids."""
         world, row = self.world, self._row
         told = world.contacts
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
@@ -218,47 +226,51 @@ class Body(Handle):
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
-        """Take the pixels of its masks whose centres are inside a shape, closed, at a pose in the world.
+        """Remove the pixels of the body's masks whose centres lie inside a shape at a world pose, its boundary
+        included.
 
-        shape: a Circle, Capsule, Polygon or PixelMask; pose: (x, y) or (x, y, angle). Pieces are 8-connected. A dynamic
-        body keeps the largest; of a piece of another body that splits the largest stays, and what was apart before. Of
-        pieces of one size the one with the first pixel stays. The others become dynamic bodies, as fast as they were,
-        unless they have less than `crumb` pixels: those are gone. A body without a mass left is removed. What touches
-        the carved places wakes. Raises TypeError, ValueError, RuntimeError during a step; without the effect carving
-        ValueError.
+        shape: a Circle, Capsule, Polygon or PixelMask. pose: (x, y) or (x, y, angle). Pieces are 8-connected. A dynamic
+        body keeps the largest piece, and of equal pieces the one with the first pixel. Of a body of another kind,
+        pieces that were apart before stay, and of a piece that splits the largest part stays. The other pieces become
+        dynamic bodies with the velocity that their pixels had. Pieces of fewer than `crumb` pixels are removed. A body
+        that loses all its mass is removed. Bodies that touch carved places wake.
+
+        Raises TypeError, ValueError (also without the effect carving), RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
         return found._replace(fragments=tuple(Body(self.world, each) for each in found.fragments))
 
     def wake(self) -> None:
-        """Wake it, and all it is piled up with."""
+        """Wake the body and its island."""
         self.world._unlocked()
         self._must_exist()
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: str) -> None:
-        """static, kinematic or dynamic. What becomes static stops. ValueError for a character, it stays kinematic."""
+        """Set the kind: static, kinematic or dynamic. A body that becomes static stops. Raises ValueError for a
+        character, which stays kinematic.
+        """
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
-        """Take a quarantined body back into the simulation, at its last finite pose and at rest."""
+        """Return a quarantined body to the simulation, at its last finite pose and at rest."""
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
-        """Remove it from its world."""
+        """Remove the body from its world."""
         self.world._remove([self.id])
 
-    # --- its kind and its user's value -----------------------------------------------------------------------------
+    # --- kind and user value -------------------------------------------------------------------------------------
 
     @property
     def kind(self) -> str:
-        """static, kinematic or dynamic; see set_kind."""
+        """The kind: static, kinematic or dynamic. See set_kind."""
         return KINDS[self._value("kind")]
 
     @property
     def user(self) -> Any:
-        """Anything the game wants to find again; not part of snapshots and digests."""
+        """A value of the game. It is not part of snapshots and digests."""
         self._must_exist()
         return self.world._users.get(self.id)
 
@@ -267,11 +279,11 @@ class Body(Handle):
         self._must_exist()
         self.world._users[self.id] = value
 
-    # --- what it says of its shapes ------------------------------------------------------------------------------
+    # --- own values of its shapes -------------------------------------------------------------------------------
 
     @property
     def material(self) -> Material:
-        """What those shapes are made of that have no material of their own. Set, the body is weighed anew."""
+        """The material of the shapes that have none of their own. Setting it recomputes the mass."""
         return edit.material_of(self.world, self.id)
 
     @material.setter
@@ -280,7 +292,7 @@ class Body(Handle):
 
     @property
     def filter(self) -> Filter:
-        """The filter of those shapes that have none of their own."""
+        """The filter of the shapes that have none of their own."""
         return edit.filter_of(self.world, self.id)
 
     @filter.setter
@@ -289,14 +301,16 @@ class Body(Handle):
 
     @property
     def sensor(self) -> bool:
-        """Whether those shapes that do not say so themselves report and do not push. Sensors count in the mass."""
+        """Whether the shapes that have no own value are sensors, which report contacts and do not respond. Sensors
+        count in the mass.
+        """
         return self._given["sensor"].item()
 
     @sensor.setter
     def sensor(self, value: bool) -> None:
         edit.set_sensor(self.world, self.id, value)
 
-    # --- how it moves ----------------------------------------------------------------------------------------------
+    # --- motion ---------------------------------------------------------------------------------------------------
 
     @property
     def gravity_scale(self) -> float:
@@ -312,7 +326,9 @@ class Body(Handle):
 
     @property
     def bullet(self) -> bool:
-        """Whether it is swept against moving bodies too. Raises ValueError for True without the effect continuous."""
+        """Whether the body is swept against moving bodies, too. Raises ValueError for True without the effect
+        continuous.
+        """
         return self._value("bullet")
 
     @bullet.setter
@@ -323,7 +339,7 @@ class Body(Handle):
 
     @property
     def continuous(self) -> str:
-        """off, ray, swept, toi or auto: how it is kept from passing through what it meets on its way."""
+        """Continuous collision of the body: off, ray, swept, toi or auto."""
         return CONTINUOUS[self._value("continuous")]
 
     @continuous.setter
@@ -332,18 +348,18 @@ class Body(Handle):
 
     @property
     def fixed_rotation(self) -> bool:
-        """Whether contacts and impulses leave its turn alone. Set to True it stops turning."""
+        """Whether contacts and impulses leave the rotation unchanged. Setting True stops the rotation."""
         return self._value("fixed_rotation")
 
     @fixed_rotation.setter
     def fixed_rotation(self, value: bool) -> None:
         edit.set_fixed_rotation(self.world, self.id, value)
 
-    # --- its shapes ------------------------------------------------------------------------------------------------
+    # --- shapes ----------------------------------------------------------------------------------------------------
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
-        """The shapes as they were given; with a tier, what they are replaced by."""
+        """The shapes as they were given; with a tier, the shapes that replace them."""
         self._must_exist()
         return self.world._shapes_of[self.id]
 
@@ -353,22 +369,23 @@ class Body(Handle):
         return edit.shape_ids(self.world, self.id)
 
     def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes; what the body says of them stays. The new shapes get new ids, but for masks that take the
-        place of as many masks: contacts with these go on."""
+        """Replace the shapes; the body's own values stay.
+
+        The new shapes get new ids, except masks that replace as many masks: their contacts continue.
+        """
         edit.set_shapes(self.world, self.id, shapes)
 
     def add_shape(self, shape: Shape) -> int:
-        """Add a shape behind those it has, and weigh the body anew. A tier ends. Returns the shape's id."""
+        """Append a shape, recompute the mass, and return the id of the shape. A tier ends."""
         return edit.add_shape(self.world, self.id, shape)
 
     def remove_shape(self, shape_id: int) -> None:
-        """Take one of its shapes away, and weigh the body anew. A tier ends. Raises KeyError for an id that is none of
-        its shapes'."""
+        """Remove a shape and recompute the mass. A tier ends. Raises KeyError for an id that is not of this body."""
         edit.remove_shape(self.world, self.id, shape_id)
 
     @property
     def tier(self) -> str | None:
-        """How exactly its sprite collides: one of TIERS, or None for the shapes as given."""
+        """The accuracy of its sprite: one of TIERS, or None for the shapes as given."""
         self._must_exist()
         return self.world._tiers.get(self.id)
 
@@ -383,7 +400,7 @@ class Body(Handle):
         return self.world._body_row(self.id)
 
     def _value(self, name: str) -> Any:
-        """Of its row, as a Python value: out of the column, which takes half as long as out of the row."""
+        """Return a value of the row as a Python number, read from the column (half the time of reading the row)."""
         world = self.world
         return world._bodies.data[name].item(world._row_number(self.id))
 
@@ -398,7 +415,7 @@ class Body(Handle):
         return self.world._given.rows[self.world._row_number(self.id)]
 
     def _must_exist(self) -> None:
-        """Raises KeyError for a body that was removed."""
+        """Raise KeyError for a removed body."""
         self.world._row_number(self.id)
 
     def _stir(self, row) -> None:

@@ -1,4 +1,4 @@
-"""Carving: pixels of a body's masks go, and what comes loose by it becomes bodies."""
+"""Carving: pixels of a body's masks are removed, and pieces that come loose become bodies."""
 
 import math
 from functools import partial
@@ -21,17 +21,17 @@ TOOLS = (Circle, Capsule, Polygon, PixelMask)
 
 
 class Carved(NamedTuple):
-    """What a carve did."""
+    """The result of a carve."""
 
-    removed: int  # pixels that the shape took
-    fragments: tuple  # the Bodies that pieces which came loose have become, in the order of their first pixels
-    crumbs: int  # pixels of smaller pieces: they are gone too
+    removed: int  # pixels that the shape removed
+    fragments: tuple  # Bodies of the pieces that came loose, in the order of their first pixels
+    crumbs: int  # pixels of pieces that were too small and were removed
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
-    """Take the pixels of a body's masks whose centres are inside a shape, closed, at a pose in the world.
+    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, its boundary included.
 
-    As Body.carve, with ids in place of Bodies. Raises TypeError, ValueError.
+    See Body.carve; here bodies are named by their ids. Raises TypeError, ValueError.
     """
     world._unlocked()
     world._needs("carving", "carve", True)
@@ -63,11 +63,11 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
     return Carved(removed, fragments, crumbs)
 
 
-# --- the tool, as the mask sees it -----------------------------------------------------------------------------------
+# --- the tool in the mask's raster -----------------------------------------------------------------------------------
 
 
 def _tool_in(mask, frame, shape, pose):
-    """(what finds the pixels of a tile, the box [px] that it reaches in the mask's raster)."""
+    """Return (the function that finds the pixels of a tile inside the tool, its box [px] in the mask's raster)."""
     corners, radius = _outline_of(shape)
     x, y, angle = pose
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -80,7 +80,7 @@ def _tool_in(mask, frame, shape, pose):
 
 
 def _outline_of(shape):
-    """(corners in its own space, rounding) of a tool; of a mask those of its box."""
+    """Return (corners in its own space, rounding radius) of a tool; of a mask the corners of its box."""
     if isinstance(shape, PixelMask):
         left, top, right, bottom = shape.bounds or (0.0, 0.0, 0.0, 0.0)
         return [(left, top), (right, top), (right, bottom), (left, bottom)], 0.0
@@ -90,7 +90,7 @@ def _outline_of(shape):
 
 
 def _in_raster(mask, frame, x, y):
-    """A point of the world in the raster of a body's mask [px]."""
+    """Return a world point in the raster of a body's mask [px]."""
     u, v = turned(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
@@ -100,7 +100,7 @@ def _find_in_hull(points, radius, words, left, top, found):
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Finds the pixels in the squares of another mask at a pose."""
+    """Return the function that finds the pixels in the squares of another mask at a pose."""
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
     # The mask's raster corner in the world, and from there in the tool's raster.
@@ -114,11 +114,11 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
     return find
 
 
-# --- what is left ------------------------------------------------------------------------------------------------
+# --- the remainder ------------------------------------------------------------------------------------------------
 
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
-    """Give a body what is left of its masks; those without a pixel go, and a body without a mass left, too."""
+    """Replace the masks of a body by what is left. Empty masks are removed, and so is a body without mass."""
     shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
     rest = [shape for at, shape in enumerate(shapes) if at not in empty]
@@ -134,19 +134,19 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
     if given.share:
         left = weigh(world._shapes_of[identity], given.density, 0.0).mass
         edit.set_mass_of(world, identity, given.share * left)
-    # What is left goes on as it moved, about its own centre.
+    # The remainder keeps its motion, about its new centre of mass.
     row = world._body_row(identity)
     row["vx"] -= given.spin * (row["center_y"].item() - given.center[1])
     row["vy"] += given.spin * (row["center_x"].item() - given.center[0])
 
 
 class _Given(NamedTuple):
-    """What a body hands on to what comes loose of it."""
+    """The motion and density that a body passes on to its fragments."""
 
     center: tuple[float, float]
     velocity: tuple[float, float]
     spin: float
-    share: float  # of what its shapes would weigh, when it was given a mass of its own; else 0
+    share: float  # ratio of a given mass to the mass by densities; 0 without a given mass
     density: float
 
 
@@ -160,7 +160,7 @@ def _motion_and_weight(world, identity) -> _Given:
 
 
 def _values_of(world, identity) -> edit.Wanted:
-    """What is wanted for a body of a piece, but for its mass."""
+    """Return the values of a fragment's body, except its mass."""
     row, given = world._body_row(identity), world._given.rows[world._row_number(identity)]
     return edit.Wanted(
         kind="dynamic",
@@ -179,13 +179,13 @@ def _values_of(world, identity) -> edit.Wanted:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.Wanted) -> int:
-    """A body of the pixels of a piece, where they are and as fast as they were. Returns its id."""
-    # Its origin lies on the mask's own grid, near its middle: what was drawn on whole pixels goes on so.
+    """Add a body of the pixels of a piece, at their place and with their velocity, and return its id."""
+    # The origin lies on the mask's grid, near the middle of the piece: its pixels stay on whole pixels.
     height, width = loose.solid.shape
     shift_x = loose.left + width // 2 - math.floor(mask.origin[0])
     shift_y = loose.top + height // 2 - math.floor(mask.origin[1])
     origin = (mask.origin[0] - loose.left + shift_x, mask.origin[1] - loose.top + shift_y)
-    # What breaks off a mask that is open from below falls, and lies as any other.
+    # A fragment of a one-way mask is solid from all sides.
     piece = mask.like(loose.solid, origin).with_(mask.material, mask.filter, mask.sensor, one_way=False)
     u, v = turned(float(shift_x), float(shift_y), math.cos(frame[2]), math.sin(frame[2]))
     x, y = frame[0] + u, frame[1] + v

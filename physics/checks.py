@@ -1,4 +1,4 @@
-"""Checks of what a user hands in: every message names the argument, its value and what is allowed."""
+"""Checks of arguments. Every message names the argument, its value and the values that are allowed."""
 
 import math
 import numbers
@@ -10,7 +10,7 @@ import numpy as np
 from physics.math2d import NO_PAIRS, Vec2
 from physics.settings import POSITION_LIMIT
 
-# What a user may hand in where these functions give floats back.
+# Argument types for which these functions return floats.
 Pair = Sequence[float] | np.ndarray  # (x, y)
 Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
@@ -21,7 +21,9 @@ LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """A finite float; `low`/`high` inclusive bounds, `above` exclusive. Raises TypeError or ValueError."""
+    """Return a finite float within bounds: low and high are inclusive, above is exclusive. Raises TypeError or
+    ValueError.
+    """
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {shown(value)})")
     try:
@@ -46,20 +48,20 @@ def number(
 
 
 class NoSuchId(KeyError, ValueError):
-    """An id that nothing has: a key that is not there, and a wrong value."""
+    """An id that no body or shape has: both a KeyError and a ValueError."""
 
     def __str__(self) -> str:
         return str(self.args[0])  # a KeyError would show the quotes of its message
 
 
 def shown(value: Any) -> str:
-    """What a message shows of a value: all of a short one, the beginning of a long one."""
+    """Return a value as a message shows it: a short one whole, the beginning of a long one."""
     text = repr(value)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
 
 
 def vector(name: str, value: Any) -> Vec2:
-    """Two finite floats from any pair. Raises TypeError or ValueError."""
+    """Return two finite floats from a pair. Raises TypeError or ValueError."""
     x = y = None
     if not isinstance(value, NO_PAIRS):
         try:
@@ -72,7 +74,7 @@ def vector(name: str, value: Any) -> Vec2:
 
 
 def position(name: str, value: Any) -> Vec2:
-    """Two floats that lie where a double still resolves a pixel. Raises TypeError or ValueError."""
+    """Return two floats at which a double still resolves a pixel. Raises TypeError or ValueError."""
     x, y = vector(name, value)
     if max(abs(x), abs(y)) >= POSITION_LIMIT:
         raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {shown(value)})")
@@ -80,7 +82,7 @@ def position(name: str, value: Any) -> Vec2:
 
 
 def ids(name: str, value: Any) -> np.ndarray:
-    """A flat int64 array of ids, each once. Raises TypeError or ValueError."""
+    """Return a flat int64 array of ids, each once. Raises TypeError or ValueError."""
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
@@ -91,7 +93,7 @@ def ids(name: str, value: Any) -> np.ndarray:
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    """An int within bounds. Raises TypeError or ValueError."""
+    """Return an int within bounds. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number (got {shown(value)})")
     value = int(value)
@@ -101,14 +103,14 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """A bool. Raises TypeError."""
+    """Return a bool. Raises TypeError."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False (got {shown(value)})")
     return bool(value)
 
 
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
-    """One of the allowed strings. Raises ValueError (TypeError when it is no string)."""
+    """Return one of the allowed strings. Raises ValueError, and TypeError for a value that is not a string."""
     if not isinstance(value, str):
         raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
     if value not in allowed:
@@ -117,7 +119,9 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> np.ndarray:
-    """A finite float64 array (n, width) or (n,) for width 1, as a C-ordered copy. Raises TypeError or ValueError."""
+    """Return a finite float64 array (n, width), or (n,) for width 1, as a C-ordered copy. Raises TypeError or
+    ValueError.
+    """
     try:
         array = np.array(value)
     except ValueError:
@@ -140,7 +144,7 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> 
 
 
 def pose(name: str, value: Any) -> tuple[float, float, float]:
-    """(x, y, angle) as floats, the angle 0 where it is left out. Raises TypeError or ValueError."""
+    """Return (x, y, angle) as floats; an omitted angle is 0. Raises TypeError or ValueError."""
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)
     except (TypeError, ValueError):

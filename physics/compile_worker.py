@@ -1,8 +1,8 @@
-"""`python -m physics.compile_worker`: compiles kernels for another process, which tells it what, a line at a time.
+"""`python -m physics.compile_worker`: compiles kernels for another process, which sends one order per line.
 
-("compile", spec, keys) compiles one kernel and keeps it (physics/jit/store.py); the answer is its name. ("list",
-arguments of physics.warmup) runs that warm-up plain, and answers with (name, spec, keys) of each kernel of it that is
-not kept yet. The answer is None where a task fails. The process ends with its standard input.
+("compile", spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is its name. ("list",
+arguments of physics.warmup) runs that warm-up plain; the answer is (name, spec, keys) of each of its kernels that is
+not stored. The answer is None if a task fails. The process ends with its standard input.
 """
 
 import contextlib
@@ -17,7 +17,7 @@ NICE = 10  # of the system's 0 to 19: the program goes first
 
 
 def answer(order: tuple) -> Any:
-    """Do one task and return what it comes to."""
+    """Run one task and return its result."""
     from physics.effects import Effects
     from physics.jit import compiling, tiers
     from physics.warmup import run_warmup
@@ -32,7 +32,7 @@ def answer(order: tuple) -> Any:
 
 
 def main() -> None:
-    """Answer one order after the other until standard input ends; then end, even amid one."""
+    """Answer orders until standard input ends, then exit at once."""
     from physics.jit.workers import decoded, encoded
 
     with contextlib.suppress(OSError, AttributeError):

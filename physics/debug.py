@@ -1,4 +1,4 @@
-"""What is under a scene, as arrays in world pixels. Only reads; drawing is somebody else's."""
+"""The state under a scene as arrays in world pixels, for drawing. Functions only read."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -50,7 +50,9 @@ LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
-    """What a broad phase keeps: cells or node boxes with their depth, or intervals (axis, low, high, shape id)."""
+    """The data structure of a broad phase: cells or node boxes with their depth, or intervals (axis, low, high, shape
+    id).
+    """
 
     kind: str  # brute, sweep, hash, tree
     rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
@@ -77,13 +79,13 @@ CORNERS = 16  # bits of SHAPE's inner: edges below, corners from here on
 
 
 def bounds(world: World) -> np.ndarray:
-    """(n, 4) tight AABB of every shape at the present poses, in the order of shape ids."""
+    """Return (n, 4) tight AABBs of all shapes at the present poses, in the order of shape ids."""
     world.queries.refresh(world)
     return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
 
 
 def shape_rows(world: World) -> np.ndarray:
-    """Who each shape is: id, body id, kind of body, filter, sensor, awake."""
+    """Return a ROW of each shape: id, body id, kind of body, filter, sensor, awake."""
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
     rows["shape"], rows["body"] = shapes["id"], shapes["body"]
@@ -93,14 +95,14 @@ def shape_rows(world: World) -> np.ndarray:
 
 
 def motion(world: World) -> np.ndarray:
-    """(n, 4) bounding motion rectangles of the last step, of the shapes that can move."""
+    """Return (n, 4) swept AABBs of the last step, of the shapes that can move."""
     proxies = world.pairs.proxies
     rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
 
 
 def structure(world: World) -> Structure:
-    """What the broad phase keeps from step to step."""
+    """Return the data structure that the broad phase keeps from step to step."""
     strategy = world.broadphase
     rects, depth, intervals = np.zeros((0, 4)), np.zeros(0, int), np.zeros((0, 4))
     if isinstance(strategy, SpatialHashGrid):
@@ -127,7 +129,7 @@ def structure(world: World) -> Structure:
 
 
 def pairs(world: World) -> np.ndarray:
-    """(m, 5) x0 y0 x1 y1 hit: from centre to centre of the AABBs of every candidate pair; hit is 1 for a contact."""
+    """Return (m, 5) x0 y0 x1 y1 hit of every candidate pair: the centres of both AABBs, and 1 for a contact."""
     boxes = bounds(world)
     rows = _candidate_rows(world)
     centers = (boxes[:, :2] + boxes[:, 2:]) / 2.0
@@ -139,7 +141,7 @@ def pairs(world: World) -> np.ndarray:
 
 
 def _candidate_rows(world):
-    """Shape rows of the last step's candidates whose shapes are still there."""
+    """Return the shape rows of the last step's candidates whose shapes still exist."""
     ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
     if not len(ids) or not len(known):
@@ -149,9 +151,11 @@ def _candidate_rows(world):
 
 
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
-    """One entry per shape, or per shape row of `rows`: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2),
-    r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), closed where it is a loop, ("mask",
-    shape id) or ("tiles", shape id)."""
+    """Return one entry per shape, or per shape row of `rows`.
+
+    ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax, ay, bx, by, r), ("segment", (2,
+    2)), ("chain", (k, 2)), closed if it is a loop, ("mask", shape id) or ("tiles", shape id).
+    """
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
     cosine, sine = np.cos(bodies["angle"]), np.sin(bodies["angle"])
@@ -181,7 +185,7 @@ def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> li
 
 
 def _line(shape, kind, points):
-    """The outline of a polygon, capsule, segment or chain whose points stand in the world."""
+    """Return the outline of a polygon, capsule, segment or chain whose points are in world space."""
     if kind == CHAIN:
         return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
     if kind == CAPSULE:
@@ -192,9 +196,9 @@ def _line(shape, kind, points):
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
-    """EDGE rows of the polygons among the parts of masks' outlines, part by part; rows: of world.shapes, None: all.
+    """Return EDGE rows of the polygons among the parts of masks' outlines. rows: of world.shapes, None: all.
 
-    Parts that are circles or capsules have no edges: outlines() tells of them.
+    Parts that are circles or capsules have no edges; see outlines().
     """
     shapes = world.shapes
     if rows is None:
@@ -222,7 +226,7 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks as they stand in the world; those drawn alike share their pixels."""
+    """Masks at their poses; equal rasters share their pixels."""
 
     solids: list  # of bool arrays [row, col]
     which: np.ndarray  # (n,) each mask's number in solids
@@ -231,7 +235,7 @@ class Drawn(NamedTuple):
 
 
 def masks(world: World) -> list:
-    """(shape id, left, top, solid[row, col]) of every mask as drawn."""
+    """Return (shape id, left, top, solid[row, col]) of every mask as it is drawn."""
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
     return [
@@ -241,13 +245,13 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """What masks() tells, as columns: thousands of masks cost what few do."""
+    """Return the masks as columns. The cost hardly grows with their number."""
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
-    """The masks at these shape rows, whose rasters are up to date, but for those that are drawn when somebody asks."""
+    """Return the masks at these shape rows, whose rasters exist, except those that are drawn on demand."""
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
     raster_of = library.raster_of[: len(library.masks)].ravel()
@@ -262,7 +266,9 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """(left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the ANDed pixels."""
+    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the result of the
+    AND.
+    """
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)
@@ -295,10 +301,9 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
 def contact_points(world: World) -> np.ndarray:
-    """POINT rows of all contacts that the last step kept in mind, also those that only might have met,
-    and those that sleep.
+    """Return POINT rows of all contacts of the last step, speculative and sleeping ones included.
 
-    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP; color: of the graph colouring, -1 without one.
+    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP. color: of the graph colouring, -1 without one.
     """
     found, sensed = world.manifolds, world.sensed
     if sensed is None:
@@ -312,7 +317,7 @@ def contact_points(world: World) -> np.ndarray:
 
 
 def _points(world, manifolds, anchors, state):
-    """POINT rows of manifolds; state: of all of them, None: of each its own."""
+    """Return POINT rows of manifolds. state: one for all of them, None: of each its own."""
     contacts = contacts_of(manifolds)
     points = np.zeros(len(contacts), POINT)
     for name in set(contacts.dtype.fields or ()) & set(POINT.fields or ()):
@@ -337,7 +342,7 @@ def _points(world, manifolds, anchors, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Island of every body, by row: the lowest body id of those it is piled up with; -1 for what is in none."""
+    """Return the island of every body, by row: the lowest body id of the island, -1 for none."""
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
@@ -350,8 +355,7 @@ GHOST = np.dtype(
 
 
 def impact_ghosts(world: World) -> np.ndarray:
-    """GHOST rows of the bodies that a sweep stopped in the last step:
-    the pose that they would have had, and the fraction."""
+    """Return GHOST rows of the bodies that the sweep stopped in the last step: the unswept pose, and the fraction."""
     rows = world.ghosts
     if rows is None or not len(rows):
         return np.zeros(0, GHOST)

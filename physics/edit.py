@@ -34,14 +34,14 @@ from physics.tables.table import rows_of
 from physics.world_state import WorldState
 
 # ---- shape rows ------------------------------------------------------------------------------------------------------
-# The SHAPE rows of bodies: what a body's shapes, and the parts of its masks' outlines, have in the tables.
+# The SHAPE rows of a body's shapes, and of the parts of its masks' outlines.
 
 MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
-LAST_SHAPE = 2**31 - 1  # of the ids: candidates are told in 32 bits
+LAST_SHAPE = 2**31 - 1  # of ids: candidates are reported in 32 bits
 
 
 def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
-    """Raises ValueError where a world has no ids left for these shapes of so many new bodies; none is given twice."""
+    """Raise ValueError if the world has no ids left for the shapes of so many new bodies."""
     room = LAST_SHAPE - world._next_shape
     if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
         raise ValueError(
@@ -51,8 +51,10 @@ def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
 
 
 def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
-    """Append the SHAPE rows of new shapes for each of the bodies that start at a row, with what the body says of them
-    or they of themselves, and give them places in the broad phase. Returns their ids."""
+    """Append the SHAPE rows of new shapes for the bodies that start at a row, add their proxies, and return their ids.
+
+    A shape's own values override those of its body.
+    """
     pieces = rows_of_shapes(shapes, world.effects.response)
     rows = _append_rows(world, first_row, bodies, pieces)
     for i, piece in enumerate(pieces):
@@ -62,7 +64,7 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
 
 
 def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
-    """SHAPE rows of pieces for each of the bodies that start at a row: all but who owns them."""
+    """Append the SHAPE rows of pieces for the bodies that start at a row, without their parent ids."""
     n, k = bodies, len(pieces)
     ids = np.arange(world._next_shape, world._next_shape + n * k)
     if n * k == 0:
@@ -85,7 +87,7 @@ def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
 
 
 class NewParts(NamedTuple):
-    """Parts of a mask's outline that have no rows yet."""
+    """Convex parts of a mask's outline that have no rows yet."""
 
     tiles: ArrayLike  # (n,) int64, as `tile` in SHAPE
     inner: ArrayLike  # (n,) int64, as in SHAPE
@@ -96,7 +98,7 @@ NONE = NewParts((), (), ())
 
 
 def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
-    """Append SHAPE rows of further parts of a mask, whose own row is the one row of the template."""
+    """Append SHAPE rows of further parts of a mask; the template holds the one row of the mask."""
     count = len(parts.shapes)
     if not count:
         return
@@ -112,16 +114,16 @@ def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> No
 
 
 def _enter(world, rows):
-    """Give new rows places in the broad phase."""
+    """Add the proxies of new rows."""
     owners = rows["body_row"]
     world.pairs.add_proxies(rows, np.arange(len(rows)), world.bodies["kind"][owners] == STATIC)
     if world.sleeps:
-        # Whose body is in the step already is not taken into it again.
+        # A body that is awake already is not woken again.
         world.pairs.set_awake(rows["proxy"][world.bodies["active"][owners]], True)
 
 
 def say(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write what a body says of its shapes, GIVEN rows, to SHAPE rows, or what the shape says itself."""
+    """Write the values that a body (GIVEN rows) or a shape itself gives to SHAPE rows."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
@@ -136,17 +138,17 @@ def say(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
 
 
 class Piece(NamedTuple):
-    """What one SHAPE row stands for."""
+    """One SHAPE row to be: a shape, or a part of a mask's outline."""
 
     shape: Shape
     role: int
     inner: int  # see SHAPE
-    owner: int  # which piece it is a part of
+    owner: int  # index of the piece that it is a part of
     tile: int  # see SHAPE
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """The rows that a body's shapes need: one each, and where bodies are pushed, the parts of each mask's outline."""
+    """Return the pieces of a body's shapes: one each, and with `response` the parts of each mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         masked = pushed and isinstance(shape, PixelMask)
@@ -158,7 +160,7 @@ def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
 
 
 def _parts(mask, owner) -> list[Piece]:
-    """The parts of a mask's outline."""
+    """Return the parts of a mask's outline."""
     return [
         Piece(part.shape.with_(mask.material, mask.filter, mask.sensor), PART, part.inner, owner, tile)
         for tile, parts in pushed_parts(mask)
@@ -167,25 +169,24 @@ def _parts(mask, owner) -> list[Piece]:
 
 
 def pushed_parts(mask: PixelMask) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-    """(number of the tile, its parts) of a mask's outline, see outline_by_tile.
+    """Return (number of the tile, its parts) of a mask's outline, see outline_by_tile.
 
-    Of a mask that is open from below all of its upper side, in one piece.
+    The upper side of a one-way mask is one part.
     """
     return [(WHOLE_MASK, surfaces_of(mask))] if mask.one_way else outline_by_tile(mask)
 
 
 # ---- mask exchange ---------------------------------------------------------------------------------------------------
-# Another mask in the place of one of a body's: what is carved, and the next frame of an animation.
+# Replacement of one mask of a body by another: after carving, and for the next frame of an animation.
 
 
 def exchange_mask(
     world: WorldState, identity: int, place: int, shape_id: int, mask: PixelMask, changed: Sequence[int] | None = None
 ) -> None:
-    """Put another mask in the place of one of a body's: its id stays, and so do parts of its outline that are the same.
+    """Replace a mask of a body by another one. Its id stays, and so do the parts of its outline that are equal.
 
-    place: which of the body's shapes it is; changed: the tiles in which it differs, None: any. Bodies that touch what
-    is changed wake; contacts where the new surface is the old one keep their forces. O(what is changed), but for a few
-    passes over the SHAPE rows.
+    place: index of the shape in the body. changed: the tiles in which the masks differ, None: any. Bodies that touch a
+    change wake. Contacts on unchanged surface keep their impulses. O(changes), and a few passes over the SHAPE rows.
     """
     at, shapes = world._row_number(identity), world.shapes
     body, used = world.bodies[at : at + 1], list(world._shapes_of[identity])
@@ -195,7 +196,7 @@ def exchange_mask(
     if not (still and sleep.disturb_shapes(world, identity, shapes["id"][old])):
         sleep.disturb(world, [identity])
     kept = KeptForces(world, old)
-    own = rows_of(shapes, [shape_id])  # its parts come after it: what goes does not move it
+    own = rows_of(shapes, [shape_id])  # its parts come after it, so removals do not move it
     shapes["geometry"][own] = world.library.replace(before.bare, mask.bare, changed, shapes)
     if len(old):
         keep = np.ones(len(shapes), bool)
@@ -215,12 +216,12 @@ def exchange_mask(
 
 
 def rows_of_owner(world: WorldState, shape_id: int) -> np.ndarray:
-    """SHAPE rows of a shape and of its parts."""
+    """Return the SHAPE rows of a shape and of its parts."""
     return np.flatnonzero(world.shapes["owner"] == shape_id)
 
 
 def _differences(world, shape_id, before, mask, changed):
-    """(rows of the parts that go, NewParts); what else changed of the others is written."""
+    """Return (rows of the parts to remove, NewParts), and update the rows that stay."""
     shapes = world.shapes
     if not world.effects.response:
         return np.zeros(0, np.int64), NONE
@@ -240,7 +241,7 @@ def _differences(world, shape_id, before, mask, changed):
 
 
 def _differences_in_tiles(world, shape_id, before, mask, changed):
-    """The same of masks that differ in a few tiles."""
+    """Return the same as _differences for masks that differ in a few tiles."""
     tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
     if not tiles:
         return np.zeros(0, np.int64), NONE
@@ -257,7 +258,7 @@ def _differences_in_tiles(world, shape_id, before, mask, changed):
 
 
 def _say_again(world, at, shape_id, mask):
-    """Write what a mask says of itself to its rows."""
+    """Write the own values of a mask to its rows."""
     rows = rows_of_owner(world, shape_id)
     shapes, pairs = world.shapes, world.pairs
     some = shapes[rows]
@@ -269,13 +270,13 @@ def _say_again(world, at, shape_id, mask):
 
 
 def _rejoin(world, at, touched):
-    """Have shape rows of a body looked at by the broad phase, from the next step on."""
+    """Mark shape rows of a body as changed for the broad phase of the next step."""
     world.pairs.touch(world.shapes["proxy"][touched])
     if world.bodies["quarantined"][at]:
         world.pairs.free_proxies(world.shapes["proxy"][touched])
         world.shapes["proxy"][touched] = -1
     elif world.sleeps and not world.bodies["active"][at]:
-        # What is not awake gets no rectangle in the next step: here, at once.
+        # Bodies that are not awake get no swept AABB in the next step, so they get one here.
         count = write_rectangles(world, touched)
         world.pairs.again.append(world.pairs.changed[:count].copy())
     world.queries.seen = ()
@@ -283,17 +284,17 @@ def _rejoin(world, at, touched):
 
 
 # ---- reshaping -------------------------------------------------------------------------------------------------------
-# What shapes a body has, and what it weighs with them: what a user asks for is checked first.
+# The shapes of a body, and its mass. Arguments are checked before anything is changed.
 
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
-    """Raises ValueError for a TileGrid whose body turns, or is turned."""
+    """Raise ValueError for a TileGrid whose body is rotated or rotates."""
     if turn != 0.0 and any(isinstance(shape, TileGrid) for shape in shapes):
         raise ValueError(f"{what} must be 0 for a body with a TileGrid, which cannot turn (got {turn})")
 
 
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
-    """Have a body weigh so much, whatever its densities say."""
+    """Set the mass of a body, in place of the mass by its densities."""
     at = world._row_number(identity)
     world._given.rows["mass"][at] = mass
     used, density = world._shapes_of[identity], float(world._given.rows["density"][at])
@@ -302,7 +303,7 @@ def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
-    """Weigh a body anew: its shapes, its kind or what it is made of changed. Its neighbours wake."""
+    """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
     at = world._row_number(identity)
     given, used = world._given.rows[at], world._shapes_of[identity]
     mass = weigh(used, float(given["density"]), float(given["mass"]))
@@ -311,8 +312,7 @@ def refresh_mass(world: WorldState, identity: int) -> None:
 
 
 def refresh_pose(world: WorldState, identity: int) -> None:
-    """Bring what is derived from one body's pose up to date: centre of mass and motion rectangle.
-    Its neighbours wake."""
+    """Recompute centre of mass and swept AABBs of a body after its pose changed. Its neighbours wake."""
     at = world._row_number(identity)
     sleep.disturb(world, [identity])
     refresh_centers(np.array([at]), world.bodies)
@@ -320,15 +320,17 @@ def refresh_pose(world: WorldState, identity: int) -> None:
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
-    """Ids of a body's shapes, in their order."""
+    """Return the ids of a body's shapes, in their order."""
     world._row_number(identity)
     own = (world.shapes["body"] == identity) & (world.shapes["role"] != PART)
     return tuple(world.shapes["id"][own].tolist())
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace a body's shapes; what it says of them stays, and contacts where the new surface is the old one keep their
-    forces. Masks that take the place of masks keep their ids. Raises TypeError, ValueError."""
+    """Replace the shapes of a body; its own values stay, and contacts on unchanged surface keep their impulses.
+
+    Masks that replace as many masks keep their ids. Raises TypeError, ValueError.
+    """
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)
     check_ids(world, 1, shapes)
@@ -347,7 +349,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
-    """Add a shape behind those that a body has. Returns its id. Raises TypeError, ValueError."""
+    """Append a shape to a body and return its id. Raises TypeError, ValueError."""
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
@@ -356,7 +358,7 @@ def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
 
 
 def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
-    """Take a shape away from a body. Raises KeyError for an id that is none of its shapes', TypeError, ValueError."""
+    """Remove a shape of a body. Raises KeyError for an id that is not of this body, TypeError, ValueError."""
     shape_id, ids = checks.whole("shape_id", shape_id, 0, 2**62), shape_ids(world, identity)
     if shape_id not in ids:
         raise checks.NoSuchId(f"shape_id must be one of body {identity}'s, {list(ids)} (got {shape_id})")
@@ -368,12 +370,12 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raises ValueError for shapes that are sensors of their own in a world without the effect."""
+    """Raise ValueError for shapes that are sensors in a world without the effect sensors."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
-    """Raises ValueError for masks without a pixel where they were all that weighs of a body that is pushed."""
+    """Raise ValueError if the mass of a dynamic body comes only from masks without a pixel."""
     empty = [each for each in shapes if isinstance(each, PixelMask) and not each.area]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
         raise ValueError(
@@ -382,7 +384,7 @@ def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: fl
 
 
 def _check(world, identity, shapes, gone):
-    """Raises what the shapes that a user wants for a body, and the ids of those that go, call for."""
+    """Raise an error if a body cannot have these shapes or lose the shapes with these ids."""
     world._unlocked()
     if np.isin(world.characters.rows["shape"], gone).any():
         raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
@@ -394,7 +396,7 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Give a body its shapes, of which the new ones have no rows yet. Returns the ids of these."""
+    """Give a body its shapes, of which the new ones have no rows yet, and return the ids of the new ones."""
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
@@ -411,9 +413,10 @@ def _add(world, identity, shapes, new) -> np.ndarray:
 
 
 def rebuild_masks(world: WorldState) -> None:
-    """Give masks the rows that the world's effects call for now: where bodies are pushed, the parts of their outlines.
+    """Rebuild the rows of all masks for the world's effects: with `response`, with the parts of their outlines.
 
-    Bodies keep their tiers; their shapes get new ids."""
+    Bodies keep their tiers; their shapes get new ids.
+    """
     for identity, shapes in [*world._shapes_of.items()]:
         if any(isinstance(shape, PixelMask) for shape in shapes):
             tier, source = world._tiers.get(identity), world._sources.get(identity)
@@ -425,7 +428,7 @@ def rebuild_masks(world: WorldState) -> None:
 
 
 def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
-    """The shapes that stand for one PixelMask in a tier; as they are for None. Raises ValueError, TypeError."""
+    """Return the shapes that replace one PixelMask in a tier; unchanged for None. Raises ValueError, TypeError."""
     if tier is None:
         return tuple(shapes)
     if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
@@ -434,8 +437,7 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
 
 
 def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
-    """Collide a body's sprite more or less exactly.
-    Raises ValueError for an unknown tier or a body without a sprite."""
+    """Set the tier of a body's sprite. Raises ValueError for an unknown tier or a body without a sprite."""
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))
@@ -444,12 +446,12 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 
 
 # ---- editing ---------------------------------------------------------------------------------------------------------
-# Bodies into a world, and changes to where and what they are: what a user asks for is checked first, so that the world
-# is unchanged by what is wrong. World and Body are the ways in. What shapes a body has: see "reshaping" above.
+# Adding bodies, and changing their poses and values; World and Body call these functions. Arguments are checked first,
+# so that wrong ones leave the world unchanged.
 
 
 class Wanted(NamedTuple):
-    """What a user asks of new bodies besides shapes and motion: see World.add_body."""
+    """The arguments of World.add_body but shapes and motion."""
 
     kind: str
     angular_velocity: float
@@ -473,8 +475,9 @@ def add_rows(
     angles: Sequence[float] | np.ndarray,
     wanted: Wanted,
 ) -> np.ndarray:
-    """Check what a user asks for, and append BODY, GIVEN and SHAPE rows. Returns the ids. Raises TypeError,
-    ValueError."""
+    """Check the arguments of new bodies, append BODY, GIVEN and SHAPE rows, and return the ids. Raises TypeError,
+    ValueError.
+    """
     world._unlocked()
     kind = KINDS.index(checks.choice("kind", wanted.kind, KINDS))
     material, filter = checked_material(wanted.material), checked_filter(wanted.filter)
@@ -514,13 +517,13 @@ def add_rows(
         rows["previous_" + name] = rows["still_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
-    rows["active"] = not world.sleeps  # with it, the next step takes them in
+    rows["active"] = not world.sleeps  # so the next step includes them
     if wanted.kind != "dynamic":
         world.awake.stir(ids.tolist())
     set_mass(rows, mass, used, world.effects.response)
     refresh_centers(np.arange(n), rows)
     add_shapes(world, world._bodies.count - n, n, used)
-    source = tuple(shapes)  # one for all: a swarm costs two entries each, and no object
+    source = tuple(shapes)  # one tuple for all: each body of a swarm costs two entries and no object
     for identity in ids.tolist():
         world._shapes_of[identity] = used
         if wanted.user is not None:
@@ -530,45 +533,47 @@ def add_rows(
     return ids
 
 
-# --- what a user may ask of a body -------------------------------------------------------------------------------
+# --- checks of arguments ----------------------------------------------------------------------------------------
 
 
 def checked_material(value: Any) -> Material:
-    """A Material. Raises TypeError."""
+    """Return a Material. Raises TypeError."""
     if not isinstance(value, Material):
         raise TypeError(f"material must be a Material (got {checks.shown(value)})")
     return value
 
 
 def checked_filter(value: Any) -> Filter:
-    """A Filter. Raises TypeError."""
+    """Return a Filter. Raises TypeError."""
     if not isinstance(value, Filter):
         raise TypeError(f"filter must be a Filter (got {checks.shown(value)})")
     return value
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
-    """A bool. Raises TypeError, and ValueError for True without the effect sensors."""
+    """Return a bool. Raises TypeError, and ValueError for True without the effect sensors."""
     value = checks.flag("sensor", value)
     world._needs("sensors", "sensor=True", value)
     return value
 
 
 def checked_bullet(world: WorldState, value: Any) -> bool:
-    """A bool. Raises TypeError, and ValueError for True without the effect continuous."""
+    """Return a bool. Raises TypeError, and ValueError for True without the effect continuous."""
     value = checks.flag("bullet", value)
     world._needs("continuous", "bullet=True", value)
     return value
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """The number of a way of sweeping. Raises TypeError, and ValueError for one that needs the effect continuous."""
+    """Return the number of a kind of continuous collision. Raises TypeError, and ValueError for one that needs the
+    effect continuous.
+    """
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept
 
 
-# --- changes to a body that is there ----------------------------------------------------------------------------
+# --- changes to existing bodies --------------------------------------------------------------------------------
 
 
 def write_material(rows: np.ndarray, material: Material) -> None:
@@ -578,7 +583,7 @@ def write_material(rows: np.ndarray, material: Material) -> None:
 
 
 def _own_rows(world, identity, own) -> np.ndarray:
-    """Rows of the shapes of a body that have no value of their own of this name."""
+    """Return the rows of a body's shapes that have no own value of this name."""
     return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
 
 
@@ -595,7 +600,7 @@ def filter_of(world: WorldState, identity: int) -> Filter:
 
 
 def set_material(world: WorldState, identity: int, value: Material) -> None:
-    """Change what a body's shapes are made of; those with a material of their own keep it. Raises TypeError."""
+    """Set the material of a body's shapes that have none of their own. Raises TypeError."""
     world._unlocked()
     value = checked_material(value)
     at = world._row_number(identity)
@@ -606,7 +611,7 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
 
 
 def set_filter(world: WorldState, identity: int, value: Filter) -> None:
-    """Change the filter of a body's shapes; those with one of their own keep it. Raises TypeError."""
+    """Set the filter of a body's shapes that have none of their own. Raises TypeError."""
     world._unlocked()
     value = checked_filter(value)
     given = world._given.rows[world._row_number(identity)]
@@ -618,7 +623,7 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
 
 
 def set_sensor(world: WorldState, identity: int, value: bool) -> None:
-    """Make a body's shapes sensors, or solid again; those that say so themselves stay. Raises TypeError, ValueError."""
+    """Set whether a body's shapes that have no own value are sensors. Raises TypeError, ValueError."""
     world._unlocked()
     value = checked_sensor(world, value)
     world._given.rows["sensor"][world._row_number(identity)] = value
@@ -629,14 +634,14 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
 
 
 def set_continuous(world: WorldState, identity: int, value: str) -> None:
-    """Change how a body is swept. Raises TypeError, ValueError."""
+    """Set the continuous collision of a body. Raises TypeError, ValueError."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
     row["continuous"] = swept
 
 
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
-    """Say whether contacts and impulses leave a body's turn alone; who is fixed stops turning. Raises TypeError."""
+    """Set whether contacts and impulses leave the rotation of a body unchanged; True stops it. Raises TypeError."""
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)
     row["fixed_rotation"] = value
@@ -646,7 +651,7 @@ def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
 
 
 def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Put a body at a position [px] and an angle (None: as it is). Raises ValueError for a turned TileGrid."""
+    """Move a body to a position [px] and an angle [rad] (None: unchanged). Raises ValueError for a rotated TileGrid."""
     world._unlocked()
     row = world._body_row(identity)
     check_grid_stands(world._shapes_of[identity], angle or 0.0, "angle")
@@ -660,7 +665,7 @@ def move_to(world: WorldState, identity: int, position: Pair, angle: float | Non
 
 
 def touch(world: WorldState, ids: Any) -> None:
-    """Bring what is derived from the columns of bodies up to date. Raises KeyError, TypeError, ValueError."""
+    """Refresh what follows from the columns of bodies. Raises KeyError, TypeError, ValueError."""
     numbers = world._identities("ids", ids)
     rows = world.rows(numbers)
     sleep.disturb(world, numbers)
@@ -669,8 +674,9 @@ def touch(world: WorldState, ids: Any) -> None:
 
 
 def set_kind(world: WorldState, identity: int, kind: str) -> None:
-    """Make a body static, kinematic or dynamic. Raises ValueError for dynamic tiles, and for what walks: the body of a
-    character is kinematic."""
+    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, and for the body of a character, which is
+    kinematic.
+    """
     world._unlocked()
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
@@ -690,7 +696,7 @@ def set_kind(world: WorldState, identity: int, kind: str) -> None:
 
 
 def restore(world: WorldState, identity: int) -> None:
-    """Take a quarantined body back into the simulation."""
+    """Return a quarantined body to the simulation."""
     world._unlocked()
     row = world._body_row(identity)
     if row["quarantined"]:

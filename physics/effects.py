@@ -1,4 +1,4 @@
-"""What a scene asks the physics for: the stages that no effect needs do not exist in its world."""
+"""Effects: the effects that a scene declares. Stages that no declared effect needs do not exist in its world."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
@@ -11,9 +11,9 @@ NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("respon
 
 @dataclass(frozen=True)
 class Effects:
-    """The effects a scene calls for. All off but `narrowphase`, which off stops the collision test at AABBs.
+    """The effects that a scene declares. All are off but `narrowphase`; without it the collision test stops at AABBs.
 
-    Raises TypeError for a value that is not a bool, ValueError for an effect whose foundation is not declared.
+    Raises TypeError for a value that is not a bool, ValueError for an effect without the effect that it needs.
     """
 
     narrowphase: bool = True
@@ -24,14 +24,14 @@ class Effects:
     rotation: bool = False  # angular velocity turns bodies, impulses spin them
     friction: bool = False
     restitution: bool = False
-    stacking: bool = False  # piles stand: contacts remember their impulses
-    continuous: bool = False  # fast bodies stop at what is in their way
-    sleeping: bool = False  # what has come to rest costs nothing until it is disturbed
+    stacking: bool = False  # stacks are stable: contacts are warm started
+    continuous: bool = False  # fast bodies stop at their first impact
+    sleeping: bool = False  # islands at rest cost nothing until they are disturbed
     sensors: bool = False
-    persist: bool = False  # the `persist` event: pairs that go on touching
-    one_way: bool = False  # tiles open from below
-    conveyor: bool = False  # surfaces that run: Material.surface_speed
-    carving: bool = False  # pixels can be taken out of masks: Body.carve
+    persist: bool = False  # the `persist` event: pairs that continue to touch
+    one_way: bool = False  # one-way platforms
+    conveyor: bool = False  # conveyor belts: Material.surface_speed
+    carving: bool = False  # masks can be carved: Body.carve
 
     def __post_init__(self):
         for field in fields(self):
@@ -46,12 +46,12 @@ class Effects:
 
     @classmethod
     def detection(cls) -> "Effects":
-        """Contacts are found and reported; nothing is pushed."""
+        """Return the effects of pure detection: contacts are found and reported, nothing is pushed."""
         return cls()
 
     @classmethod
     def rigid_bodies(cls) -> "Effects":
-        """All that bodies which fall, bounce, rub, pile up and trigger need."""
+        """Return the effects of rigid bodies: they fall, bounce, rub, stack, sleep and trigger sensors."""
         return cls(
             response=True,
             gravity=True,
@@ -66,12 +66,14 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Exactly the effects that names() lists, narrowphase too only where it is named. Raises TypeError for one
-        that there is not, ValueError for one without what it needs."""
+        """Return exactly the effects that names() lists; narrowphase, too, only if it is named.
+
+        Raises TypeError for an unknown effect, ValueError for an effect without the effect that it needs.
+        """
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
-        """A copy with some effects changed."""
+        """Return a copy with some effects changed."""
         unknown = set(changes) - {field.name for field in fields(self)}
         if unknown:
             raise TypeError(
@@ -80,13 +82,13 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """A copy without an effect, and without all that needs it. Raises TypeError for one that there is not."""
+        """Return a copy without an effect and the effects that need it. Raises TypeError for an unknown effect."""
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """A copy with all that an effect needs, itself as it is here."""
+        """Return a copy with all effects that an effect needs; the effect itself is unchanged."""
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:
-        """The declared effects, in the order of the fields."""
+        """Return the names of the declared effects, in the order of the fields."""
         return [field.name for field in fields(self) if getattr(self, field.name)]

@@ -1,4 +1,4 @@
-"""What began, went on, ended and hit in the last step: arrays, read after the step, valid until the next one."""
+"""Events: pairs that began, continued and ended to touch, and impacts, as arrays that are valid until the next step."""
 
 import math
 from typing import NamedTuple
@@ -17,7 +17,7 @@ UNBROKEN = np.zeros(0, QUARANTINE)
 
 @subkernel
 def write_event(manifold, second, at, events_out):
-    """Copy what an event tells of a point of a manifold: its first, or its second."""
+    """Write the event of the first or second point of a manifold."""
     e = events_out[at]
     e.body_a = manifold.body_a
     e.body_b = manifold.body_b
@@ -44,30 +44,30 @@ def copy_event(event, event_out):
 
 
 class Told(NamedTuple):
-    """What a comparison writes."""
+    """The output of a comparison of two steps."""
 
     now: np.ndarray  # EVENT: the pairs that touch
     begin: np.ndarray
     persist: np.ndarray
     end: np.ndarray
-    aside: np.ndarray  # EVENT: pairs that touched and have fallen asleep
+    aside: np.ndarray  # EVENT: pairs that touched and fell asleep
     hits: np.ndarray  # HIT
     keep: np.ndarray  # bool: manifolds of pairs that touch
-    counts: np.ndarray  # rows of now, begin, persist, end, aside, hits; points of pairs that touch
+    counts: np.ndarray  # number of rows: now, begin, persist, end, asleep, hits; points of pairs that touch
 
 
 def new_told(room: int) -> Told:
-    """Room for that many pairs."""
+    """Return output with room for that many pairs."""
     events = (np.zeros(room, EVENT) for _ in range(5))
     return Told._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
 
 
 @subkernel
 def look_at_pair(manifolds, first, last, slop):
-    """What the manifolds first … last - 1, those of one pair, say together.
+    """Return the state of a pair from its manifolds first … last - 1.
 
-    (touches, pushed, manifold of the deepest point, whether that is its second, manifold of the fastest point, whether
-    that is its second, its speed [px/s], sum of the impulses).
+    (touches, has impulses, manifold of the deepest point, whether it is the second point, manifold of the fastest
+    point, whether it is the second point, its approach speed [px/s], sum of the impulses).
     """
     active = False
     pushed = False
@@ -112,12 +112,14 @@ def compare_pairs(
     # write
     told_inout,
 ):
-    """Compare the pairs that touched before with the manifolds of this step, both in the order of shape ids.
+    """Compare the pairs that touched in the step before with the manifolds of this step, both in the order of shape
+    ids.
 
-    before EVENT rows; manifolds MANIFOLD rows; parked MANIFOLD rows of pairs that fell asleep: they go on touching, say
-    nothing and are put aside; sensors: 1 to look at manifolds of sensors only, 0 at the others only; persisting: 1 to
-    tell which pairs go on touching; slop [px]: a pair that touched goes on touching up to it; hit_speed [px/s].
-    Returns whether all is told: not so where a part of a shape touches, which is to be told by its owner. O(both).
+    before: EVENT rows. manifolds: MANIFOLD rows. parked: MANIFOLD rows of pairs that fell asleep; they continue to
+    touch, report nothing, and move to the sleeping set. sensors: 1 to read manifolds of sensors only, 0 to read the
+    others only. persisting: 1 to report pairs that continue to touch. slop [px]: a pair that touched counts as touching
+    up to this separation. hit_speed [px/s]. Returns whether the comparison is complete; it is not where a child shape
+    touches, because its parent shape is to be reported. O(both).
     """
     counts = told_inout.counts
     now = told_inout.now
@@ -134,7 +136,7 @@ def compare_pairs(
         if j < len(manifolds) and manifolds[j].sensor != (sensors == 1):
             j += 1
             continue
-        # The manifolds of one pair, if they come no later than the next pair that touched before.
+        # The manifolds of one pair, unless the next pair that touched before comes first.
         old = j >= len(manifolds)
         new = i >= len(before)
         if not (old or new):
@@ -164,7 +166,7 @@ def compare_pairs(
         while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
             last += 1
         if last - j == 1 and m.count == 1:
-            # Most pairs by far: nothing to choose between.
+            # By far the most pairs have one manifold.
             impulse = m.normal_impulse_1
             pushed = impulse > 0.0
             active = m.separation_1 <= (slop if old else 0.0) or pushed or m.swept
@@ -206,33 +208,33 @@ def compare_pairs(
 
 
 class Changes:
-    """What a comparison has found: each array as long as it is, until the next comparison."""
+    """The result of a comparison: arrays that are valid until the next comparison."""
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
 
     begin: np.ndarray  # EVENT
     persist: np.ndarray
     end: np.ndarray
-    aside: np.ndarray  # EVENT: pairs that touched and have fallen asleep
+    aside: np.ndarray  # EVENT: pairs that touched and fell asleep
     hits: np.ndarray  # HIT
     keep: np.ndarray  # bool: manifolds of pairs that touch
     points: int  # of pairs that touch
 
 
 class Pairs:
-    """The pairs that touch, and what changed among them in the last step."""
+    """The pairs that touch, and how they changed in the last step."""
 
     def __init__(self) -> None:
         self._make_room(16)
         self.count = 0
 
     def _make_room(self, room):
-        """What the next comparison writes; and the pairs of the one before, which change places with what is now."""
+        """Grow the output of the next comparison, and swap the rows of the last two steps."""
         told = new_told(room)
         self.told, self.last, self.changes = told, told._replace(now=np.zeros(room, EVENT)), Changes()
 
     def __getstate__(self):
-        return self.rows.copy()  # the rest is room for the next comparison
+        return self.rows.copy()  # the rest is room for later comparisons
 
     def __setstate__(self, touching):
         self._make_room(16)
@@ -246,13 +248,15 @@ class Pairs:
     def compare(
         self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
     ) -> Changes | None:
-        """Take in the manifolds of a step. None where a part of a shape touches, and nothing is taken in."""
+        """Read the manifolds of a step and return the changes. Return None, and change nothing, where a child shape
+        touches.
+        """
         if self.count + len(manifolds) > len(self.told.keep):
             self._grow(2 * (self.count + len(manifolds)))
         told, changes = self.told, self.changes
         if not compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, told):
             return None
-        # What touches now is what touched before, next time.
+        # The pairs that touch now are those of the step before in the next comparison.
         self.told, self.last = self.last, told
         self.count, begin, persist, end, aside, hits, changes.points = told.counts.tolist()
         changes.begin = told.begin[:begin] if begin else NO_EVENTS
@@ -269,27 +273,27 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Take in pairs that were kept aside."""
+        """Add pairs that were in the sleeping set."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Take out, and return, the pairs of which neither side is among the rows that a step goes over."""
+        """Remove and return the pairs of which neither side is among the awake rows."""
         rows = self.rows
         if not len(rows):
             return rows.copy()
         resting = np.ones(len(rows), bool)
         for side in ("body_a", "body_b"):
             at = rows_of(bodies, rows[side])
-            resting &= (at >= 0) & ~bodies["active"][at]  # what is gone stays, and ends
+            resting &= (at >= 0) & ~bodies["active"][at]  # removed shapes stay, and their pairs end
         taken = rows[resting]
         if len(taken):
             self.restore(rows[~resting])
         return taken
 
     def restore(self, touching: np.ndarray) -> None:
-        """Set the pairs that touch."""
+        """Replace the pairs that touch."""
         if len(touching) > len(self.told.keep):
             self._make_room(2 * len(touching))
         self.count = len(touching)
@@ -297,7 +301,7 @@ class Pairs:
 
 
 class Events:
-    """Structured arrays of the last step; see api.md for their columns."""
+    """Events of the last step, one structured array for each kind."""
 
     def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
@@ -323,7 +327,7 @@ class Events:
     writes=("touching", "sensing", "sleepers", "events", "told", "work"),
 )
 def tell(state: StepState) -> None:
-    """Compare what touches with what touched before, and say what changed."""
+    """Compare the pairs that touch with those of the step before, and report the changes."""
     manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
     parked, keys = state.parked or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed

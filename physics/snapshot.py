@@ -45,7 +45,7 @@ HULLS = {
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """(arrays, facts that JSON can say) of shapes."""
+    """Return shapes as (arrays, facts that JSON can hold)."""
     arrays = {}
     for number, shape in enumerate(geometry.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -69,7 +69,7 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Shapes from arrays and facts. Raises KeyError, TypeError, ValueError."""
+    """Return shapes from arrays and facts. Raises KeyError, TypeError, ValueError."""
     outlines, masks = [], []
     for number, (name, radius) in enumerate(facts["hulls"]):
         points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
@@ -92,15 +92,15 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 # Snapshots of a world, in memory and as `.npz` files without pickle.
 
 VERSION = 11
-ABANDONED = 3600.0  # [s] without a byte written to it: nobody is at work on such a file
-SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # come back with a snapshot
+ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
+SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # settings that a snapshot restores
 DAMAGE = (
     ValueError,
     TypeError,
     KeyError,
     IndexError,
     EOFError,
-    OSError,  # of what is said to be compressed by bzip2, and is not
+    OSError,  # of data that is marked as bzip2 and is not
     lzma.LZMAError,
     OverflowError,
     AttributeError,
@@ -129,7 +129,7 @@ TABLES = {
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
-    """Rows of a file in this program's table: the same columns, wherever in a row they stood. Raises ValueError."""
+    """Return the rows of a file in the layout of this program: the same columns in any order. Raises ValueError."""
     columns = rows.dtype.fields or {}
     if {each: columns[each][0] for each in columns} != {each: dtype.fields[each][0] for each in dtype.names}:
         raise ValueError(f"it has other columns in {name} than this program")
@@ -138,13 +138,13 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
         for each in dtype.names:
             moved[each] = rows[each]
         return moved
-    # The type itself, not one that equals it: where a process meets the other first, each call of a kernel looks its
-    # types up anew, and a step of 79 boxes takes 8 ms in place of 0.2.
+    # The dtype object itself, not an equal one: with another object each kernel call looks up its types
+    # again, and a step of 79 boxes takes 8 ms instead of 0.2 ms.
     return rows.view(dtype)
 
 
 class Snapshot:
-    """The state of a world at one moment. `save` and `load` keep it in a file."""
+    """The state of a world at one moment. `save` writes it to a file, `load` reads one."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
@@ -152,19 +152,20 @@ class Snapshot:
                 raise TypeError(f"{name} must be a dict, as World.snapshot() makes it (got {checks.shown(value)})")
         self.arrays = arrays
         self.facts = facts
-        # The shapes of a library by kind and row. Shapes never change, and what is carved shares the tiles that it did
-        # not lose: nothing of them is copied until they are saved.
+        # The shapes of a library by kind and row. Shapes are immutable, and carved masks share unchanged tiles:
+        # nothing is copied before the snapshot is saved.
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write a versioned .npz, whole or not at all. Raises OSError; a file that was there is then untouched.
+        """Write a versioned .npz by atomic replace. Raises OSError; an existing file is then unchanged.
 
-        It is written beside as <path>.<process>.part; one that a killed program left an hour ago or earlier is removed.
+        The data is written to <path>.<process>.part first. Such a file that a killed program left over an hour ago is
+        removed.
         """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
         there = os.fspath(path)
-        whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written to, not replaced
+        whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written directly
         beside = f"{there}.{os.getpid()}.part" if whole else there
         if whole:
             _remove_abandoned(there)
@@ -179,7 +180,7 @@ class Snapshot:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
-        """Read a file. Raises ValueError with the file, and the reason why it is refused."""
+        """Read a file. Raises ValueError with the path and the reason why it is refused."""
         with open(path, "rb") as file:
             content = io.BytesIO(file.read())
         try:
@@ -198,7 +199,7 @@ class Snapshot:
 
 
 def _remove_abandoned(path: str) -> None:
-    """Remove what killed programs left of this file: its parts to which nothing was written for an hour."""
+    """Remove the .part files of this path that no program has written to for an hour."""
     folder, name = os.path.split(os.path.abspath(path))
     part = re.compile(re.escape(name) + r"\.[0-9]+\.part")
     with contextlib.suppress(OSError):
@@ -209,7 +210,7 @@ def _remove_abandoned(path: str) -> None:
 
 
 def take(world: WorldState) -> Snapshot:
-    """Copy the state of a world."""
+    """Return a copy of the state of a world."""
     library = world.library
     arrays = {
         "bodies": world.bodies.copy(),
@@ -245,7 +246,7 @@ def take(world: WorldState) -> Snapshot:
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Put a world back to a snapshot of a world with the same effects. Raises TypeError, ValueError."""
+    """Restore a snapshot of a world with the same effects. Raises TypeError, ValueError."""
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
     facts, arrays = taken.facts, taken.arrays
@@ -261,7 +262,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
             f"snapshot is of a world with pixels_per_meter {facts['pixels_per_meter']!r} (this one has {scale!r}): "
             "its tolerances are others"
         )
-    # Everything is known to fit: from here on nothing fails.
+    # All data has been checked: nothing fails from here on.
     for name in SETTINGS:
         if getattr(world, name) != facts[name]:
             setattr(world, name, facts[name])
@@ -293,7 +294,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 
 
 def _islands_apart(islands) -> dict:
-    """Sleeping islands as flat arrays: each with the key that its rows belong to."""
+    """Return the sleeping islands as flat arrays, each with the key of the island of every row."""
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
     for name, empty in (
@@ -309,7 +310,7 @@ def _islands_apart(islands) -> dict:
 
 
 def _sleepers(arrays) -> Sleepers:
-    """Sleeping islands from flat arrays."""
+    """Return the sleeping islands from flat arrays."""
     sleepers, fields = Sleepers(), ("bodies", "manifolds", "anchors", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
@@ -321,7 +322,7 @@ def _sleepers(arrays) -> Sleepers:
 
 
 def _unpack(arrays, facts, geometry):
-    """(library, shapes of each body, sources of tiers, random generator) of a snapshot; raises one of DAMAGE."""
+    """Return (library, shapes of each body, sources of tiers, random generator) of a snapshot. Raises one of DAMAGE."""
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
     rows = arrays["shapes"]["body_row"]
@@ -350,27 +351,27 @@ def _unpack(arrays, facts, geometry):
 
 
 def _with_own_values(shape, row) -> Shape:
-    """A shape with the values that its SHAPE row says are its own."""
+    """Return a shape with the own values of its SHAPE row."""
     material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
 
 
 def _targets(arrays) -> dict:
-    """{body id: (x, y, angle)} from flat arrays."""
+    """Return {body id: (x, y, angle)} from flat arrays."""
     ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
     return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
 
 
 # ---- digest ----------------------------------------------------------------------------------------------------------
-# The digest of a world: two worlds with the same one go on alike.
+# The digest of a world: two worlds with equal digests continue equally.
 
-# Goes up with every change by which some world takes other digests: recordings of before play, and part.
+# Increased by every change that changes the digest of some world: older recordings still play, and diverge.
 PHYSICS_VERSION = 5
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
-ASKED = ("substeps", "eased")  # where the number of substeps follows from the loads
-# What bodies and shapes were given. Materials are left out: where their effect is not declared they are inert.
+ASKED = ("substeps", "eased")  # only with substeps by load
+# Values of bodies and shapes. Materials are left out, because they are inert without their effect.
 GIVEN_COLUMNS = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
 SHAPE_COLUMNS = ("id", "membership", "mask", "sensor")
 NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
@@ -399,8 +400,11 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """blake2b-128 over length and solver of the step, ids, poses, velocities, flags, masses, filters, characters,
-    contacts and impulses in id order, and over targets and forces that wait for the next step; −0.0 as 0.0."""
+    """Return the blake2b-128 hash of all that the next step depends on.
+
+    It covers dt and solver, then in id order poses, velocities, flags, masses, filters, characters, contacts and
+    impulses, then the targets and forces of the next step. −0.0 counts as 0.0.
+    """
     found = hashlib.blake2b(digest_size=16)
     auto = world.substeps == "auto"
     pace = (0, world.accuracy) if auto else (world.substeps,)
@@ -431,7 +435,7 @@ def digest(world: WorldState) -> str:
                 found.update(b"carved" + mask.fingerprint)
     if world.stacks and world.span not in (0.0, world.dt):
         found.update(b"span" + np.float64(world.span).tobytes())
-    # What waits for the next step only; where nothing waits, nothing is added.
+    # State that only the next step reads; an empty one adds nothing.
     targets = world._targets
     for identity in sorted(targets):
         found.update(

@@ -38,14 +38,16 @@ from physics.tables.table import rows_of, zeros_in_lines
 from physics.world_state import WorldState
 
 # ---- targets ---------------------------------------------------------------------------------------------------------
-# Targets of kinematic bodies: where they are to be at the end of the next step, and the velocity that leads there.
+# Targets of kinematic bodies: a pose for the end of the next step, and the velocity that leads there.
 #
-# They are set between steps, aimed at when a step begins, by its length, and reached when it ends: to the bit.
+# They are set between steps. The velocity is set when a step begins, from its length; when the step ends, the pose is
+# reached to the bit.
 
 
 def set_target(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Have a kinematic body arrive at a position [px] and an angle [rad] (None: as it is) at the end of the next step.
-    Raises TypeError, ValueError."""
+    """Set the pose (position [px], angle [rad], None: unchanged) that a kinematic body reaches at the end of the next
+    step. Raises TypeError, ValueError.
+    """
     world._unlocked()
     row = world._body_row(identity)
     x, y = checks.position("position", position)
@@ -66,7 +68,7 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
 
 
 def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
-    """(n, 3) velocity of the centre of mass and angular velocity that take BODY rows to poses (n, 3) in dt [s]."""
+    """Return (n, 3) velocities of centre and angular velocities that move BODY rows to poses (n, 3) in dt [s]."""
     cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
     x, y = bodies["local_center_x"], bodies["local_center_y"]
     return np.stack(
@@ -80,12 +82,12 @@ def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarra
 
 
 def _rows(world) -> tuple[np.ndarray, np.ndarray]:
-    """Body rows that have a target, and the targets."""
+    """Return the body rows that have a target, and the targets."""
     return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Give the bodies with a target the velocity that takes them there in dt [s]; in no time nobody gets anywhere."""
+    """Set the velocities that move the bodies with a target there in dt [s]; in a step of length 0, zero."""
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -95,7 +97,7 @@ def aim(world: WorldState, dt: float) -> None:
 
 
 def arrive(world: WorldState, dt: float) -> None:
-    """Put who had a target exactly there, at rest. What was quarantined on the way stays where it is."""
+    """Place the bodies with a target exactly there, at rest. A body quarantined in the step stays where it is."""
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -111,12 +113,11 @@ def arrive(world: WorldState, dt: float) -> None:
 
 
 # ---- step ------------------------------------------------------------------------------------------------------------
-# The step: what its stages hand on to each other, and which of them the declared effects call for, in order.
+# The step: the order of its stages by effects, and the state that they share.
 #
-# Without `stacking` bodies are moved first, as far as a sweep lets them, and pushed out of what they overlap
-# afterwards. With it contacts are found first, solved, and the bodies moved by the solver; what is fast is put back to
-# where it met something. A stage that no effect needs is not planned: it is not called, and its kernels are never
-# compiled.
+# Without `stacking` bodies move first, as far as the sweep allows, and are pushed out of overlaps afterwards. With it
+# contacts are found first, the solver solves them and moves the bodies, and fast bodies are moved back to their first
+# impact. A stage that no effect needs is not in the plan: it never runs, and its kernels are never compiled.
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
@@ -132,14 +133,14 @@ IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
 def sound_rectangles(state: StepState) -> None:
-    """Where the bodies that are still finite can be."""
+    """Write the swept AABBs of the bodies that are still finite."""
     quarantine(state)
     motion_rectangles(state)
 
 
 @stage("rest", reads=rest.reads, writes=rest.writes)
 def rest_exactly(state: StepState) -> None:
-    """Who falls asleep keeps its contacts exactly where they stand: whoever wakes it has them solved as they are."""
+    """Evaluate the contacts of an island before it sleeps at the final poses, so that they are valid when it wakes."""
     rest(state)
     if state.parked is not None:
         for key in np.unique(state.parked[1]).tolist():
@@ -164,7 +165,7 @@ class Plan(NamedTuple):
 
 
 def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
-    """The stages that these effects call for, in order; characters: whether there are any."""
+    """Return the stages that these effects need, in order. characters: whether the world has any."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
@@ -204,18 +205,18 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
 
 
 def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
-    """The stages of a world while it has no character, and while it has some."""
+    """Return the stages of a world without a character, and with one."""
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:
-    """Arrays that the stages of one world grow and use again. Nothing in them outlives a stage."""
+    """Arrays that the stages of one world grow and reuse. Their contents never outlive a stage."""
 
     def __init__(self, effects: Effects, solver: str) -> None:
         self.stacks = stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(False, one_way, boxes_only)
-        # When somebody looks at contacts of masks: where they push, their outlines have told all.
+        # On demand: the areas of mask contacts. Where masks respond, the contacts of their outlines are complete.
         self.telling = NarrowPhase(True, one_way, boxes_only) if not effects.response else None
         self.sensing = NarrowPhase(False, one_way, boxes_only) if effects.response and effects.sensors else None
         self.sweep = Sweeper() if effects.continuous or effects.response else None
@@ -223,14 +224,15 @@ class Workspace:
         self.motions = Motions() if stacks else None
         self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
-        # Two tables of contacts and their anchors: those that there are, and room for those of the next step.
+        # Two tables of contacts and their anchors: the present ones, and room for those of the next step.
         self._manifolds = [zeros_in_lines(16, MANIFOLD) for _ in range(2 if stacks else 0)]
         self._anchors = [zeros_in_lines(16, ANCHOR) for _ in range(2 if stacks else 0)]
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
 
     def contacts_beside(self, manifolds: np.ndarray, anchors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Room for so many MANIFOLD and ANCHOR rows in tables that do not hold these: between steps either may have
-        been replaced."""
+        """Return room for so many MANIFOLD and ANCHOR rows in tables other than these, which may have been replaced
+        between steps.
+        """
         for rows, tables in ((manifolds, self._manifolds), (anchors, self._anchors)):
             if rows.base is tables[0].base:
                 tables.reverse()
@@ -242,28 +244,33 @@ class Workspace:
         return self._manifolds[0], self._anchors[0]
 
     def rows_for(self, count: int) -> np.ndarray:
-        """Room for that many row numbers."""
+        """Return room for that many row numbers."""
         if len(self._rows) < count:
             self._rows = np.zeros(2 * count, np.int64)
         return self._rows
 
 
 def next_span(span: float, dt: float, usual: float) -> float:
-    """The time [s] that contacts have forces of after a step of dt [s]: its length; where the steps before were longer
-    it counts for as much as it lasts, and a stall for no more than a few of them, or of the usual ones."""
+    """Return the averaging window [s] of the cached contact forces after a step of dt [s].
+
+    It is dt. After longer steps a short one counts by its length, and a stall counts for no more than a few of them, or
+    of the usual steps.
+    """
     if dt >= span:
         return min(dt, STALL * max(span, usual))
     return span - (span - dt) * dt / span
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """The time [s] that a step takes: None, the world's own; what is shorter than any is none. Raises ValueError."""
+    """Return the length [s] of a step: world.dt for None, 0 for one that is too short to be computed. Raises
+    ValueError.
+    """
     dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
     return 0.0 if dt < SHORTEST_STEP else dt
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """What the first stage is given: the world's settings and tables, and what it remembers of the last step."""
+    """Return the StepState of the first stage: settings, tables, and the cache of the last step."""
     world.refresh_character_rows()
     aim(world, dt)
     state = StepState()
@@ -291,7 +298,7 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 
 def finish(world: WorldState, state: StepState) -> None:
-    """What the world keeps of a step."""
+    """Store in the world what later steps need."""
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.tell_contacts(*state.told)
@@ -300,7 +307,7 @@ def finish(world: WorldState, state: StepState) -> None:
         world.awake.fresh = world.awake.fresh[:0]
     arrive(world, state.dt)
     if state.kept_forces is not None:
-        # In no time they did nothing: they are for the next step, and what the stages added is not.
+        # A step of length 0 used no forces: they stay for the next step, without what the stages added.
         going_on = ~world.bodies["quarantined"]
         for name in FORCES:
             world.bodies[name][going_on] = state.kept_forces[name][going_on]
@@ -310,15 +317,16 @@ def finish(world: WorldState, state: StepState) -> None:
 
 
 # ---- staged step -----------------------------------------------------------------------------------------------------
-# A step that stands still after each of its stages, for whoever looks between them. World.step makes it in one go.
+# A step that pauses after each of its stages, for inspection. World.step makes it in one go.
 
 
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
-    """Make the step of World.step(dt): yields None before the first stage, then each stage when it has run.
+    """Make the step of World.step(dt), and yield None before the first stage and each stage after it has run.
 
-    Meanwhile the world shows what there is so far: bodies, candidates, manifolds, contacts and events of half a step,
-    seconds and counters in `profile`. It cannot be changed. That is no state to go on from: whoever stops in the
-    middle, or lets debug or a query look in between, puts the world back afterwards. Raises ValueError as World.step.
+    Meanwhile the world shows the intermediate results: bodies, candidates, manifolds, contacts and events of half a
+    step, seconds and counters in `profile`. It cannot be changed. The state is not valid for further steps: a caller
+    that stops in the middle, or that lets debug or a query read it, restores a snapshot afterwards. Raises ValueError
+    as World.step.
     """
     world._unlocked()
     dt = step_length(world, dt)
@@ -340,7 +348,7 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Let the world tell what the stages have found so far; until they tell of contacts, those that touch by now."""
+    """Show in the world the results of the stages so far; before contacts are reported, the manifolds that touch."""
     world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     manifolds, keep = state.told
@@ -348,8 +356,10 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Which manifolds touch, sensors apart, as `events` will tell: those that overlap, that touched and are no further
-    apart than the slop, bear something, or were met on the way."""
+    """Return which manifolds touch, sensors excluded, as `events` will report.
+
+    A manifold touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
+    """
     rows, before = state.manifolds, state.touching.rows
     second = rows["count"] > 1
     gap = np.minimum(rows["separation_1"], np.where(second, rows["separation_2"], np.inf))

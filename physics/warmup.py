@@ -1,4 +1,4 @@
-"""Compiles the kernels that a world with given effects will need, by running small worlds with them."""
+"""Compilation ahead of time: small worlds call the kernels that a world with given effects calls."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -45,12 +45,12 @@ def warmup(
     progress: Callable[[int, int, str], Any] | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Compile, or load from the cache, what a world with these effects calls, with all cores.
+    """Compile, or load from the cache, the kernels of a world with these effects, with all cores.
 
-    broadphase: brute, sweep, hash, tree or "all"; pieces: those of PIECES that will be met, None: all. progress(done,
-    total, name) is called before each piece, with each kernel that is compiled, and at the end; `total` grows when it
-    is known how many kernels are to be compiled. What was left out is compiled when it is first met. Without numba the
-    pieces run the same. Raises KeyError for an unknown broad phase or piece.
+    broadphase: brute, sweep, hash, tree or "all". pieces: those of PIECES that the world will meet, None: all.
+    progress(done, total, name) is called before each piece, with each compiled kernel, and at the end; `total` grows
+    when the number of kernels is known. Kernels of other pieces compile at their first call. Without numba the pieces
+    run the same. Raises KeyError for an unknown broad phase or piece.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 
@@ -73,9 +73,8 @@ def run_warmup(
     solver: str | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Run small worlds that call all kernels which a world with these effects calls, in whatever form they are.
-
-    Arguments and errors as of warmup().
+    """Run small worlds that call all kernels of a world with these effects, in any form. Arguments and errors as of
+    warmup().
     """
     for _, run in _runs(effects, broadphase, solver, pieces):
         run()
@@ -137,7 +136,7 @@ def _runs(effects, broadphase, solver, pieces):
 
 
 def _kind_of(shape):
-    """Dynamic, unless it only carries."""
+    """Return dynamic, or kinematic for a shape that cannot be dynamic."""
     return "kinematic" if isinstance(shape, (TileGrid, Chain)) or shape is OPEN else "dynamic"
 
 
@@ -159,7 +158,7 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Pairs of several kinds that meet in one step: what is told of them is put in order."""
+    """Run a world in which pairs of several kinds meet in one step, so that their order is restored."""
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -168,7 +167,7 @@ def _together(effects, solver, pairs):
 
 
 def _ground(effects, solver, tiles):
-    """What slides on tiles, and was there in the step before."""
+    """Run a body that slides on tiles, for two steps."""
     world = World(effects, solver=solver)
     world.add_body(tiles, kind="static")
     world.add_body(BOX, position=(8.0, -4.0), velocity=(120.0, 0.0))
@@ -177,8 +176,9 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Contacts that are known again in place, a new one beside them, and what wakes those that fell asleep; substeps by
-    load and a number of them."""
+    """Run contacts that are matched in place, a new one beside them, sleep and waking, with substeps by load and by
+    number.
+    """
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # as near as is found; nearer
         world.add_body(Circle(4), position=place)
@@ -195,7 +195,7 @@ def _rest(effects, solver):
 
 
 def _carve(effects, solver):
-    """Out of a small mask and out of a large one, on which something rests, with each kind of tool."""
+    """Carve a small mask and a large one, on which a body rests, with each kind of tool."""
     world = World(effects, solver=solver)
     solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
     solid[0, 0] = False
@@ -209,7 +209,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Run a sensor that a body overlaps, and one that no body does."""
+    """Run a sensor that overlaps a body, and one that does not."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -219,14 +219,14 @@ def _sensor(effects, solver):
 
 
 def _crowd(effects):
-    """So many new bodies that the tree is built anew."""
+    """Add so many bodies that the tree is rebuilt."""
     world = World(effects, DynamicTree())
     world.add_bodies(Circle(1), np.array([(40.0 * number, 0.0) for number in range(2 * REBUILD_FROM)]))
     world.step()
 
 
 def _impacts(effects, solver):
-    """Each way to be swept, into what stands and into another that is swept."""
+    """Run each kind of continuous collision against a static body and against another swept one."""
     for way in ("ray", "swept", "toi"):
         world = World(effects, solver=solver)
         world.add_body(BOX, kind="static")
@@ -238,8 +238,7 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """What stands in the middle of a mask, where each part of its outline leaves it to the others, and beside it, where
-    these are known again."""
+    """Run a body in the middle of a mask, where each part of the outline leaves it to the others, and one beside it."""
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     world.add_body(PixelMask(arm[:, None] | arm), kind="static")
@@ -250,14 +249,14 @@ def _amid(effects, solver):
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch, which no file holds."""
+    """Fit the outline of a mask with a hole and a notch, which is not in the shipped file."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """What a sensor says of pixels where what pushes goes by outlines."""
+    """Run a mask sensor in a world whose bodies respond by outlines."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))
@@ -266,7 +265,7 @@ def _zone(effects, solver):
 
 
 def _queries(effects):
-    """Several kinds of pairs too: a world that stops at boxes tests them for nobody else."""
+    """Run queries of all kinds of pairs, which a world without narrow phase tests nowhere else."""
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))
@@ -276,7 +275,7 @@ def _queries(effects):
 
 
 def _pixels(effects):
-    """Questions about masks, also where what pushes goes by their outlines."""
+    """Run queries of masks, also where the bodies respond by outlines."""
     world = World(effects)
     world.add_body(MASK, kind="static")
     for shape in (Circle(2), BOX, MASK):
@@ -285,7 +284,7 @@ def _pixels(effects):
 
 
 def _casts_at_pixels(effects):
-    """At the outlines of masks, one of which has more than one piece to its ring."""
+    """Run casts against the outlines of masks, one of which has more than one convex part to its ring."""
     world = World(effects)
     ring = np.ones((12, 12), bool)
     ring[4:8, 4:8] = False
@@ -313,7 +312,7 @@ def _character(effects, solver):
 
 
 def _contacts(effects):
-    """Contacts of masks, of which a step without response asks only whether there are some."""
+    """Read the contacts of masks, which a step without response only counts."""
     for mask in (MASK, EXACT):
         world = World(effects)
         for x in (0.0, 2.0):

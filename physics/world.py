@@ -1,4 +1,4 @@
-"""World: owns the tables and runs the stages. Start reading at `step`."""
+"""World: the tables of a simulation and the stages that advance them. Start reading at `step`."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from time import perf_counter
@@ -38,24 +38,26 @@ from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
 
-PLAIN = Material()  # of bodies that are given none
+PLAIN = Material()  # the default material of bodies
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
 
 
 def own_solver(effects: Effects) -> str:
-    """The solver of a World that is told none."""
+    """Return the name of the default solver for these effects."""
     return "soft_step" if effects.stacking else "projection"
 
 
 class World(WorldState):
-    """Bodies, the effects they live under, and the stages that those call for.
+    """The bodies of a simulation, the effects that act on them, and the stages that these effects need.
 
-    effects: what the scene calls for, None = Effects.rigid_bodies(); broadphase: an instance of one of the four, None =
-    SpatialHashGrid(); solver: one of SOLVERS, None = soft_step with the effect stacking, else projection; gravity
-    [px/s2], None = 9.8 m/s2 down; drag [1/s]; wind [px/s]; dt [s]; substeps: how often the stacking solvers look at the
-    contacts in a step; "auto": 4 to 32 times, each island as often as keeps its contacts from sinking further than
-    accuracy [px], None = 1 mm; what leans up to 128 times. What needs more is counted in cap_hits. Raises TypeError or
-    ValueError naming the argument.
+    effects: the declared effects, None for Effects.rigid_bodies(). broadphase: an instance of one of the four
+    strategies, None for SpatialHashGrid(). solver: one of SOLVERS, None for soft_step with the effect stacking and for
+    projection without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s]. seed: of
+    `world.random`.
+
+    substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps,
+    as many as keep its contacts from sagging by more than accuracy [px] (None: 1 mm). An island that leans takes up to
+    128. An island that needs more is counted in cap_hits. Raises TypeError or ValueError naming the argument.
     """
 
     _solver: str
@@ -101,12 +103,12 @@ class World(WorldState):
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
-        # What is remembered from step to step.
+        # Caches that later steps read.
         self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
         self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
         self.sensed = self.ghosts = self.workspace = None
         self.touching, self.sensing = Pairs(), Pairs()
-        # What the last step told.
+        # Results of the last step.
         self.tell_contacts(self.manifolds)
         self.queries, self.events, self.steps, self.time, self.span = QueryIndex(), Events(), 0, 0.0, 0.0
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
@@ -122,10 +124,11 @@ class World(WorldState):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance by dt [s] (None: world.dt). 0 moves nothing, and keeps forces and targets for the next step; so does
-        what is shorter than SHORTEST_STEP.
+        """Advance the simulation by dt [s], by world.dt if dt is None.
 
-        Raises ValueError for a negative or non-finite dt."""
+        A step of 0, or of less than SHORTEST_STEP, moves nothing and keeps forces and targets for the next step. Raises
+        ValueError for a negative or non-finite dt, RuntimeError during a step.
+        """
         self._unlocked()
         if tiers.arrived:
             tiers.take_over()
@@ -166,9 +169,10 @@ class World(WorldState):
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body. mass: in place of what its shapes' densities make of it.
+        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes.
 
-        Raises TypeError or ValueError naming the argument; the world is unchanged then."""
+        Raises TypeError or ValueError naming the argument. The world is then unchanged.
+        """
         ids = edit.add_rows(
             self,
             shapes,
@@ -211,7 +215,7 @@ class World(WorldState):
         tier: str | None = None,
         user: Any = None,
     ) -> np.ndarray:
-        """Add a body of one shape at each of positions (n, 2) [px]. Returns their ids. Raises as add_body."""
+        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids. Raises as add_body."""
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
             raise ValueError(
@@ -243,40 +247,51 @@ class World(WorldState):
         )
 
     def remove_body(self, body: Body | int) -> None:
-        """Remove a body (or its id). Raises KeyError when it is not there, TypeError, ValueError."""
+        """Remove a body, given as a Body or an id. Raises KeyError if the world has no such body, TypeError,
+        ValueError.
+        """
         self._remove([self._identity("body", body)])
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Remove many bodies (or ids) at once: one pass over the tables. Raises KeyError for one that is not there,
-        ValueError for one that is named twice, TypeError; nothing is removed then."""
+        """Remove many bodies, given as Bodies or ids, in one pass over the tables.
+
+        Raises KeyError for a body that is not in the world, ValueError for a body that is named twice, TypeError.
+        Nothing is removed then.
+        """
         self._remove(self._identities("ids", ids))
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Say that columns of these bodies (an id or a Body, or many) were written: what is dynamic wakes, and their
-        boxes follow in the next step. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
-        KeyError, TypeError, ValueError; nothing is touched then."""
+        """Report that columns of these bodies were written: dynamic bodies wake, and the boxes are refreshed in the
+        next step.
+
+        ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
+        KeyError, TypeError, ValueError. Nothing is touched then.
+        """
         self._unlocked()
         edit.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove every body, and what is kept of their shapes. Ids go on from where they were."""
+        """Remove all bodies and the geometry of their shapes. Ids continue where they were."""
         self.remove_bodies(self.bodies["id"])
 
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """blake2b-128 of the state that the next step depends on, independent of rows, times and broad phase."""
+        """Return the blake2b-128 hash of the state that the next step depends on. It is independent of rows, times and
+        broad phase.
+        """
         return digest(self)
 
     def snapshot(self) -> Snapshot:
-        """A copy of the state."""
+        """Return a copy of the state."""
         return snapshot.take(self)
 
     def restore(self, taken: Snapshot) -> None:
-        """Go back to a snapshot: bodies, time, random numbers, and the settings solver, dt, substeps, gravity, drag,
-        wind. The broad phase, and the `user` of bodies that are there, stay.
+        """Restore a snapshot: bodies, time, random numbers, and solver, dt, substeps, accuracy, gravity, drag and wind.
 
-        Raises ValueError when it does not fit this version's tables, this world's effects or pixels_per_meter."""
+        The broad phase stays, and so does the `user` of bodies that exist already. Raises ValueError when the snapshot
+        does not fit this version's tables, this world's effects or its pixels_per_meter.
+        """
         self._unlocked()
         snapshot.restore(self, taken)
 
@@ -284,7 +299,7 @@ class World(WorldState):
 
     @property
     def solver(self) -> str:
-        """One of SOLVERS; can be set between steps."""
+        """The name of the solver, one of SOLVERS. It can be set between steps."""
         return self._solver
 
     @solver.setter
@@ -296,21 +311,21 @@ class World(WorldState):
 
     @property
     def stacks(self) -> bool:
-        """Whether the solver is one whose contacts remember."""
+        """Whether the solver warm starts its contacts (soft_step, sequential_impulse)."""
         return self._solver in STACKING
 
     @property
     def ignored_effects(self) -> tuple[str, ...]:
         """Names of the declared effects that the present solver does not honour, in the order of Effects.names().
 
-        Without one of them everything goes the same way. Two remarks: under blocking a body turns by its own angular
-        velocity, though no contact turns it; and Characters stand on dynamic bodies wherever stacking is declared.
+        A run with and without such an effect is the same. Two remarks: under blocking a body rotates by its own angular
+        velocity, although contacts do not rotate it. Characters stand on dynamic bodies wherever stacking is declared.
         """
         return ignored_effects(self._effects, self._solver)
 
     @property
     def sleeps(self) -> bool:
-        """Whether what has come to rest is left out of the steps."""
+        """Whether bodies at rest are left out of the steps."""
         return self.stacks and self._effects.sleeping
 
     def _checked_solver(self, name):
@@ -323,11 +338,13 @@ class World(WorldState):
         self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
 
     def set_effects(self, effects: Effects) -> None:
-        """Live under other effects from the next step on, and wake. What bodies were given stays, and means nothing as
-        long as no effect calls for it: a spin, a bullet, a sensor, a material. The solver stays where they allow it,
-        else it is the World's own choice. Where `response` comes or goes, masks get other parts, and new shape ids.
+        """Replace the effects from the next step on, and wake all bodies.
 
-        Raises TypeError, and ValueError for effects without response in a world that has Characters."""
+        Values that belong to an effect that is no longer declared stay and are inert (angular velocity, bullet, sensor,
+        material). The solver stays where the effects allow it, otherwise it becomes the default solver. When `response`
+        is added or dropped, masks get other parts and new shape ids. Raises TypeError, and ValueError for effects
+        without response in a world that has Characters.
+        """
         self._unlocked()
         if not isinstance(effects, Effects):
             raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
@@ -345,7 +362,7 @@ class World(WorldState):
         before, self.workspace = self.workspace, Workspace(self._effects, self._solver)
         self._plans = plans(self._effects, self._solver)
         if before is None or before.stacks != self.stacks:
-            # The two kinds of worlds keep other facts of their contacts.
+            # Stacking worlds and the others cache different data of their contacts.
             self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
             self.sensed = None
         if (self.sensed is not None) != self._effects.response:
@@ -355,19 +372,21 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """From now on the steps go over what is awake, or over everything."""
+        """Set whether later steps process only the awake bodies, or all."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
         self.pairs.let_sleep(sleeping)
-        self._broadphase = self._broadphase.fresh()  # it is told of all there is, and of nothing that is gone
+        self._broadphase = self._broadphase.fresh()  # it receives all present proxies, and none of removed ones
         self.sleepers.return_all(self)
 
     @property
     def substeps(self) -> int | str:
-        """How often the stacking solvers look at the contacts in a step; "auto": as often as each island needs for its
-        contacts to sink by no more than the accuracy, 4 to 32 times, and up to 128 where it leans. Can be set between
-        steps."""
+        """Number of substeps of the stacking solvers, or "auto". It can be set between steps.
+
+        With "auto" each island takes 4 to 32 substeps, as many as keep its contacts from sagging by more than
+        `accuracy`, and up to 128 where it leans.
+        """
         return self._substeps
 
     @substeps.setter
@@ -377,8 +396,11 @@ class World(WorldState):
 
     @property
     def accuracy(self) -> float:
-        """[px] what contacts may sink under their loads where substeps are "auto", as far as 32 of them reach; None: a
-        millimetre. Can be set between steps."""
+        """Greatest sag [px] of a contact under its load where substeps are "auto", as far as 32 substeps reach; None: 1
+        mm.
+
+        It can be set between steps.
+        """
         return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
 
     @accuracy.setter
@@ -388,7 +410,7 @@ class World(WorldState):
 
     @property
     def broadphase(self) -> Strategy:
-        """The strategy that finds the candidates; can be set between steps, without changing any result."""
+        """The strategy that finds the candidate pairs. It can be set between steps, and changes no result."""
         return self._broadphase
 
     @broadphase.setter
@@ -404,7 +426,7 @@ class World(WorldState):
 
     @property
     def gravity(self) -> Vec2:
-        """[px/s2]; can be set between steps."""
+        """Gravity [px/s2]. It can be set between steps."""
         return self._gravity
 
     @gravity.setter
@@ -413,14 +435,14 @@ class World(WorldState):
         self._gravity = self._felt(self._gravity, checks.vector("gravity", value), self._effects.gravity)
 
     def _felt(self, before, now, felt):
-        """A new value of a force; where it is felt, it wakes what rests under the old one."""
+        """Return the new value of a force field. Wake all sleeping bodies if the value changed and acts on them."""
         if felt and now != before:
             sleep.wake_all(self)
         return now
 
     @property
     def dt(self) -> float:
-        """Length of a step [s]; can be set between steps."""
+        """Length of a step [s]. It can be set between steps."""
         return self._dt
 
     @dt.setter
@@ -430,7 +452,7 @@ class World(WorldState):
 
     @property
     def drag(self) -> float:
-        """[1/s]; can be set between steps. What sleeps wakes, as from another gravity or wind."""
+        """Drag [1/s]. It can be set between steps; a change wakes all bodies, as one of gravity or wind does."""
         return self._drag
 
     @drag.setter
@@ -441,7 +463,7 @@ class World(WorldState):
 
     @property
     def wind(self) -> Vec2:
-        """Velocity of the air [px/s]; it acts through the drag. Can be set between steps."""
+        """Velocity of the air [px/s], which acts through the drag. It can be set between steps."""
         return self._wind
 
     @wind.setter
@@ -452,29 +474,32 @@ class World(WorldState):
     # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
 
     def body(self, identity: Body | int) -> Body:
-        """The handle of an id (or of a Body, itself). Raises KeyError when there is no such body, TypeError,
-        ValueError."""
+        """Return the Body of an id, or of a Body. Raises KeyError for a body that is not in the world, TypeError,
+        ValueError.
+        """
         identity = self._identity("identity", identity)
         self._row_number(identity)
         return Body(self, identity)
 
     def __len__(self) -> int:
-        """How many bodies there are."""
+        """Return the number of bodies."""
         return self._bodies.count
 
     def __bool__(self) -> bool:
-        """A world is there, whether or not somebody is in it."""
+        """Return True: a world without bodies is true, too."""
         return True
 
     def __iter__(self) -> Iterator[Body]:
-        """The bodies in the order of ids. Those that are there now: what is added on the way is left out, and what is
-        removed before its turn."""
+        """Yield the bodies that exist now, in the order of ids.
+
+        Bodies that are added during the iteration are left out, and so are bodies that are removed before their turn.
+        """
         for identity in self.bodies["id"].tolist():
             if identity in self:
                 yield Body(self, identity)
 
     def __contains__(self, body: object) -> bool:
-        """Whether a Body, or an id, is one of this world's."""
+        """Return whether a Body, or an id, belongs to this world."""
         if isinstance(body, Body):
             return body.world is self and body.id in self
         if isinstance(body, bool) or not isinstance(body, (int, np.integer)):
@@ -484,35 +509,37 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit | None:
-        """The first shape that a ray [px] meets, or None. See queries.RayHit."""
+        """Return the first shape that a ray [px] hits, or None. See queries.RayHit."""
         hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
-        """All shapes that a ray [px] meets, nearest first, ties by shape id."""
+        """Return all shapes that a ray [px] hits, nearest first, ties by shape id."""
         return queries.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
-        """The first shape that a shape at a pose touches on its way by a translation [px], or None."""
+        """Return the first shape that a moving shape touches, from a pose along a translation [px], or None."""
         return queries.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
-        """(body, point, distance) [px] of the nearest point of any shape, or None."""
+        """Return (body, point, distance [px]) of the nearest point of any shape, or None."""
         return queries.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
-        """The bodies that a shape at a pose overlaps, in the order of ids."""
+        """Return the bodies that a shape at a pose overlaps, in the order of ids."""
         return queries.overlap(self, shape, pose, filter)
 
     def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
-        """The bodies with a shape whose AABB meets the closed box [px], in the order of ids."""
+        """Return the bodies with a shape whose AABB meets a closed box [px], in the order of ids."""
         return casts.query_aabb(self, lower, upper)
 
     def query_rect(self, rect: Sequence[float] | Sequence[Pair]) -> list[Body]:
-        """The bodies with a shape whose AABB meets a closed box given as pygame's Rect is: (x, y, width, height), or
-        ((x, y), (width, height)) [px]; in the order of ids."""
+        """Return the bodies with a shape whose AABB meets a closed rectangle [px], in the order of ids.
+
+        rect: (x, y, width, height) or ((x, y), (width, height)), as pygame's Rect takes it.
+        """
         return casts.query_rect(self, rect)
 
     def query_point(self, point: Pair) -> list[Body]:
-        """The bodies with a shape that holds the point [px], in the order of ids."""
+        """Return the bodies with a shape that contains a point [px], in the order of ids."""
         return queries.query_point(self, point)

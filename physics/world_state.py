@@ -1,4 +1,4 @@
-"""WorldState: what a world keeps from step to step, and the times of its stages."""
+"""WorldState: the tables and settings that a world keeps between steps, and the times of its stages."""
 
 from bisect import bisect_left
 from collections.abc import Iterable, Sequence
@@ -27,26 +27,25 @@ from physics.tables.step_state import COUNTERS
 from physics.tables.table import Table, rows_of
 
 # ---- profile ---------------------------------------------------------------------------------------------------------
-# What a step cost: seconds and work per stage. Counters are an int64 array that kernels add to.
+# Time and work of a step, by stage. Counters are an int64 array that kernels add to.
 
 
 class Profile:
-    """Seconds and work of the last step."""
+    """Times and work counters of the last step."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.begin(names)
 
     def begin(self, names: Sequence[str]) -> list[float]:
-        """Start a step with the stages of these names: all to zero. Returns what the seconds of each are to be appended
-        to."""
+        """Start a step with the stages of these names. Return the list to which their seconds are appended."""
         self.work.fill(0)
         self._names, self._spent = names, []
         return self._spent
 
     @property
     def stages(self) -> dict[str, float]:
-        """{name: seconds} of the last step, in order; 0.0 for what has not run."""
+        """{name: seconds} of the last step, in order; 0.0 for a stage that has not run."""
         told = dict.fromkeys(self._names, 0.0)
         for name, seconds in zip(self._names, self._spent, strict=False):
             told[name] += seconds
@@ -54,28 +53,28 @@ class Profile:
 
     @property
     def counters(self) -> dict[str, int]:
-        """{name: int} of the last step, every name always present."""
+        """{name: int} of the last step; every name is always present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
 
 # ---- world state -----------------------------------------------------------------------------------------------------
-# WorldState: what a world keeps from step to step, by name and type, and the looks at it that its parts share.
+# WorldState: the fields of a world by name and type, and the accessors that its parts share.
 
 
 def checked_substeps(value: Any) -> int | str:
-    """A number of substeps, or "auto". Raises TypeError, ValueError."""
+    """Return a number of substeps, or "auto". Raises TypeError, ValueError."""
     if isinstance(value, str):
         return checks.choice("substeps", value, ("auto",))
     return checks.whole("substeps", value, 1, 1000)
 
 
 def checked_accuracy(value: Any) -> float | None:
-    """A length [px], or None. Raises TypeError, ValueError."""
+    """Return a length [px], or None. Raises TypeError, ValueError."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
 class Handle:
-    """What names a body: its world and its id."""
+    """A reference to a body: its world and its id."""
 
     __slots__ = ("_world", "_id")
 
@@ -87,12 +86,12 @@ class Handle:
 
     @property
     def world(self) -> "WorldState":
-        """The World it is in."""
+        """The World of the body."""
         return self._world
 
     @property
     def id(self) -> int:
-        """Given once, and never again in this world."""
+        """The id of the body, which is never used again in its world."""
         return self._id
 
     def __eq__(self, other):
@@ -106,7 +105,7 @@ class Handle:
 
 
 class WorldState:
-    """The fields of a World, which fills them; nothing else inherits from this."""
+    """The fields of a World. Only World inherits from this class and fills them."""
 
     tolerances: Tolerances
     library: Library
@@ -123,11 +122,11 @@ class WorldState:
     sensing: Pairs
     queries: QueryIndex
     events: Events
-    steps: int  # made so far
-    time: float  # [s] that they took, all together
-    span: float  # [s] that what contacts remember of their forces is a mean of: a short step says little of them
+    steps: int  # number of steps so far
+    time: float  # their total length [s]
+    span: float  # averaging window of the cached contact forces [s]: a short step says little about them
     profile: Profile
-    workspace: Any  # a Workspace of step.py, whose stages are given what stands here
+    workspace: Any  # a Workspace of step.py
     # Properties of World.
     solver: str
     substeps: Any
@@ -149,8 +148,8 @@ class WorldState:
     _next_body: int
     _next_shape: int
     _carved_pixels: int  # since the last step
-    _users: dict[int, Any]  # these five by body id
-    _targets: dict[int, tuple[float, float, float]]  # poses to be reached at the end of the next step
+    _users: dict[int, Any]  # these five: by body id
+    _targets: dict[int, tuple[float, float, float]]  # poses at the end of the next step
     _shapes_of: dict[int, tuple[Shape, ...]]
     _tiers: dict[int, str]
     _sources: dict[int, tuple[Shape, ...]]
@@ -172,32 +171,38 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT rows of what touched, was pushed, or met on the way in the last step, in order of shape ids."""
+        """CONTACT rows of the pairs that touched, exchanged impulses or met on their way in the last step, in order of
+        shape ids.
+        """
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.told_manifolds()))
         return self._contacts
 
     def told_manifolds(self) -> np.ndarray:
-        """MANIFOLD rows that `contacts` lists the points of."""
+        """Return the MANIFOLD rows whose points `contacts` lists."""
         manifolds, keep = self._told
         return manifolds if keep is None or keep.all() else manifolds[keep]
 
     @property
     def sleeping_contacts(self) -> np.ndarray:
-        """CONTACT rows, as `contacts`, of the pairs that sleep, as they were when they fell asleep."""
+        """CONTACT rows of the pairs that sleep, as they were when they fell asleep."""
         return contacts_of(with_areas(self, self.sleepers.manifolds()))
 
     def tell_contacts(self, manifolds: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Take in the manifolds of a step, of which the flagged ones count; points are listed when somebody looks."""
+        """Store the manifolds that `contacts` reports, of which the flagged ones count. The points are listed on
+        demand.
+        """
         self._told, self._contacts = (manifolds, keep), None
 
     @property
     def candidates(self) -> np.ndarray:
-        """(n, 2) int32 shape ids out of broad phase and filter in the last step: a < b, sorted."""
+        """(n, 2) int32 pairs of shape ids out of broad phase and filter in the last step: a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Row numbers in `world.bodies` of a body or many: Bodies or ids. Raises KeyError for one that is not there."""
+        """Return the row numbers in `world.bodies` of one body or many, given as Bodies or ids. Raises KeyError for an
+        unknown id.
+        """
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
@@ -207,13 +212,13 @@ class WorldState:
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:
-        """Bring the body rows of the characters up to date."""
+        """Refresh the body rows of the characters."""
         if self.characters.count:
             characters = self.characters.rows
             characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def rebuild_proxies(self) -> None:
-        """Give every shape a new place in the broad phase: the tables were replaced."""
+        """Add the proxies of all shapes to a new broad phase, after the tables were replaced."""
         self.pairs = PairList(self.sleeps)
         self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
@@ -221,13 +226,13 @@ class WorldState:
         rows = np.flatnonzero(active)
         self.shapes["proxy"] = -1
         self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
-        # What is not awake gets no rectangle in the next step: here, once.
+        # Bodies that are not awake get no swept AABB in the next step, so they get one here.
         changed = write_rectangles(self, rows)
         self.pairs.again.append(self.pairs.changed[:changed].copy())
 
     @property
     def effects(self) -> Effects:
-        """What the scene calls for; `set_effects` switches."""
+        """The declared effects; `set_effects` replaces them."""
         return self._effects
 
     @property
@@ -236,11 +241,13 @@ class WorldState:
 
     @property
     def stages(self) -> list[str]:
-        """Names of the stages that the effects call for, in the order in which they run; those for characters are there
-        while there is one."""
+        """Names of the stages that the effects need, in their order.
+
+        The stages of characters are included while the world has a character.
+        """
         return list(self._plan_now.names)
 
-    # --- what World, Body and editing ask for ------------------------------------------------------------------------
+    # --- for World, Body and edit -----------------------------------------------------------------------------------
 
     def _unlocked(self) -> None:
         if self._stepping:
@@ -248,7 +255,7 @@ class WorldState:
 
     def _row_number(self, identity: int) -> int:
         ids, count = self._bodies.data["id"], self._bodies.count
-        row = identity - ids.item(0)  # unless one before it was removed
+        row = identity - ids.item(0)  # true unless an earlier body was removed
         if 0 <= row < count and ids.item(row) == identity:
             return row
         row = bisect_left(ids, identity, 0, count)
@@ -257,7 +264,7 @@ class WorldState:
         return row
 
     def _identity(self, name: str, value: Any) -> int:
-        """The id of a Body of this world, or the id itself, there or not. Raises TypeError, ValueError."""
+        """Return the id of a Body of this world, or a valid id as it is. Raises TypeError, ValueError."""
         if isinstance(value, Handle):
             if value.world is not self:
                 raise ValueError(f"{name} must be of this world (got {checks.shown(value)} of another one)")
@@ -269,7 +276,7 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any) -> np.ndarray:
-        """Ids of one body or of many, each once, as a flat array. Raises TypeError, ValueError."""
+        """Return the ids of one body or of many as a flat array, each once. Raises TypeError, ValueError."""
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
         if isinstance(value, np.ndarray) and value.dtype != np.object_:
@@ -280,7 +287,7 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64))
 
     def _tidy_library(self) -> None:
-        """Drop the geometry that no shape has any longer, once that may be most of it."""
+        """Drop unused geometry once it may be half of all."""
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 
@@ -296,7 +303,7 @@ class WorldState:
         self.awake.forget_shapes()
 
     def _remove(self, ids: Sequence[int] | np.ndarray) -> None:
-        """Remove bodies by id. Raises KeyError; nothing is removed then."""
+        """Remove bodies by id. Raises KeyError, and removes nothing then."""
         self._unlocked()
         ids = np.asarray(ids, np.int64)
         if not len(ids):

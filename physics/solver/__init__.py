@@ -1,1 +1,1 @@
-"""From contacts to impulses."""
+"""Solvers: from contacts to impulses, velocities and poses."""

@@ -1,9 +1,8 @@
-"""The plain loop of a first game: no overlap, move; else stay where you were.
+"""Blocking: a body that would overlap another keeps its old pose, as in the movement loop of simple arcade games.
 
-Differs from `projection` in that nothing is pushed but by what is kinematic, which waits for nobody: a mover that
-would overlap keeps its old pose and loses the speed towards what is in its way. Every body that stays may be in the
-way of another, so the test is repeated until nobody new has to stay: at most once per body, usually two or three
-rounds.
+It differs from `projection` in that only kinematic bodies push. A body that would overlap keeps its old pose and loses
+its velocity towards the obstacle. A body that stays may block others, so the test is repeated until no further body has
+to stay: at most once per body, two or three rounds in practice.
 """
 
 import math
@@ -24,8 +23,8 @@ from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.step_state import SOLVER_ROWS, StepState, stage
 from physics.tables.table import joined
 
-# Effects that it makes nothing of: no contact turns, rubs, bounces or carries a body, and none is remembered. A body
-# still turns by its own angular velocity.
+# Effects that it ignores: contacts do not rotate, rub, bounce or carry bodies, and are not cached. A body still rotates
+# by its own angular velocity.
 IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conveyor")
 
 
@@ -36,10 +35,9 @@ def stay_behind(
     manifolds_inout,
     work_inout,
 ):
-    """Put the dynamic bodies of every overlap that moved back to their old poses.
+    """Move the dynamic bodies of every overlap that moved back to their old poses, and return their number.
 
-    The manifold that stopped them is marked as met on the way. Touching (separation 0) stops nobody. Returns the number
-    of bodies put back. O(manifolds).
+    The manifold that stopped them is marked as hit on the way. Touching (separation 0) stops no body. O(manifolds).
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -70,7 +68,7 @@ def stay_behind(
 
 @subkernel
 def stop_at_point(x, y, nx, ny, a_inout, b_inout):
-    """Take out the closing speed at a point, as an impulse without bounce. Returns the impulse."""
+    """Remove the closing speed at a point, by an impulse without restitution. Return the impulse."""
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
         return 0.0
@@ -84,7 +82,7 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
 
 @kernel
 def stop_approach(bodies_inout, manifolds_inout):
-    """Take out the closing speed of the manifolds that stopped somebody. O(manifolds)."""
+    """Remove the closing speed of the manifolds that stopped a body. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:
@@ -97,9 +95,9 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _make_way(state, stayed):
-    """Have kinematic bodies push ahead of them what stayed behind, and what they are in, from where it was before.
+    """Let kinematic bodies push the bodies that stayed in their way, and those that they overlapped before.
 
-    stayed: MANIFOLD rows that stopped somebody.
+    stayed: MANIFOLD rows that stopped a body.
     """
     bodies, manifolds, sweeper = state.bodies, state.manifolds, state.workspace.sweep
     overlaps = (manifolds["separation_1"] < 0.0) | ((manifolds["count"] == 2) & (manifolds["separation_2"] < 0.0))
@@ -119,7 +117,7 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Put back whoever would overlap, until nobody does. Returns the step [s]. It needs no rows but the manifolds."""
+    """Move overlapping bodies back until there are none. Return the step [s]. It needs no rows but the manifolds."""
     bodies, stopped, anchors = state.bodies, [], []
     while True:
         manifolds = state.manifolds
@@ -158,5 +156,5 @@ def solve(state: StepState, contacts: PushSet) -> float:
     ),
 )
 def blocking(state: StepState) -> None:
-    """Let whoever would overlap stay where it was."""
+    """Keep each body that would overlap at its old pose."""
     solve(state, state.workspace.contacts)

@@ -16,19 +16,19 @@ from physics.tables.contact import CONSTRAINT
 from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
-# What a contact is to a solver: a CONSTRAINT row.
+# CONSTRAINT rows: contacts as the solvers read them.
 #
-# Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c; the row holds arms from the centres of
-# mass at the beginning of the step, and a separation that follows from how far both sides have moved since. Where two
-# faces stick, the arms stay as they were when they were found: arms that turn with a column that leans give its load a
-# torque, and it buckles (Catto, Box2D v3: contact recycling).
+# Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A row holds arms from the centres of mass
+# at the start of the step, and a separation that follows from the motion of both sides since. Where two faces stick,
+# the arms stay as they were at detection: arms that rotate with a leaning column give its load a torque, and the column
+# buckles (Catto, Box2D v3: contact recycling).
 
 BOTH = (False, True)
 
 
 @subkernel
 def effective_mass(a, b, ax, ay, bx, by, x, y):
-    """Mass that an impulse along a unit direction (x, y) at these arms feels; 0 where nothing can be pushed."""
+    """Return the effective mass along a unit direction (x, y) at these arms; 0 if neither side has a finite mass."""
     a_arm = ax * y - ay * x
     b_arm = bx * y - by * x
     k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
@@ -37,7 +37,9 @@ def effective_mass(a, b, ax, ay, bx, by, x, y):
 
 @subkernel
 def couple(a, b, row_out):
-    """Write how the two points of a CONSTRAINT row feel each other; a, b: its MOTION rows."""
+    """Write the off-diagonal terms of the block solver: how the two points of a CONSTRAINT row affect each other. a, b:
+    its MOTION rows.
+    """
     r = row_out
     r.couple_1 = 0.0
     r.couple_2 = 0.0
@@ -55,10 +57,11 @@ def couple(a, b, row_out):
 
 @subkernel
 def sticks(a, b, anchor, distance):
-    """Whether two faces lie on each other nearly as when they were found: normal and arms may stay as they were then.
+    """Return whether two faces stick: normal and moment arms may stay as they were when the contact was found.
 
-    They bear a load, neither is round, neither body (BODY rows) turned by more than STICKING_TURN, their centres moved
-    against each other by no more than distance [px]. What bears nothing has to find its own way out of an overlap.
+    They stick if they carry a load, neither shape is round, neither body (BODY rows) rotated by more than
+    STICKING_TURN, and their centres moved relative to each other by no more than distance [px]. An unloaded contact
+    never sticks, because it has to leave its overlap.
     """
     x = b.center_x - a.center_x - anchor.apart_x
     y = b.center_y - a.center_y - anchor.apart_y
@@ -74,16 +77,19 @@ def sticks(a, b, anchor, distance):
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Whether a point lies on the other side, or as good as that, too slow to bounce."""
+    """Return whether a point touches, and approaches too slowly to bounce."""
     return separation <= limits.slop and abs(speed) <= limits.bounce_speed
 
 
 @inlined
 def judge_row(m, c, held, a, b, degree_a, degree_b, limits, row_out):
-    """Write what a CONSTRAINT row is told by: of a manifold, its anchor, whether its faces are held, the MOTION rows of
-    its sides and how many contacts each of them has."""
+    """Write the flags of a CONSTRAINT row (sole support, approaching, resting).
+
+    They follow from its manifold, the cached contact, whether its faces stick, the MOTION rows of its sides, and their
+    numbers of contacts.
+    """
     r = row_out
-    # One contact below, and one above.
+    # One contact below and one above.
     r.alone = held and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
     crowd = max(degree_a if a.inverse_mass > 0.0 else 0, degree_b if b.inverse_mass > 0.0 else 0)
     r.push_share = CROWD / crowd if crowd > CROWD else 1.0
@@ -97,7 +103,7 @@ def judge_row(m, c, held, a, b, degree_a, degree_b, limits, row_out):
 
 
 def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
-    """What makes a constraint of a contact in a world with these effects."""
+    """Return the function that makes a constraint of a contact in a world with these effects."""
 
     @inlined
     def prepare_row(
@@ -114,8 +120,9 @@ def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
         row_out,
         work_inout,
     ):
-        """Fill a CONSTRAINT row for an edge of the plan, with the impulses that the last step found for a substep of
-        h [s]. plan: see Plan, limits: see settings.Limits. Arms go from the centres of mass to the contact point.
+        """Fill a CONSTRAINT row for an edge of the plan, with the cached impulses for a substep of h [s].
+
+        plan: see Plan. limits: see settings.Limits. Arms go from the centres of mass to the contact point.
         """
         first = plan.selected[edge]
         m = manifolds[first]
@@ -143,7 +150,7 @@ def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
         r.rolling_mass = 1.0 / turning if turning > 0.0 else 0.0
         r.rolling_impulse = h * c.rolling_force
         r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
-        # The rows are used again: a manifold of one point has no second.
+        # Rows are reused: a manifold of one point has no second.
         r.ax_2, r.ay_2, r.bx_2, r.by_2 = 0.0, 0.0, 0.0, 0.0
         r.normal_impulse_2, r.tangent_impulse_2 = 0.0, 0.0
         r.normal_total_2, r.tangent_total_2 = 0.0, 0.0
@@ -157,7 +164,7 @@ def make_prepare_row(friction: bool, conveyor: bool) -> Callable:
             y = m.y_1 if k == 0 else m.y_2
             ax = x - p.center_x
             ay = y - p.center_y
-            bx = x - q.center_x + m.lead * ny  # where B's point is now
+            bx = x - q.center_x + m.lead * ny  # the present position of B's point
             by = y - q.center_y - m.lead * nx
             if held:
                 ax = c.held_ax_1 if k == 0 else c.held_ax_2
@@ -185,15 +192,14 @@ PREPARE_ROW = {(f, c): make_prepare_row(friction=f, conveyor=c) for f in BOTH fo
 
 
 # ---- selection -------------------------------------------------------------------------------------------------------
-# Which contacts are solved, in which order: island by island of as many substeps, and in each colour by colour.
+# Selection of the contacts to solve, and their order: by the substeps of their islands, then by colour.
 #
-# Islands of the same number of substeps make a group, which is advanced by the whole step before the next begins.
-# Nothing passes from one island to another: the motions of what stands between them and is not pushed are functions of
-# time.
+# Islands with the same number of substeps form a group, which advances by the whole step before the next group begins.
+# Islands do not affect each other: the motion of kinematic bodies between them is a function of time.
 
 
 class Plan(NamedTuple):
-    """Which manifolds are solved, and in which order: room for at least as many as there are."""
+    """The manifolds to solve and their order; each array has room for all manifolds."""
 
     selected: np.ndarray  # (edges) int32 manifold of each edge
     edges: np.ndarray  # (edges, 2) int32 rows of MOTION
@@ -201,21 +207,21 @@ class Plan(NamedTuple):
     places: np.ndarray  # (edges) int32 row of each among the constraints, by group and colour
     taken: np.ndarray  # (motions) int64 bits of the colours that each has
     degrees: np.ndarray  # (motions) int64 edges of each
-    classes: np.ndarray  # (motions) int32 where the substeps of each stand among the choices
-    parents: np.ndarray  # (motions) int32 root of the island of each, where …
-    joined: np.ndarray  # (1) bool … somebody had to know
-    members: np.ndarray  # (motions) int32 what moves, by group
-    starts: np.ndarray  # int64 where the rows of each colour of each group begin, the colourless first
-    firsts: np.ndarray  # int64 where the members of each group begin
-    cursors: np.ndarray  # as long as starts: scratch
+    classes: np.ndarray  # (motions) int32 index of the substeps of each among the choices
+    parents: np.ndarray  # (motions) int32 root of the island of each, if …
+    joined: np.ndarray  # (1) bool … it was computed
+    members: np.ndarray  # (motions) int32 moving bodies, by group
+    starts: np.ndarray  # int64 first row of each colour of each group, rows without a colour first
+    firsts: np.ndarray  # int64 first body of each group
+    cursors: np.ndarray  # scratch, as long as starts
 
 
 CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
-BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # the last that a load alone may ask for
+BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the greatest that a load alone may take
 
 
 def new_plan(edges: int, motions: int) -> Plan:
-    """Room for so many edges between so many motions."""
+    """Return room for so many edges between so many motions."""
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         selected=np.zeros(edges, np.int32),
@@ -235,19 +241,22 @@ def new_plan(edges: int, motions: int) -> Plan:
 
 
 class Group(NamedTuple):
-    """The islands that take as many substeps each."""
+    """The islands that take the same number of substeps."""
 
     substeps: int
     start: int  # rows of the constraints, from …
     stop: int  # … to
-    loose: int  # how many of them have no colour
+    loose: int  # number of rows without a colour
     members: np.ndarray  # int32 rows of MOTION
-    starts: np.ndarray  # int64 where the rows of each colour begin, the colourless first, and where the last end
+    starts: np.ndarray  # int64 first row of each colour, rows without a colour first, and the end of the last
 
 
 def demand_rate(state: StepState) -> float:
-    """The square of the substeps that keep a contact from sinking by more than the accuracy, per speed that the
-    impulses on it in a step would give the mass that it moves [s/px]: it sinks by F / (m ω²), ω by HERTZ_SHARE."""
+    """Return the square of the substeps that keep the sag of a contact within the accuracy, per speed [s/px].
+
+    The speed is that which the impulses of a step give the effective mass. A contact sags by F / (m ω²), with ω by
+    HERTZ_SHARE.
+    """
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
 
@@ -261,10 +270,9 @@ def select_manifolds(
     selected_out,
     edges_out,
 ):
-    """List the manifolds that are solved, and the motions that each joins: edges_out (manifolds, 2) int32. Returns
-    their number. O(manifolds).
+    """List the manifolds to solve and the motions of both sides: edges_out (manifolds, 2) int32. Return their number.
 
-    Sensors, pairs of which neither side can be pushed, and what lies under the feet of a character are left out.
+    Sensors, pairs without a dynamic body, and contacts under a character's feet are left out. O(manifolds).
     """
     found = 0
     for i in range(len(manifolds)):
@@ -297,8 +305,9 @@ def color_manifolds(
     # write
     plan_out,
 ):
-    """List the manifolds that are solved, as edges, and colour these. Returns their number. See select_manifolds,
-    color_edges. O(manifolds + motions)."""
+    """List the manifolds to solve as edges, and colour these. Return their number. See select_manifolds, color_edges.
+    O(manifolds + motions).
+    """
     nodes = len(motions)
     count = select_manifolds(manifolds, motion_of, motions, plan_out.selected, plan_out.edges)
     taken = plan_out.taken[:nodes]
@@ -309,7 +318,9 @@ def color_manifolds(
 
 @subkernel
 def class_for(choices, square, least):
-    """Where among the choices, from the place `least` on, is the first whose square is at least that; or the last."""
+    """Return the index of the first choice, from `least` on, whose square is at least that; the last one if there is
+    none.
+    """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
         place += 1
@@ -318,8 +329,10 @@ def class_for(choices, square, least):
 
 @subkernel
 def class_motions(motions, degrees, choices, by_load, classes_out):
-    """Write where among the choices each motion's substeps stand; what nothing touches takes the fewest, who is not
-    known yet as many as a load may ask for. Returns whether there are such. O(motions)."""
+    """Write the index of each motion's number of substeps among the choices. Return whether there are new bodies.
+
+    A body without contacts takes the fewest, a new one as many as a load may need. O(motions).
+    """
     unknown = False
     for i in range(len(classes_out)):
         classes_out[i] = 0
@@ -347,8 +360,10 @@ def expect_impacts(
     # write
     classes_inout,
 ):
-    """Raise the class of what meets within dt [s] to that which the loads of the impact will ask for: what is light
-    bears the momentum of what is heavy. rate: see demand_rate. O(count)."""
+    """Raise the class of bodies that meet within dt [s] to the substeps that the impact will need.
+
+    A light body carries the momentum of a heavy one. rate: see demand_rate. O(count).
+    """
     for i in range(count):
         m = manifolds[selected[i]]
         speed = m.speed_1 if m.speed_1 * dt > m.separation_1 else 0.0
@@ -369,8 +384,10 @@ def expect_impacts(
 
 @subkernel
 def expect_columns(manifolds, selected, edges, count, motions, degrees, limits, most, classes_inout):
-    """Raise what newly lies on one thing, and bears no more than another, to the class `most`: how a column leans is
-    not known before its load has come down it, contact by contact, and what began to lean goes on. O(count)."""
+    """Give new two-contact stacks the most substeps: the class `most`.
+
+    How a column leans is unknown until the load has reached its foot, and a lean does not stop by itself. O(count).
+    """
     for i in range(count):
         row_a = edges[i, 0]
         row_b = edges[i, 1]
@@ -390,7 +407,7 @@ def expect_columns(manifolds, selected, edges, count, motions, degrees, limits, 
 
 @subkernel
 def are_mixed(joins, degrees, classes):
-    """Whether what touches something is not all of one class. O(motions)."""
+    """Return whether the bodies with contacts are of more than one class. O(motions)."""
     first = -1
     for i in range(len(classes)):
         if joins[i] and degrees[i] > 0:
@@ -411,8 +428,9 @@ def order_contacts(
     # write
     plan_out,
 ):
-    """List the manifolds that are solved, in one group, by colour. Returns their number, and how many have no colour.
-    O(manifolds + motions)."""
+    """List the manifolds to solve in one group, by colour. Return their number, and the number without a colour.
+    O(manifolds + motions).
+    """
     count = color_manifolds(manifolds, motion_of, motions, pushable, plan_out)
     starts = plan_out.starts[: COLORS + 2]
     order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
@@ -436,9 +454,11 @@ def order_by_load(
     # write
     plan_out,
 ):
-    """List the manifolds that are solved by how many of the choices of substeps their islands ask for, and by colour.
-    Returns their number. dt [s], rate: see expect_impacts; by_load: the last of the choices that a load alone may ask
-    for; limits: see settings.Limits. O(manifolds + motions)."""
+    """List the manifolds to solve by the number of substeps of their islands, and by colour. Return their number.
+
+    dt [s], rate: see expect_impacts. by_load: index of the greatest choice that a load alone may need. limits: see
+    settings.Limits. O(manifolds + motions).
+    """
     plan = plan_out
     nodes = len(motions)
     classes = plan.classes[:nodes]
@@ -459,14 +479,14 @@ def order_by_load(
 
 
 class Selection:
-    """The order of one world's contacts; arrays are grown and used again."""
+    """The order of the contacts of one world; its arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.count = 0
         self.plan = new_plan(16, 16)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Select, colour and order the contacts; substeps 0: as many as each island asks for."""
+        """Select, colour and order the contacts. substeps: their number, 0 for as many as each island needs."""
         rows, manifolds = motions.used, state.manifolds
         if len(self.plan.selected) < len(manifolds) or len(self.plan.taken) < len(rows):
             self.plan = new_plan(2 * len(manifolds), 2 * len(rows))
@@ -501,18 +521,17 @@ class Selection:
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]
         ]
-        # What moves by hand is moved though nobody is pushed.
+        # Kinematic bodies move even if no dynamic body does.
         return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.movers, plan.starts[: colors + 1])]
 
 
 # ---- contacts --------------------------------------------------------------------------------------------------------
-# Contacts as a constraint set: which manifolds are solved, in which order, as which rows, and what is stored of them.
-#
-# A solver prepares the rows, runs its passes over them in one kernel, and stores what came of it.
+# The contacts of a world as constraints. A solver prepares the rows, runs its passes over them in one kernel, and
+# stores the impulses.
 
 
 def make_prepare(friction: bool, conveyor: bool) -> Callable:
-    """The pass from contacts to constraint rows for a world with these effects."""
+    """Return the pass from contacts to constraint rows for a world with these effects."""
     prepare_row = PREPARE_ROW[friction, conveyor]
 
     @kernel
@@ -531,15 +550,15 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
         constraints_out,
         work_inout,
     ):
-        """Fill the constraint rows, from row `start` of a plan of so many edges on, with the impulses that the last
-        step found for a substep of h [s]; see prepare_row. O(edges).
+        """Fill the constraint rows of the plan's edges, from row `start` on, with the cached impulses for a substep of
+        h [s].
 
-        Contacts are read in the order in which they stand, for a processor that reads ahead: what is far apart is
-        written.
+        See prepare_row. Contacts are read in memory order, for the prefetcher of the processor; the writes are
+        scattered. O(edges).
         """
         for edge in range(count):
             place = plan.places[edge] - start
-            if 0 <= place < len(constraints_out):  # else it is of another group
+            if 0 <= place < len(constraints_out):  # otherwise it belongs to another group
                 row = constraints_out[place]
                 prepare_row(bodies, motions, manifolds, plan, edge, h, limits, anchors_inout, row, work_inout)
 
@@ -547,7 +566,7 @@ def make_prepare(friction: bool, conveyor: bool) -> Callable:
 
 
 def make_warm_start(rotation: bool) -> Callable:
-    """The pass that applies the impulses a substep starts from."""
+    """Return the pass that applies the impulses with which a substep starts."""
 
     @subkernel
     def warm_start(
@@ -556,7 +575,7 @@ def make_warm_start(rotation: bool) -> Callable:
         # write
         motions_inout,
     ):
-        """Apply the impulses that the rows hold already. O(constraints)."""
+        """Apply the cached impulses of the rows. O(constraints)."""
         for i in range(len(constraints)):
             r = constraints[i]
             a = motions_inout[r.motion_a]
@@ -599,11 +618,11 @@ def store_impulses(
     manifolds_inout,
     anchors_inout,
 ):
-    """Write the step's impulses, and the forces that the next step starts from, back to the manifolds: as far as they
-    are of this step, the share, and of the ones before. O(constraints).
+    """Write the impulses of the step, and the cached forces for the next one, back to the manifolds. O(constraints).
 
-    A step of a thousandth of the last one's length says little of the forces: what stops a tremble in it is, by its
-    length, a blow, and a step as long as before would give a thousand times as much of it.
+    share: weight of this step in the cached forces. A step of a thousandth of the last one's length says little about
+    forces: an impulse that stops a small motion in it would count as a thousand times the force in a step of usual
+    length.
     """
     rest = 1.0 - share
     for i in range(len(constraints)):
@@ -623,12 +642,11 @@ def store_impulses(
 
 
 def make_friction_limit(rotation: bool) -> Callable:
-    """The pass that ends with friction what other impulses have left."""
+    """Return the pass that limits friction to its final normal impulse."""
 
     @subkernel
     def limit_friction(count, motions_inout, constraints_inout):
-        """Take back what friction is more than its share of the final normal impulse, over the step: of so many rows.
-        O(count)."""
+        """Remove friction beyond its share of the final normal impulse, over the step, of so many rows. O(count)."""
         for i in range(count):
             r = constraints_inout[i]
             for k in range(r.count):
@@ -663,7 +681,7 @@ def make_friction_limit(rotation: bool) -> Callable:
 
 
 def make_finish(restitution: bool, friction: bool, rotation: bool) -> Callable:
-    """What every solver that stacks ends with in a world with these effects."""
+    """Return the last pass of every stacking solver in a world with these effects."""
     limit_friction = make_friction_limit(rotation)
 
     @kernel
@@ -680,9 +698,9 @@ def make_finish(restitution: bool, friction: bool, rotation: bool) -> Callable:
         anchors_inout,
         work_inout,
     ):
-        """Bounce what has met, end friction where less presses, and write the impulses back. O(constraints).
+        """Apply restitution, limit friction, and write the impulses back. O(constraints).
 
-        threshold [px/s], dt [s]: see restore_bounces; inverse_h [1/s], share: see store_impulses.
+        threshold [px/s], dt [s]: see restore_bounces. inverse_h [1/s], share: see store_impulses.
         """
         count = len(constraints_inout)
         if restitution:
@@ -702,7 +720,7 @@ WARM_START = {r: make_warm_start(rotation=r) for r in BOTH}
 
 
 class ContactSet:
-    """The contacts of one world as constraints; arrays are grown and used again."""
+    """The contacts of one world as constraints; its arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.selection = Selection()
@@ -710,7 +728,7 @@ class ContactSet:
         self.lanes = make_blocks(0)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Which islands take how many substeps; 0: as many as they ask for."""
+        """Group the islands by substeps; 0: as many as each needs."""
         groups = self.selection.choose(state, motions, substeps)
         if len(self.constraints) < self.selection.count:
             self.constraints = np.zeros(2 * self.selection.count, CONSTRAINT)
@@ -735,14 +753,14 @@ class ContactSet:
         return rows
 
     def blocks(self, group: Group) -> Blocks:
-        """Arrays for the rows of a group in lanes."""
+        """Return arrays for the rows of a group in lanes."""
         needed = blocks_needed(group.stop - group.start, group.loose)
         if len(self.lanes.manifold) < needed:
             self.lanes = make_blocks(2 * needed)
         return self.lanes
 
     def store(self, state: StepState, motions: Motions, rows: np.ndarray, h: float) -> None:
-        """Bounce what has met, end friction where less presses, and write the impulses of a group's rows back."""
+        """Apply restitution, limit friction, and write the impulses of a group's rows back."""
         effects, threshold = state.effects, state.tolerances.restitution_speed
         FINISH[effects.restitution, effects.friction, effects.rotation](
             threshold,

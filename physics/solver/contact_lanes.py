@@ -1,7 +1,7 @@
-"""Contacts in lanes: written into blocks as they are read, and stored from there.
+"""Contacts in lanes: blocks are filled from contacts, and their impulses stored.
 
-A CONSTRAINT row lives only while its lane is filled: rows of ten thousand contacts, written, read into lanes and
-written again, are more than a cache holds. What bounces, or rubs by more than presses, becomes a row once more.
+A CONSTRAINT row exists only while its lane is filled: rows of ten thousand contacts, written and read again, exceed the
+cache. Lanes with restitution, or with too much friction, become rows once more.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ from physics.tables.step_state import StepState
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
-    """The pass from contacts to lanes for a world with these effects."""
+    """Return the pass from contacts to lanes for a world with these effects."""
     prepare_row = PREPARE_ROW[friction, conveyor]
 
     @kernel
@@ -37,11 +37,11 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
         blocks_out,
         work_inout,
     ):
-        """Write the contacts of a group, among so many edges, into blocks, each of one colour; see prepare_row. Returns
-        the number of blocks. O(edges).
+        """Write the contacts of a group, among so many edges, into blocks of one colour each. Return the number of
+        blocks. O(edges).
 
-        starts: see lay_out; constraints_inout: the first is scratch. Contacts are read in the order in which they
-        stand, for a processor that reads ahead; the blocks of all colours that are being filled fit into its cache.
+        starts: see lay_out. constraints_inout: the first row is scratch. See prepare_row. Contacts are read in memory
+        order, for the prefetcher of the processor; the open blocks of all colours fit into its cache.
         """
         count = lay_out(starts, blocks_out)
         r = constraints_inout[0]
@@ -69,7 +69,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
 
 @subkernel
 def take_out(blocks, block, lane, at_row, constraints_out):
-    """Make a lane a CONSTRAINT row again, which remembers where it stood."""
+    """Unpack a lane into a CONSTRAINT row, which stores the place of the lane."""
     r = constraints_out[at_row]
     r.manifold = blocks.manifold[block, lane]
     r.motion_a = blocks.motion_a[block, lane]
@@ -81,7 +81,7 @@ def take_out(blocks, block, lane, at_row, constraints_out):
 
 @subkernel
 def take_elastic(blocks, count, constraints_out):
-    """Make rows of the lanes that may bounce and pressed in this step. Returns their number. O(lanes)."""
+    """Unpack the lanes that may bounce and had an impulse in this step. Return their number. O(lanes)."""
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -94,7 +94,7 @@ def take_elastic(blocks, count, constraints_out):
 
 @subkernel
 def take_rubbed(blocks, count, constraints_out):
-    """Make rows of the lanes where friction is more than its share of what pressed. Returns their number. O(lanes)."""
+    """Unpack the lanes whose friction exceeds its share of the normal impulse. Return their number. O(lanes)."""
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -111,7 +111,7 @@ def take_rubbed(blocks, count, constraints_out):
 
 @subkernel
 def put_back(constraints, count, blocks_inout):
-    """Write the impulses of rows that were taken out back into their lanes."""
+    """Write the impulses of unpacked rows back into their lanes."""
     for i in range(count):
         r = constraints[i]
         repack_impulses(r, r.lane, blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE])
@@ -128,7 +128,7 @@ def store_lanes(
     manifolds_inout,
     anchors_inout,
 ):
-    """As contacts.store_impulses, from lanes. O(lanes)."""
+    """Store the impulses of lanes, as constraints.store_impulses does of rows. O(lanes)."""
     rest = 1.0 - share
     for block in range(count):
         s = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -150,7 +150,7 @@ def store_lanes(
 
 
 def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Callable:
-    """What the substeps end with in a world with these effects."""
+    """Return the pass after the last substep in a world with these effects."""
     limit_friction = make_friction_limit(rotation)
 
     @kernel
@@ -169,7 +169,7 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
         anchors_inout,
         work_inout,
     ):
-        """As contacts.finish_constraints, from so many blocks. O(lanes). constraints_inout: scratch."""
+        """Finish so many blocks, as constraints.finish_constraints does rows. O(lanes). constraints_inout: scratch."""
         if restitution:
             found = take_elastic(blocks_inout, count, constraints_inout)
             restore_bounces(
@@ -190,7 +190,7 @@ FINISH = {(e, f, r): make_finish_lanes(restitution=e, friction=f, rotation=r) fo
 
 
 def prepare(state: StepState, contacts: ContactSet, motions: Motions, group: Group, pace: Pace) -> tuple[Blocks, int]:
-    """The contacts of a group in lanes, and how many blocks of them there are."""
+    """Fill the lanes of a group. Return them, and the number of blocks."""
     blocks = contacts.blocks(group)
     count = PREPARE[state.effects.friction, state.effects.conveyor](
         state.bodies,
@@ -210,7 +210,7 @@ def prepare(state: StepState, contacts: ContactSet, motions: Motions, group: Gro
 
 
 def store(state: StepState, contacts: ContactSet, motions: Motions, blocks: Blocks, count: int, h: float) -> None:
-    """Bounce what has met, end friction where less presses, and write the impulses of so many blocks back."""
+    """Apply restitution, limit friction, and write the impulses of so many blocks back."""
     effects, threshold = state.effects, state.tolerances.restitution_speed
     FINISH[effects.restitution, effects.friction, effects.rotation](
         count,

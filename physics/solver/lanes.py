@@ -12,18 +12,18 @@ from physics.solver.step_context import firmness_of
 from physics.tables.table import zeros_in_lines
 
 # ---- lanes -----------------------------------------------------------------------------------------------------------
-# The constraints of a group in lanes: rows of one colour side by side, each of their fields a line of its own.
+# Constraints of a group in lanes: rows of one colour side by side, each field contiguous.
 #
-# Within a colour no two rows share a body that can be pushed, so any number of them can be solved at once; a compiler
-# makes vector instructions of a loop over the lanes of a block that has no branches. Lanes that are left over hold a
-# row that joins nothing to nothing. Sums are those of one row after the other, to the bit. Source: Catto, SIMD Matters,
-# 2024.
+# No two rows of a colour share a dynamic body, so all of them can be solved at once. The compiler vectorises a loop
+# over the lanes of a block that has no branches. Unused lanes hold a row between no bodies. The results equal those of
+# one row after the other, to the bit. Source: Catto, SIMD Matters, 2024.
 
-# What is not compiled takes one row after the other. Measured: 16 are as fast in heaps, and slower in few boxes.
+# The plain form solves one row after the other. Wide blocks are as fast in heaps, and slower with few boxes (measured
+# with 16).
 LANES = 8 if JIT else 1
 
-# Where the lines of a block begin: what a row of CONSTRAINT says, and two of MOTION that last for the step. In the
-# order of who reads them: the pushing pass alone, both passes, the relaxing one, and who asks what came of it.
+# Offsets of the fields of a block: the values of a CONSTRAINT row and of its two MOTION rows that last for the step.
+# They are ordered by readers: the pass with bias alone, both passes, the relaxing pass, and the substep estimate.
 (
     SHARE,
     RESTS,
@@ -74,8 +74,8 @@ LANES = 8 if JIT else 1
     FIRMNESS,
     SIZE,
 ) = (line * LANES for line in range(48))
-# Where the lines begin that a pass gathers from the motions of one block after another. In an array of their own: among
-# the others they were a quarter of what each pass has to read and to write.
+# Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
+# others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
     line * LANES for line in range(16)
 )
@@ -83,7 +83,7 @@ PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears noth
 
 
 def _lanes_in_use(manifolds, block):
-    """Return how many lanes of a block hold a row: the first ones. What is not compiled skips the others."""
+    """Return the number of lanes of a block in use, which are the first ones. The plain form skips the others."""
     count = 0
     while count < LANES and manifolds[block, count] >= 0:
         count += 1
@@ -98,27 +98,29 @@ def _make_all_lanes(count):
 
 
 ALL_LANES = _make_all_lanes(LANES)
-# A compiled pass takes the empty lanes too, where its sums come to nothing: a fixed number makes vector instructions.
+# The compiled pass also solves empty lanes, whose results are 0: a fixed count vectorises.
 lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else _lanes_in_use
 
 
 @subkernel
 def pack_nothing(lane, c_out):
-    """Write a row that joins nothing to nothing: no impulse comes of it."""
+    """Write a row between no bodies, which yields no impulse."""
     for at in range(lane, SIZE, LANES):
         c_out[at] = 0.0
 
 
 @subkernel
 def gap_of(x, y, r):
-    """How far two points that are (x, y) apart [px] are from each other along the normal of a CONSTRAINT row."""
+    """Return the distance along the normal of a CONSTRAINT row of two points that are (x, y) apart [px]."""
     return x * r.normal_x + y * r.normal_y
 
 
 @inlined
 def pack_row(r, a, b, restitution, pace, lane, c_out):
-    """Write a CONSTRAINT row, the masses of its MOTION rows a, b and its restitution into a lane; of one point the
-    second is a copy that nothing can push."""
+    """Write a CONSTRAINT row, the masses of its MOTION rows a, b and its restitution into a lane.
+
+    With one point, the second is a copy without effective mass.
+    """
     two = r.count == 2
     spring = pace.still_spring if r.still else pace.spring
     c_out[NX + lane] = r.normal_x
@@ -130,7 +132,7 @@ def pack_row(r, a, b, restitution, pace, lane, c_out):
     c_out[ROLLING + lane] = r.rolling_impulse
     c_out[RADIUS_A + lane] = r.radius_a
     c_out[RADIUS_B + lane] = r.radius_b
-    c_out[SHARE + lane] = -r.push_share if r.calm else r.push_share  # its sign: nothing approached before the step
+    c_out[SHARE + lane] = -r.push_share if r.calm else r.push_share  # its sign: no approach before the step
     c_out[RESTS + lane] = 1.0 if r.rests else 0.0
     c_out[BIAS_RATE + lane] = spring.bias_rate
     firmness = firmness_of(r, pace)
@@ -162,7 +164,7 @@ def pack_row(r, a, b, restitution, pace, lane, c_out):
     c_out[TANGENT_2 + lane] = r.tangent_impulse_2
     c_out[TOTAL_2 + lane] = r.normal_total_2
     c_out[TANGENT_TOTAL_2 + lane] = r.tangent_total_2
-    # As the substeps begin nothing has moved; after that the relaxing pass measures.
+    # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
     c_out[GAP_1 + lane] = r.radius_a + r.radius_b + r.base_1 + gap_of(r.bx_1 - r.ax_1, r.by_1 - r.ay_1, r)
     c_out[GAP_2 + lane] = c_out[GAP_1 + lane]
     if two:
@@ -176,7 +178,7 @@ def pack_row(r, a, b, restitution, pace, lane, c_out):
 
 @subkernel
 def unpack_row(c, lane, row_out):
-    """Write into a CONSTRAINT row what a lane knows of its arms and masses, and its impulses."""
+    """Write the arms, masses and impulses of a lane into a CONSTRAINT row."""
     r = row_out
     r.count = 2 if c[MASS_2 + lane] > 0.0 else 1
     r.still = c[IM_A + lane] == 0.0 or c[IM_B + lane] == 0.0
@@ -223,17 +225,17 @@ def repack_impulses(r, lane, c_out):
 class Blocks(NamedTuple):
     """Arrays for blocks of lanes."""
 
-    manifold: np.ndarray  # (blocks, LANES) int32 the manifold in each lane, -1 for none
+    manifold: np.ndarray  # (blocks, LANES) int32 manifold of each lane, -1 for none
     motion_a: np.ndarray  # (blocks, LANES) uint32 its rows of MOTION, 0 for none
     motion_b: np.ndarray
     lines: np.ndarray  # SIZE numbers for each block
-    gathered: np.ndarray  # GATHERED numbers: of the block that a pass is at
-    block_of: np.ndarray  # (colours + 1) where the next row of each colour is to stand, the colourless first
+    gathered: np.ndarray  # GATHERED numbers of the current block of a pass
+    block_of: np.ndarray  # (colours + 1) place of the next row of each colour, rows without a colour first
     lane_of: np.ndarray
 
 
 def make_blocks(count: int) -> Blocks:
-    """Arrays for so many blocks."""
+    """Return arrays for so many blocks."""
     lanes = (count, LANES)
     return Blocks(
         manifold=np.zeros(lanes, np.int32),
@@ -247,17 +249,16 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(rows: int, loose: int) -> int:
-    """How many blocks so many rows take at most, of which so many have no colour."""
-    return rows // LANES + COLORS + 1 + loose  # a colour's last block need not be full
+    """Return the greatest number of blocks of so many rows, of which so many have no colour."""
+    return rows // LANES + COLORS + 1 + loose  # the last block of a colour may be partly empty
 
 
 @subkernel
 def lay_out(starts, blocks_out):
-    """Decide which blocks the rows of each colour stand in, and empty the lanes that are left over. Returns the number
-    of blocks. O(blocks).
+    """Assign blocks to the rows of each colour, and empty the unused lanes. Return the number of blocks. O(blocks).
 
-    starts (colours + 2) int64: where the rows of each colour begin, the colourless first, which stand in a block each,
-    and where the last end.
+    starts (colours + 2) int64: the first row of each colour, rows without a colour first, and the end of the last
+    colour. A row without a colour has a block of its own.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -277,12 +278,12 @@ def lay_out(starts, blocks_out):
 
 
 # ---- lane motions ----------------------------------------------------------------------------------------------------
-# How lanes see motions: what is gathered from the MOTION rows of a block, the separations, and the way back.
+# Motions of lanes: gathering from the MOTION rows of a block, separations, and scattering.
 
 
 @inlined
 def gather_speeds(a, b, lane, s_out):
-    """Bring the velocities of MOTION rows into a lane."""
+    """Copy the velocities of MOTION rows into a lane."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -293,7 +294,7 @@ def gather_speeds(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Bring into a lane how far MOTION rows went since the step began."""
+    """Copy the motion of MOTION rows since the start of the step into a lane."""
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
     s_out[COS_A + lane] = a.cosine
@@ -319,8 +320,8 @@ def scatter_speeds(s, lane, a_out, b_out):
 def measure_gaps(lane, s, c_inout):
     """Write the separations [px] at both points of a lane.
 
-    A round surface stays where it is when its body turns: cores are what moves. Arms turn with their bodies here, and
-    stay where speeds are measured.
+    A round surface does not move when its body rotates, because only the core moves. Moment arms rotate with the bodies
+    here, and stay fixed where speeds are computed.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -341,7 +342,7 @@ def measure_gaps(lane, s, c_inout):
 
 @inlined
 def levers_of(c, lane):
-    """How the arms of both points turn an impulse along the normal: a_1, b_1, a_2, b_2 [px]."""
+    """Return the moment arms of both points for an impulse along the normal: a_1, b_1, a_2, b_2 [px]."""
     nx = c[NX + lane]
     ny = c[NY + lane]
     return (

@@ -1,6 +1,7 @@
-"""Motions: what the stacking solvers push in their substeps, gathered from the awake bodies and written back.
+"""Motions: the state of bodies in the substeps of the stacking solvers, gathered from the awake bodies and written
+back.
 
-Row 0 of MOTION stands for everything that does not move in this step: what is static, asleep or standing.
+Row 0 of MOTION stands for all bodies that do not move in this step: static, sleeping and resting kinematic ones.
 """
 
 from collections.abc import Callable
@@ -23,7 +24,7 @@ BOTH = (False, True)
 
 @subkernel
 def stand_still(motions_out, pushable_out, joins_out):
-    """Write row 0: what cannot be moved."""
+    """Write row 0, which no impulse moves."""
     m = motions_out[0]
     m.vx = 0.0
     m.vy = 0.0
@@ -59,7 +60,7 @@ def stand_still(motions_out, pushable_out, joins_out):
 
 
 class Air(NamedTuple):
-    """What pulls at every body."""
+    """Gravity, drag and wind, which act on every body."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -69,7 +70,7 @@ class Air(NamedTuple):
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
-    """The pass from bodies to motions for a world with these effects."""
+    """Return the pass from bodies to motions for a world with these effects."""
 
     @kernel
     def gather_motions(
@@ -85,13 +86,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
         lists_out,
         work_inout,
     ):
-        """Write what the substeps need of the bodies in these rows; what is static or kinematic cannot be pushed.
-        Returns how many are pushed, and how many move by hand. O(rows).
+        """Write the motions of the bodies in these rows. Return the numbers of dynamic and of kinematic ones. O(rows).
 
-        air: see Air; motion_of_inout (bodies) int32: the row of MOTION of
-        each; pushable_out (motions) bool: whether an impulse changes its velocity; joins_out (motions) bool: whether
-        it is of an island; lists_out (2, motions) int32: the rows of MOTION of those that are pushed, and of those that
-        move by hand.
+        air: see Air. motion_of_inout (bodies) int32: the MOTION row of each body. pushable_out (motions) bool: whether
+        an impulse changes its velocity. joins_out (motions) bool: whether it links islands. lists_out (2, motions)
+        int32: the MOTION rows of dynamic bodies, and of kinematic ones.
         """
         stand_still(motions_out, pushable_out, joins_out)
         pushed = 0
@@ -157,7 +156,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 
 
 def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
-    """The pass that speeds bodies up at the start of each substep."""
+    """Return the pass that integrates velocities at the start of each substep."""
 
     @subkernel
     def integrate_substep_velocities(
@@ -168,11 +167,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         # write
         motions_inout,
     ):
-        """Add the accelerations of one substep h [s] to the members, rows of MOTION; drag [1/s] implicitly, stable for
-        any rate. O(members).
+        """Add the accelerations of a substep of h [s] to island bodies, rows of MOTION. O(members).
 
-        What contacts have given a body in the substep before, all together, they begin this one with: their impulses
-        are what they were, and so are their arms, so nobody need ask them one by one.
+        drag [1/s] is implicit and stable for any rate. The sum of the contact impulses of the substep before is applied
+        here: impulses and arms are unchanged, so no contact has to be read for the warm start.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -201,7 +199,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 
 def make_substep_positions(rotation: bool) -> Callable:
-    """The pass that moves bodies at the end of each substep."""
+    """Return the pass that integrates positions at the end of each substep."""
 
     @subkernel
     def integrate_substep_positions(
@@ -212,11 +210,11 @@ def make_substep_positions(rotation: bool) -> Callable:
         # write
         motions_inout,
     ):
-        """Move the members by one substep h [s], and by what lets them out of overlaps, at push_speed [px/s] at most,
-        however many push one: that is spent then. O(members).
+        """Move island bodies by a substep of h [s] and by their pseudo-velocity. O(members).
 
-        What nothing presses flies on its parabola: with the speed of the end of each substep, which is what keeps piles
-        stable, a ball that bounces would lose h times its speed in height on every flight.
+        The pseudo-velocity is capped at push_speed [px/s], and then reset. A body without contacts flies on its
+        parabola: with the velocity at the end of each substep, which keeps stacks stable, a bouncing ball would lose h
+        times its speed in height on every flight.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -245,7 +243,9 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 @subkernel
 def move_driven(driven, time, motions_inout):
-    """Put what moves by hand to where it is at a time [s] since the step began: so every island sees the same."""
+    """Place kinematic bodies where they are at a time [s] since the start of the step, so that every island sees the
+    same.
+    """
     for i in range(len(driven)):
         m = motions_inout[driven[i]]
         m.dx = time * m.vx
@@ -256,7 +256,7 @@ def move_driven(driven, time, motions_inout):
 
 @subkernel
 def is_usable(body, speed_limit):
-    """Whether a body is where the next step can begin with it: what is quarantined already is asked no more."""
+    """Return whether the next step can use the state of a body. Quarantined bodies are not tested again."""
     return body.quarantined or (is_somewhere(body) and is_sound(body, 0.0, 0.0, speed_limit, 0.0))
 
 
@@ -270,8 +270,10 @@ def scatter_motions(
     motion_of_inout,
     bodies_inout,
 ):
-    """Write velocities, poses and centres of mass back to the bodies, keeping the pose of before the step. Returns how
-    many of them no step can use. speed_limit [px/s]. O(rows)."""
+    """Write velocities, poses and centres of mass back to the bodies; the poses before the step become previous ones.
+
+    Return the number of bodies whose state no step can use. speed_limit [px/s]. O(rows).
+    """
     unsound = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
@@ -315,7 +317,7 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 
 
 class Motions:
-    """The MOTION rows of one world, grown and used again."""
+    """The MOTION rows of one world; they grow and are reused."""
 
     def __init__(self) -> None:
         self.motion_of = np.zeros(16, np.int32)
@@ -327,7 +329,7 @@ class Motions:
         self.used, self.movers, self.driven = self.rows[:0], self.lists[0, :0], self.lists[1, :0]
 
     def gather(self, state: StepState) -> None:
-        """Take the awake bodies in."""
+        """Gather the awake bodies."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
             self._grow(2 * len(rows) + 1)
@@ -349,7 +351,7 @@ class Motions:
         """Write the bodies back."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
         state.unsound = scatter_motions(rows, self.used, limit, self.motion_of, bodies)
-        # Who was pushed round stands at an angle that was not foreseen.
+        # A body that was rotated has an angle for which no raster was drawn ahead.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 
 
@@ -388,7 +390,7 @@ WRITES = (
 
 
 def push_piles(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
-    """What the stages of the stacking solvers do: gather, solve by their door `solve(state, contacts)`, write back."""
+    """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back."""
     if not len(state.awake.bodies):
         return
     motions = state.workspace.motions

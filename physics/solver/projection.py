@@ -19,7 +19,7 @@ from physics.tables.contact import ANCHOR, PUSH
 from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS, StepState, stage
 
 # ---- pushes ----------------------------------------------------------------------------------------------------------
-# Contacts as the solvers see them that remember nothing: one PUSH row per point that is no sensor's.
+# Contacts of the solvers without warm start: one PUSH row for each point that is no sensor's.
 
 
 @kernel
@@ -33,8 +33,10 @@ def prepare_pushes(
     # write
     pushes_out,
 ):
-    """Write a row for every point of the manifolds that is no sensor's; conveyor: 1 where surfaces run. Returns their
-    number. O(manifolds)."""
+    """Write a row for every point of the manifolds that are no sensors. Return their number. O(manifolds).
+
+    conveyor: 1 with surface speeds.
+    """
     found = 0
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -79,8 +81,9 @@ def limit_pushes(
     # write
     reach_out,
 ):
-    """Write how far [px] each body that is pushed may be moved in this step: at push_speed [px/s], and as much further
-    as it moves itself, or what it meets comes nearer, within dt [s]: that is no old overlap. O(pushes).
+    """Write the greatest displacement [px] of each dynamic body in this step. O(pushes).
+
+    It is push_speed [px/s] · dt [s], and the approach of both sides within dt, which is no old overlap.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -96,7 +99,7 @@ def limit_pushes(
 
 @kernel
 def store_pushes(pushes, manifolds_inout):
-    """Write the impulses back to the manifolds; who was pushed apart has met, wherever it is now. O(pushes)."""
+    """Write the impulses back to the manifolds. A pushed pair counts as touching, wherever it ends. O(pushes)."""
     for i in range(len(pushes)):
         r = pushes[i]
         m = manifolds_inout[r.manifold]
@@ -111,7 +114,7 @@ def store_pushes(pushes, manifolds_inout):
 
 
 class PushSet:
-    """The contacts of one world as PUSH rows; grown and used again. It has no warm start: nothing is remembered."""
+    """The contacts of one world as PUSH rows, which grow and are reused. It has no warm start, and caches nothing."""
 
     def __init__(self) -> None:
         self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
@@ -119,7 +122,7 @@ class PushSet:
         self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the rows, and anchor the manifolds where they were detected."""
+        """Fill the rows, and store the manifolds' anchors at the poses of detection."""
         points = 2 * len(state.manifolds)
         if len(self.data) < points:
             self.data, self.anchors = np.zeros(2 * points, PUSH), np.zeros(points, ANCHOR)
@@ -132,27 +135,27 @@ class PushSet:
         write_anchors(tables, state.bodies, state.shapes, state.manifolds, self.anchors)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """One pass of a solver over the rows."""
+        """Run one pass of a solver over the rows."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write what was found back to the manifolds, and carry these to the final poses."""
+        """Write the result back to the manifolds, and update these to the final poses."""
         store_pushes(self.rows, state.manifolds)
         follow_bodies(state.bodies, self.anchors, state.manifolds)
 
 
 # ---- projection ------------------------------------------------------------------------------------------------------
-# What arcade games do: push overlapping bodies apart by their inverse masses, reflect what approaches.
+# Projection, as arcade games do it: separate overlapping bodies by their inverse masses, and reflect the approach.
 #
-# Differs from `blocking` in that a body which meets something goes on along it instead of staying where it was. No warm
-# starting, no memory: piles are soft. Cost: PROJECTION_PASSES passes over the contacts, two loops over none.
+# It differs from `blocking` in that a body slides along an obstacle instead of staying where it was. Contacts are not
+# cached, so stacks are soft. Cost: PROJECTION_PASSES passes over the contacts; none without contacts.
 
-IGNORED = ("stacking", "sleeping")  # effects that it makes nothing of, as no contact is remembered
+IGNORED = ("stacking", "sleeping")  # effects that it ignores, because contacts are not cached
 
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
-    """Change a body's velocity by an impulse (x, y) at an arm from its centre of mass [px]."""
+    """Change the velocity of a body by an impulse (x, y) at an arm from its centre of mass [px]."""
     body_inout.vx += body_inout.inverse_mass * x
     body_inout.vy += body_inout.inverse_mass * y
     if rotation:
@@ -161,7 +164,7 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
 
 @subkernel
 def resist_rolling(push_inout, a_inout, b_inout):
-    """Slow down how two bodies turn against each other, by no more torque than a PUSH row's normal impulse allows."""
+    """Reduce the relative rotation of two bodies, by no more torque than the normal impulse of a PUSH row allows."""
     turning = a_inout.inverse_inertia + b_inout.inverse_inertia
     if turning <= 0.0:
         return
@@ -175,7 +178,7 @@ def resist_rolling(push_inout, a_inout, b_inout):
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
-    """One pass over the contacts of a world with these effects."""
+    """Return one pass over the contacts of a world with these effects."""
 
     @kernel
     def project(
@@ -187,10 +190,10 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
         pushes_inout,
         work_inout,
     ):
-        """Push apart what overlaps and take out, or reflect, the approach; with friction along the tangent.
+        """Separate overlapping bodies, remove or reflect their approach, and apply friction. O(contacts).
 
-        bounce_speed [px/s]: slower approaches do not bounce; first: 1 in the first pass of a step. Impulses add up in
-        the contacts. O(contacts).
+        bounce_speed [px/s]: slower approaches do not bounce. first: 1 in the first pass of a step. Impulses accumulate
+        in the contacts.
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]
@@ -275,7 +278,7 @@ PASSES = {
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Push everything apart. Returns the step [s]."""
+    """Separate all overlaps. Return the step [s]."""
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
     bodies, rows = state.bodies, state.awake.bodies
@@ -291,15 +294,15 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 
 def _moves(bodies, rows, before):
-    """(n, 2) [px] from where the bodies of these rows were, and how far that is."""
+    """Return (n, 2) [px] displacements of the bodies in these rows, and their lengths."""
     moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
     return moves, np.hypot(moves[:, 0], moves[:, 1])
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Let nobody be pushed further in this step than its reach [px], however many push it.
+    """Limit the displacement of each body to its reach [px], however many contacts push it.
 
-    In the end only: what is lifted by one contact and pressed down by the next has hardly moved.
+    It is limited after all passes: a body lifted by one contact and pressed down by the next has hardly moved.
     """
     moves, ways = _moves(bodies, rows, before)
     far = ways > reach
@@ -309,7 +312,7 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Let nobody be pushed through a wall by somebody else. before (n, 2) [px]: where the bodies of these rows were."""
+    """Move back bodies that were pushed through a wall. before (n, 2) [px]: the positions of these rows before."""
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
     far = ways > CORE * bodies["smallest_half"][rows]
@@ -337,7 +340,7 @@ def _hold_back(state, rows, before):
     ),
 )
 def projection(state: StepState) -> None:
-    """Push the bodies apart where they ended. Without time nothing moves: contacts are reported, nothing is pushed."""
+    """Separate the bodies at the poses where they ended. A step of length 0 reports contacts and moves nothing."""
     if state.dt > 0.0:
         solve(state, state.workspace.contacts)
         place_shapes(state)

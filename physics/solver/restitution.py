@@ -6,12 +6,12 @@ from physics.jit import inlined, subkernel
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
-# Impulses of two motions on each other at a point, and the speeds that they change.
+# Impulses between two motions at a point, and the velocities that they change.
 
 
 @subkernel
 def relative_speed(a, b, nx, ny, ax, ay, bx, by):
-    """Speed [px/s] of B against A along a normal at these arms; negative when they near each other."""
+    """Return the speed [px/s] of B relative to A along a normal at these arms; negative if they approach."""
     vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
     vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
     return vx * nx + vy * ny
@@ -19,7 +19,7 @@ def relative_speed(a, b, nx, ny, ax, ay, bx, by):
 
 @subkernel
 def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal: to B forwards, to A backwards."""
+    """Apply an impulse along the normal, to B forwards and to A backwards."""
     x = impulse * nx
     y = impulse * ny
     a_inout.vx -= a_inout.inverse_mass * x
@@ -32,37 +32,41 @@ def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
 
 @subkernel
 def speed_of_impact(speed, separation, acceleration):
-    """Speed [px/s] with which two sides meet that were apart by a separation [px] before the step and neared each other
-    at a speed and an acceleration [px/s2]; of those that overlapped, the speed itself."""
+    """Return the approach speed [px/s] at the moment of impact.
+
+    separation [px] before the step; speed and acceleration [px/s2] of approach. Sides that overlapped keep their speed.
+    """
     if speed <= 0.0 or separation <= 0.0:
         return speed
     return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
 
 
 # ---- two points ------------------------------------------------------------------------------------------------------
-# Both points of a manifold at once: the smallest linear complementarity problem, by trying its four cases.
+# Block solver for two contact points: the linear complementarity problem of two variables, by trying its four cases.
 #
-# One point after the other lets a body rock from corner to corner; together they agree. Written in impulses and ratios
-# that last for the step, so that nothing is divided. Source: Catto, Modeling and Solving Constraints, GDC 2007 (block
-# solver).
+# Solving one point after the other lets a body rock from corner to corner. The problem is written in impulses and in
+# ratios that last for the step, so that there is no division. Source: Catto, Modeling and Solving Constraints, GDC 2007
+# (block solver).
 
-FLAT = 1e-3  # share of k_11 · k_22 below which the two points are one: nothing tells them apart
+FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
 
 
 @inlined
 def split_of(couple_1, couple_2):
-    """What solve_two multiplies by where both points press: 1 / (1 - couple_1 · couple_2); 0 where they are one."""
+    """Return the factor of solve_two where both points press: 1 / (1 - couple_1 · couple_2); 0 where the points
+    coincide.
+    """
     apart = 1.0 - couple_1 * couple_2
     return 1.0 / apart if apart > FLAT else 0.0
 
 
 @inlined
 def solve_two(change_1, change_2, couple_1, couple_2, split, old_1, old_2):
-    """Impulses x >= 0 of two points such that each gets the change of speed it wants, or lets go and gets more.
+    """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
 
-    change: of each impulse, were it alone; couple: what an impulse on the other adds to that, k_12 / k_11 and k_12 /
-    k_22; split: see split_of; old: impulses so far. One after the other where the two points are nearly one, or no case
-    fits for rounding. All cases side by side: no branch stands in the way of vector instructions.
+    change: of each impulse if it were alone. couple: k_12 / k_11 and k_12 / k_22. split: see split_of. old: accumulated
+    impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no case. All cases
+    are computed side by side, so that the loop has no branch and vectorises.
     """
     only_1 = old_1 + change_1 + couple_1 * old_2
     only_2 = old_2 + change_2 + couple_2 * old_1
@@ -84,21 +88,21 @@ def solve_two(change_1, change_2, couple_1, couple_2, split, old_1, old_2):
 
 
 # ---- hits ------------------------------------------------------------------------------------------------------------
-# Several hits of one body within a step: one after the other, each as hard as those before have left it.
+# Simultaneous impacts: several impacts of one body within a step, simulated in sequence.
 #
-# What flies may meet a wall with one end, be turned by it, and meet it with the other before the step is over; or the
-# wall and the floor of a corner. The speeds from before the step say nothing of the second hit, and what the substeps
-# have stopped is not what bounces. So the hits of such a body on what cannot be pushed are played once more, from one
-# to the next, along straight lines: energy is kept in each (Newton's law of restitution, at the time of each hit).
+# A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
+# the floor of a corner. The velocity before the step says nothing about the second impact, and the velocity that the
+# substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
+# next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
 
-MOST_HITS = 16  # of one body within a step: who rattles in a gap goes on in the next, and is counted in cap_hits
-TOGETHER = 1.0 / 64.0  # of a step within which two points of a manifold hit at once
-NOBODY, CROWDED = 0, -1  # of MOTION.hits: no row yet; not to be played
+MOST_HITS = 16  # impacts of one body within a step; more are left to the next step, and counted in cap_hits
+TOGETHER = 1.0 / 64.0  # share of a step within which two points of a manifold hit at once
+NOBODY, CROWDED = 0, -1  # values of MOTION.hits: no row yet; not to be simulated
 
 
 @subkernel
 def mover_of(r, motions):
-    """The row of MOTION that a CONSTRAINT row against what stands can push, and 1.0 where that is B, else -1.0."""
+    """Return the dynamic side of a CONSTRAINT row against a static body: its MOTION row, and 1.0 for B, -1.0 for A."""
     if motions[r.motion_b].inverse_mass > 0.0:
         return r.motion_b, 1.0
     return r.motion_a, -1.0
@@ -106,10 +110,10 @@ def mover_of(r, motions):
 
 @subkernel
 def link_hits(anchors, count, constraints_inout, motions_inout):
-    """Link the rows of each body that may bounce: MOTION.hits is the last of them and one, CONSTRAINT.before the one
-    before that.
+    """Link the rows of each body that may bounce: MOTION.hits is its last row plus one, CONSTRAINT.before the one
+    before.
 
-    Bodies that something holds already, or that hit what can be pushed, are left out: CROWDED. O(count).
+    A body that also has a resting contact, or hits a dynamic body, is left out: CROWDED. O(count).
     """
     for i in range(count):
         r = constraints_inout[i]
@@ -132,7 +136,7 @@ def link_hits(anchors, count, constraints_inout, motions_inout):
 
 @subkernel
 def unlink_hits(constraints, count, motions_inout):
-    """Leave no trace in the motions."""
+    """Reset the links in the motions."""
     for i in range(count):
         motions_inout[constraints[i].motion_a].hits = NOBODY
         motions_inout[constraints[i].motion_b].hits = NOBODY
@@ -140,7 +144,7 @@ def unlink_hits(constraints, count, motions_inout):
 
 @subkernel
 def lever_of(r, second, sign):
-    """How an impulse along the normal at a point turns the mover [px]."""
+    """Return the moment arm [px] of an impulse along the normal at a point of the mover."""
     if sign > 0.0:
         return (r.bx_2 * r.normal_y - r.by_2 * r.normal_x) if second else (r.bx_1 * r.normal_y - r.by_1 * r.normal_x)
     return (r.ax_2 * r.normal_y - r.ay_2 * r.normal_x) if second else (r.ax_1 * r.normal_y - r.ay_1 * r.normal_x)
@@ -148,8 +152,10 @@ def lever_of(r, second, sign):
 
 @subkernel
 def is_played(constraints, last, manifolds, threshold):
-    """Whether a body's hits, linked from row `last`, are to be played: it meets something at two points, and not only
-    the two of one manifold, both of which neared it before."""
+    """Return whether the impacts of a body, linked from row `last`, are to be simulated in sequence.
+
+    That is so if it has impacts at two points, other than the two of one manifold that both approached before.
+    """
     points = 0
     rows = 0
     fast = 0
@@ -169,7 +175,7 @@ def is_played(constraints, last, manifolds, threshold):
 
 @subkernel
 def speed_now(constraints, last, row, second, mover, motions):
-    """How fast [px/s] a point of a row nears what it will hit, after the impulses that its body got until now."""
+    """Return the approach speed [px/s] of a point after the impulses that its body got so far."""
     r = constraints[row]
     _, sign = mover_of(r, motions)
     lever = lever_of(r, second, sign)
@@ -190,8 +196,10 @@ def speed_now(constraints, last, row, second, mover, motions):
 
 @subkernel
 def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constraints_inout):
-    """Play the hits of a body, whose rows are linked from `last`, over dt [s]: the impulse of each point to
-    push_impulse. mover: its MOTION row. Returns whether MOST_HITS was enough."""
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to push_impulse.
+
+    mover: its MOTION row. Return whether MOST_HITS was enough.
+    """
     at = last
     while at != NOBODY:
         r = constraints_inout[at - 1]
@@ -239,7 +247,7 @@ def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constrain
         other_speed = 0.0
         if r.count == 2:
             other_speed = speed_now(constraints_inout, last, hit - 1, not second, mover, motions)
-        # Two points that hit as good as together do so, or what lands flat would spin.
+        # Two points that hit nearly at the same time hit together, otherwise a flat landing would start a rotation.
         together = other_speed > threshold and (r.gap_1 if second else r.gap_2) <= TOGETHER * dt * other_speed
         speed_1 = hit_speed if not second else (other_speed if together else 0.0)
         speed_2 = hit_speed if second else (other_speed if together else 0.0)
@@ -254,8 +262,9 @@ def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constrain
 
 @subkernel
 def take_hits(last, constraints_inout, motions_inout):
-    """Give a body the impulses of the hits that were played in place of those that the substeps found: no forces that
-    the next step could start from."""
+    """Replace the impulses of the substeps by those of the simulated impacts. They are no cached forces for the next
+    step.
+    """
     at = last
     while at != NOBODY:
         r = constraints_inout[at - 1]
@@ -288,9 +297,11 @@ def play_all_hits(
     constraints_inout,
     work_inout,
 ):
-    """Bounce the bodies that fly and hit what stands several times within a step of dt [s]: so many CONSTRAINT rows of
-    contacts with restitution that pressed. Their rows are `played` then. threshold [px/s]: slower hits do not bounce.
-    O(count + hits · points² of such a body)."""
+    """Apply simultaneous impacts: flying bodies that hit static ones several times within a step of dt [s].
+
+    They are among so many CONSTRAINT rows with restitution and an impulse; their rows are then `played`. threshold
+    [px/s]: slower impacts do not bounce. O(count + hits · points² of such a body).
+    """
     link_hits(anchors, count, constraints_inout, motions_inout)
     for i in range(count):
         r = constraints_inout[i]
@@ -298,7 +309,7 @@ def play_all_hits(
             continue
         row, _ = mover_of(r, motions_inout)
         mover = motions_inout[row]
-        # The last of its rows stands for the body.
+        # The last row represents the body.
         if mover.hits == i + 1 and is_played(constraints_inout, i + 1, manifolds, threshold):
             if not play_hits(i + 1, manifolds, anchors, threshold, dt, mover, motions_inout, constraints_inout):
                 work_inout[CAP_HITS] += 1
@@ -307,23 +318,23 @@ def play_all_hits(
 
 
 # ---- bounce ----------------------------------------------------------------------------------------------------------
-# Restitution, once, after the last substep: what every stacking solver ends with.
+# Restitution, once, after the last substep, for every stacking solver.
 #
-# Seeded with the speed with which two sides meet, by the parabola from before the step: so a speculative row that has
-# already braked the body does not eat the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
-# points of one manifold are solved together, or a box that lands flat would spin. Who hits several things in one step:
-# see hits.py.
+# It uses the approach speed at the moment of impact, by the parabola from before the step. So a speculative contact
+# that slowed the body does not reduce the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
+# points of one manifold are solved together, otherwise a box that lands flat would rotate. For several impacts in one
+# step see "hits" above.
 
 
 @subkernel
 def bounces(speed, threshold, total):
-    """Whether a point bounces: fast enough before the step, and an impulse acted in it."""
+    """Return whether a point bounces: it approached fast enough before the step, and got an impulse in it."""
     return speed > threshold and total > 0.0
 
 
 @subkernel
 def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout):
-    """Bounce one point, to part at the wanted speed [px/s]. Returns the change of its impulse."""
+    """Apply restitution at one point, for a separation speed [px/s]. Return the change of its impulse."""
     missing = wanted - relative_speed(a_inout, b_inout, nx, ny, ax, ay, bx, by)
     change = max(impulse + mass * missing, 0.0) - impulse
     push_pair(nx, ny, ax, ay, bx, by, change, a_inout, b_inout)
@@ -332,8 +343,9 @@ def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout)
 
 @subkernel
 def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
-    """Bounce two points at once, to part at the wanted speeds [px/s], by the 2 x 2 system.
-    Returns the changes of their impulses."""
+    """Apply restitution at two points at once, for separation speeds [px/s], by the 2 x 2 system. Return the changes of
+    their impulses.
+    """
     nx = r.normal_x
     ny = r.normal_y
     missing_1 = wanted_1 - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
@@ -361,10 +373,10 @@ def restore_bounces(
     constraints_inout,
     work_inout,
 ):
-    """Give back restitution times the approach speed where an impulse acted in a step of dt [s]; threshold [px/s]:
-    slower ones stay dead.
+    """Set the separation speed of points with an impulse to restitution times the approach speed. O(count).
 
-    MANIFOLD, ANCHOR, MOTION rows, and so many of CONSTRAINT. O(count).
+    dt [s] of the step. threshold [px/s]: slower impacts do not bounce. MANIFOLD, ANCHOR and MOTION rows, and so many
+    CONSTRAINT rows.
     """
     play_all_hits(manifolds, anchors, threshold, dt, count, motions_inout, constraints_inout, work_inout)
     for i in range(count):
@@ -403,6 +415,6 @@ def restore_bounces(
             change_2 = bounce_once(
                 wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_total_2, a, b
             )
-        # No force that the next step could start from.
+        # It is no cached force for the next step.
         r.normal_total_1 += change_1
         r.normal_total_2 += change_2

@@ -1,11 +1,11 @@
-"""Sequential impulses: one step, several passes, contacts that remember, overlaps pushed out by a share per step.
+"""Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-Differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: piles are
-livelier and sink by the slop. What bears nothing is let out of an overlap by speeds of its own, which are none of its
-velocity (split impulses). Cost: ITERATIONS_PER_SUBSTEP passes over the constraints for each substep that soft_step
-would take. Each carries loads on by a row or two: a pyramid of 45 rows, 1,035 boxes, does not come to rest with the ten
-passes of four substeps (measured: it breathes at 8 to 22 px/s for a minute and more); with the forty of sixteen it
-does. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
+It differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: stacks are
+livelier and sag by the slop. Unloaded contacts separate by a pseudo-velocity (split impulses). Cost:
+ITERATIONS_PER_SUBSTEP passes for each substep of soft_step. Each pass transmits a load by one or two rows. A pyramid of
+45 rows (1,035 boxes) does not come to rest with the ten passes of four substeps: it moves at 8 to 22 px/s for over a
+minute. With the forty passes of sixteen it rests. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005,
+and Box2D-Lite, 2006.
 """
 
 import math
@@ -21,33 +21,31 @@ from physics.solver.step_context import wanted_apart
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-# of a CONSTRAINT row, that the passes of a step start from
+# impulses of a CONSTRAINT row with which the passes of a step start
 IMPULSES = ("normal_impulse_1", "normal_impulse_2", "tangent_impulse_1", "tangent_impulse_2", "rolling_impulse")
 
 
 class Pace(NamedTuple):
-    """What all passes of a step have in common."""
+    """The constants of all passes of a step."""
 
     passes: int
     dt: float  # [s]
     inverse_dt: float
-    inverse_span: (
-        float  # [1/s] of no shorter a time: overlaps come out no faster in a step that is shorter than those before
-    )
+    inverse_span: float  # [1/s] of a step that is no shorter than those before: a short step separates no faster
     drag: float  # [1/s]
     push_speed: float  # [px/s]
 
 
 @subkernel
 def push_wanted(separation, inverse_h, slop, rate, push_speed):
-    """Speed [px/s] that a point has to let an overlap out with, or, negative, may still close a gap with."""
+    """Return the separation speed [px/s] of an overlapping point; negative: the speed at which a gap may close."""
     if separation > 0.0:
         return -separation * inverse_h
     return min(rate * max(-separation - slop, 0.0), push_speed)
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
-    """One pass over the constraints of a world with these effects; the two points of a manifold are solved together."""
+    """Return one pass over the constraints of a world with these effects, with the block solver for two points."""
 
     @subkernel
     def solve_sequential(
@@ -62,9 +60,8 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every constraint once, friction first, in the order of the rows. O(constraints).
 
-        What bears something lets its overlap out as in push_overlaps, as far as that takes a speed of no more than slow
-        [px/s]: through all passes, and with the memory of contacts, or columns would sink. rate [1/s]: of an overlap
-        beyond the slop, that comes out.
+        A loaded contact separates as in push_overlaps, as far as that takes no more than slow [px/s]: in all passes and
+        with warm start, otherwise columns would sag. rate [1/s]: share of the overlap beyond the slop that is removed.
         """
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -160,7 +157,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
 
 
 def make_push_pass(rotation: bool) -> Callable:
-    """One pass that lets overlaps out, over the constraints of a world with this effect."""
+    """Return one pass of push-out over the constraints of a world with this effect."""
 
     @subkernel
     def push_overlaps(
@@ -173,10 +170,10 @@ def make_push_pass(rotation: bool) -> Callable:
         motions_inout,
         constraints_inout,
     ):
-        """Give the bodies the speeds beside their own that let overlaps out, in the order of the rows. O(constraints).
+        """Give the bodies pseudo-velocities that separate unloaded contacts, in the order of the rows. O(constraints).
 
-        Only where nothing was borne in the step before. slop [px], rate [1/s], push_speed [px/s]: see wanted_apart.
-        Impulses of these speeds add up apart from the contacts'.
+        slop [px], rate [1/s], push_speed [px/s]: see wanted_apart. The impulses of these velocities accumulate apart
+        from those of the contacts.
         """
         for i in range(len(constraints_inout)):
             r = constraints_inout[i]
@@ -225,10 +222,10 @@ def make_push_pass(rotation: bool) -> Callable:
 
 @subkernel
 def stop_met(constraints_inout, motions_inout):
-    """Take from what met in this step the speed that it closed its gap with: or it would meet again in the next.
-    O(constraints).
+    """Remove from contacts that met in this step the speed with which they closed their gaps. O(constraints).
 
-    Not from what comes slowly: of piles that tremble under a load the passes leave some speed, and it is borne next.
+    Otherwise they would meet again in the next step. Slow approaches are left out: the passes leave some speed in
+    loaded stacks, which the next step removes.
     """
     for i in range(len(constraints_inout)):
         r = constraints_inout[i]
@@ -250,7 +247,7 @@ def stop_met(constraints_inout, motions_inout):
 
 @subkernel
 def sum_up(constraints_inout):
-    """The impulses of the one substep are those of the step. O(constraints)."""
+    """Copy the impulses of the one substep to those of the step. O(constraints)."""
     for i in range(len(constraints_inout)):
         r = constraints_inout[i]
         r.normal_total_1 = r.normal_impulse_1
@@ -264,7 +261,7 @@ PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 
 
 def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
-    """All passes of a step in a world with these effects."""
+    """Return all passes of a step in a world with these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_START[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
@@ -280,8 +277,10 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         motions_inout,
         constraints_inout,
     ):
-        """Advance the members by a step under the constraints, and what moves by hand: rows of MOTION. pace: see Pace.
-        O(members + passes · constraints)."""
+        """Advance island bodies and kinematic ones, rows of MOTION, by a step under the constraints. pace: see Pace.
+
+        O(members + passes · constraints).
+        """
         velocities(members, pace.dt, pace.drag, motions_inout)
         warm_start(constraints_inout, motions_inout)
         for _ in range(pace.passes):
@@ -302,12 +301,13 @@ PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH f
 
 
 def solve(state: StepState, contacts: ContactSet, passes: int | None = None, warm: bool = True) -> float:
-    """Advance the motions by a step under the contacts. Returns the step [s] that impulses belong to.
+    """Advance the motions by a step under the contacts. Return the step [s] to which the impulses belong.
 
-    For measuring alone (studied_solvers.py): passes, else those of the substeps; warm: they start from the impulses of
-    the step before."""
+    For measurements (studied_solvers.py): passes, None for those of the substeps; warm: whether they start from the
+    cached impulses.
+    """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    # What bears something lets out an overlap of as much, at a time, by the speeds of its bodies.
+    # A loaded contact separates by the velocities of its bodies, by as much at a time.
     slow = BAUMGARTE / state.span * tolerances.speculative
     run = PASSES[effects.drag, effects.rotation, effects.friction]
     for group in contacts.choose(state, motions, state.substeps or AUTO_SUBSTEPS[0]):
@@ -324,5 +324,5 @@ def solve(state: StepState, contacts: ContactSet, passes: int | None = None, war
 
 @stage("sequential_impulse", reads=READS, writes=WRITES)
 def sequential_impulse(state: StepState) -> None:
-    """Push and move the bodies of a world that stacks."""
+    """Solve the contacts and move the bodies of a world that stacks."""
     push_piles(state, solve)

@@ -25,19 +25,19 @@ from physics.solver.substeps import ask_for_substeps
 from physics.tables.step_state import StepState, stage
 
 # ---- soft pass -------------------------------------------------------------------------------------------------------
-# The passes of the soft step over blocks of lanes: see lanes.py for what stands where.
+# Passes of the soft step over blocks of lanes; see lanes.py for the layout.
 #
-# The motions of a block are gathered, all of its lanes solved without a branch, and the motions scattered. What is let
-# out of an overlap by speeds of its own is rare, and done lane by lane. Sources: see soft_step.py.
+# The motions of a block are gathered, all of its lanes solved without a branch, and the motions scattered. Push-out by
+# pseudo-velocity is rare and done lane by lane. Sources: see "soft step" below.
 
 BOTH = (False, True)
 
 
 @subkernel
 def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
-    """Push two bodies apart at the points of a lane that bears nothing, by the speeds that only move them.
+    """Separate two bodies at the points of an unloaded lane, by pseudo-velocities.
 
-    a_inout, b_inout: MOTION rows, with the velocities that the lane was solved with.
+    a_inout, b_inout: MOTION rows, with the velocities of the lane's solution.
     """
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
@@ -76,14 +76,16 @@ def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
 
 @inlined
 def stopping(speed, gap, mass, inverse_h):
-    """The change of an impulse that stops an approach; apart, brakes so that the gap is just closed in this substep."""
+    """Return the change of an impulse that stops an approach; across a gap, that closes it exactly in this substep."""
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
 
 @inlined
 def springing(speed, gap, mass, old, bias_rate, give, most):
-    """The change of an impulse that a spring gives an overlap, pushing out at `most` [px/s] at most, without a dead
-    zone; bias_rate, give: see Softness."""
+    """Return the change of an impulse of a soft contact without a dead zone.
+
+    It separates at `most` [px/s] at most. bias_rate, give: see Softness.
+    """
     grip = 1.0 - give
     bias = grip * bias_rate * gap
     bias = -most if bias < -most else bias
@@ -92,8 +94,10 @@ def springing(speed, gap, mass, old, bias_rate, give, most):
 
 @inlined
 def most_of(c, lane, gap_1, gap_2, pace):
-    """The speed [px/s] that a lane may be pushed out with: where substeps are many, deep overlaps come out as slowly as
-    with the fewest of them; shallow ones may be what bears a load."""
+    """Return the greatest separation speed [px/s] of a lane.
+
+    With many substeps a deep overlap separates as slowly as with the fewest; a shallow one may carry a load.
+    """
     most = pace.push_speed * abs(c[at.SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
     slow = pace.deep_rate * deep
@@ -103,13 +107,13 @@ def most_of(c, lane, gap_1, gap_2, pace):
 
 @inlined
 def within(impulse, limit):
-    """An impulse cut to ± limit."""
+    """Return an impulse clamped to ± limit."""
     impulse = impulse if impulse < limit else limit
     return impulse if impulse > -limit else -limit
 
 
 def make_rub(second: bool, rotation: bool) -> Callable:
-    """Friction at one point of a lane, in a world with this effect."""
+    """Return the friction at one point of a lane, in a world with this effect."""
     ax_line, ay_line, bx_line, by_line = (
         (at.AX_2, at.AY_2, at.BX_2, at.BY_2) if second else (at.AX_1, at.AY_1, at.BX_1, at.BY_1)
     )
@@ -118,9 +122,9 @@ def make_rub(second: bool, rotation: bool) -> Callable:
 
     @inlined
     def rub(lane, vx, vy, wa, wb, normal_impulse, c_inout):
-        """Slow down what slides under a normal impulse. Returns the impulse x, y on B, and the spins after it.
+        """Apply friction under a normal impulse. Return the impulse x, y on B, and the angular velocities after it.
 
-        vx, vy [px/s]: velocity of B's centre seen from A's; wa, wb [1/s]: spins of both.
+        vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
         """
         c = c_inout
         nx = c[at.NX + lane]
@@ -145,7 +149,7 @@ def make_rub(second: bool, rotation: bool) -> Callable:
 
 
 def make_warm_lanes(rotation: bool) -> Callable:
-    """The pass over blocks that applies the impulses a substep starts from."""
+    """Return the pass over blocks that applies the impulses with which a substep starts."""
 
     @separate
     def warm_lanes(
@@ -155,7 +159,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Apply the impulses that the lanes hold already. O(count)."""
+        """Apply the cached impulses of the lanes. O(count)."""
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -198,8 +202,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
 
 @subkernel
 def forget_impulses(members, count, motions_inout, blocks_inout):
-    """Have a substep begin with no impulse: no solver does; what the memory is worth is measured by it.
-    O(members + count)."""
+    """Start a substep without impulses, to measure the worth of warm starting. O(members + count)."""
     for i in range(len(members)):
         m = motions_inout[members[i]]
         m.free_vx = m.vx
@@ -217,8 +220,10 @@ def forget_impulses(members, count, motions_inout, blocks_inout):
 
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
-    """One pass over blocks: with bias (and no friction), or relaxing (with friction where declared); alone: with bias,
-    where no other pass relaxes, measures, rubs and sums up."""
+    """Return one pass over blocks: with bias and without friction, or relaxing with friction where declared.
+
+    alone: with bias, where no other pass relaxes, measures gaps, applies friction and sums impulses.
+    """
     last = alone or not biased
     rubs = friction and last
     rub_1, rub_2 = make_rub(False, rotation), make_rub(True, rotation)
@@ -232,7 +237,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
         motions_inout,
         blocks_inout,
     ):
-        """Solve every lane of so many blocks once; pace: see Pace. O(count)."""
+        """Solve every lane of so many blocks once. pace: see Pace. O(count)."""
         calm_speed = CALM_SHARE * pace.push_speed
         s = blocks_inout.gathered
         for block in range(count):
@@ -272,27 +277,28 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 change_2 = stopping(speed_2, gap_2, mass_2, pace.inverse_h)
                 free = False
                 if biased:
-                    # A spring would let a fast impact through: what has just met is stopped hard, then pushed out.
+                    # A soft contact would let a fast impact through, so a new contact is rigid first and soft
+                    # afterwards.
                     bears = (old_1 > calm_speed * mass_1) | (old_2 > calm_speed * mass_2)
                     calm = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
                     rate = c[at.BIAS_RATE + lane]
                     give = c[at.GIVE + lane]
-                    # A blow that is carried on whole from substep to substep comes back as a bounce.
+                    # An impact impulse that is kept whole from substep to substep returns as a bounce.
                     give = give + BLOW_GIVE if old_1 + old_2 > c[at.BLOW + lane] else give
                     most = most_of(c, lane, gap_1, gap_2, pace)
                     soft_1 = springing(speed_1, gap_1, mass_1, old_1, rate, give, most)
                     soft_2 = springing(speed_2, gap_2, mass_2, old_2, rate, give, most)
                     change_1 = soft_1 if (calm | bears) & (gap_1 <= 0.0) else change_1
                     change_2 = soft_2 if (calm | bears) & (gap_2 <= 0.0) else change_2
-                    # What bears nothing, and has not just met, is let out of its overlap and gets no speed from that.
+                    # An unloaded contact that is not new separates by pseudo-velocity, and gains no velocity.
                     free = calm & (not bears) & (c[at.SHARE + lane] < 0.0)
                 else:
-                    # What has not touched is for the next substep to brake, if it arrives in it.
+                    # A gap that closes is the task of the next substep.
                     borne = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]
                     apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (borne == 0.0)
                     change_1 = 0.0 if apart else change_1
                     change_2 = 0.0 if apart else change_2
-                # Together, or the first would spin the body, and a box on its base would lean to one side.
+                # Both points together, otherwise the first would rotate the body, and a box on its base would lean.
                 impulse_1, impulse_2 = solve_two(
                     change_1, change_2, c[at.COUPLE_1 + lane], c[at.COUPLE_2 + lane], c[at.SPLIT + lane], old_1, old_2
                 )
@@ -314,7 +320,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 if rotation:
                     wa -= ii_a * ((impulse_1 - old_1) * a_1 + (impulse_2 - old_2) * a_2)
                     wb += ii_b * ((impulse_1 - old_1) * b_1 + (impulse_2 - old_2) * b_2)
-                # After the normals: what the bias has pushed in too much is out again, and does not count as pressure.
+                # After the normal impulses: relaxing has removed the excess of the bias, which is no pressure.
                 if rubs:
                     if rotation:
                         old = c[at.ROLLING + lane]
@@ -356,22 +362,22 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 
 # ---- soft step -------------------------------------------------------------------------------------------------------
-# Small substeps with soft contacts: each substep is solved once with a spring that pushes overlaps out, then relaxed.
+# Small substeps with soft contacts: each substep is solved once with a spring that separates overlaps, and then
+# relaxed.
 #
-# Differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a loaded contact
-# gives way as a spring does. What bears nothing is let out of an overlap by speeds of its own, which are none of its
-# velocity. Cost per substep: three passes over the constraints, two over the bodies. Sources: Macklin et al., Small
-# Steps in Physics Simulation, SCA 2019; Catto, Soft Constraints, GDC 2011, and Solver2D, 2024: contacts as damped
-# springs, friction in the relaxing pass alone.
+# It differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a loaded
+# contact is a damped spring. Unloaded contacts separate by a pseudo-velocity. Cost per substep: three passes over the
+# constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
+# Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
 
 
 def make_substeps(
     drag: bool, rotation: bool, friction: bool, iterations: int = 1, warm: bool = True, relaxed: bool = True
 ) -> Callable:
-    """All substeps of a step in a world with these effects.
+    """Return all substeps of a step in a world with these effects.
 
-    What each part is worth is measured with others (studied_solvers.py): iterations: pushing passes in a substep;
-    warm: each starts from the impulses of the one before; relaxed: not so, friction is in the pushing pass.
+    For measurements (studied_solvers.py): iterations: passes with bias in a substep; warm: whether each starts from the
+    impulses of the one before; relaxed: whether a relaxing pass follows, otherwise friction is in the pass with bias.
     """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, push_out, relax = WARM_LANES[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]
@@ -389,10 +395,10 @@ def make_substeps(
         motions_inout,
         blocks_inout,
     ):
-        """Advance the members by substeps under so many blocks of constraints, and what moves by hand beside them: rows
-        of MOTION. O(substeps · (members + constraints)).
+        """Advance island bodies by substeps under so many blocks of constraints, and kinematic bodies beside them.
 
-        pace: see Pace. One kernel for them all: with ten boxes five sixths of a substep were calls from Python.
+        pace: see Pace. Bodies are rows of MOTION. One kernel holds all substeps: with ten boxes five sixths of a
+        substep were calls from Python. O(substeps · (members + constraints)).
         """
         h = pace.h
         move_driven(driven, 0.0, motions_inout)
@@ -416,7 +422,7 @@ SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BO
 
 
 def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -> float:
-    """Advance the motions by a step under the contacts, group by group. Returns the shortest substep [s]."""
+    """Advance the motions by a step under the contacts, group by group. Return the shortest substep [s]."""
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction], dt
     asked = state.substeps == 0
@@ -442,5 +448,5 @@ def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -
 
 @stage("soft_step", reads=READS, writes=WRITES)
 def soft_step(state: StepState) -> None:
-    """Push and move the bodies of a world that stacks."""
+    """Solve the contacts and move the bodies of a world that stacks."""
     push_piles(state, solve)

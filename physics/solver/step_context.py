@@ -19,41 +19,38 @@ from physics.settings import (
 )
 
 # ---- pace ------------------------------------------------------------------------------------------------------------
-# What the substeps of a group of islands have in common: how long they are, how stiff contacts, how fast overlaps go.
-#
-# Source of the springs: Catto, Soft Constraints, GDC 2011.
+# Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the
+# springs: Catto, Soft Constraints, GDC 2011.
 
 
 class Softness(NamedTuple):
-    """A damped spring as a constraint over a substep."""
+    """A damped spring as a soft constraint over a substep."""
 
-    bias_rate: float  # [1/s] speed that it pushes out with, of the overlap
-    grip: (
-        float  # how many times its own speed counts more than the impulse it has given: it gives way by 1 / (1 + grip)
-    )
+    bias_rate: float  # [1/s] separation speed per overlap
+    grip: float  # weight of the relative velocity against the accumulated impulse: softness 1 / (1 + grip)
 
 
 class Pace(NamedTuple):
-    """What all substeps of a group of islands have in common."""
+    """The constants of all substeps of a group of islands."""
 
     substeps: int
     h: float  # [s]
     inverse_h: float
     drag: float  # [1/s]
     push_speed: float  # [px/s]
-    push_rate: float  # [1/s] of an overlap that bears nothing, beyond …
-    slop: float  # [px] … what may stay
-    deep_rate: float  # [1/s] of one that is deep, 0: as fast as it can, beyond …
-    shallow_speed: float  # [px/s] … what a shallow one may come out with
-    spring: Softness  # of a contact between bodies …
-    still_spring: Softness  # … and of one with what cannot be pushed
-    firm: float  # how many times the grip of what bears a load is greater …
-    firm_alone: float  # … and of what alone bears the one side on the other
-    blow: float  # how many times what it bore before the step is a blow, which it gives way to
+    push_rate: float  # [1/s] rate for the overlap of an unloaded contact above …
+    slop: float  # [px] … the overlap that may stay
+    deep_rate: float  # [1/s] rate for a deep one, 0: no limit, above …
+    shallow_speed: float  # [px/s] … the separation speed of a shallow one
+    spring: Softness  # of contacts between dynamic bodies …
+    still_spring: Softness  # … and with static or kinematic ones
+    firm: float  # factor on the grip of a loaded contact …
+    firm_alone: float  # … and of a sole support
+    blow: float  # factor on the load before the step above which it counts as struck, and yields
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
-    """The implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
+    """Return the implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
     return Softness(omega / rate, h * omega * rate)
@@ -61,10 +58,10 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
 
 @subkernel
 def firmness_of(r, pace):
-    """How many times a CONSTRAINT row grips firmer, and gives way less, than a spring of its own.
+    """Return the factor on the stiffness of a CONSTRAINT row.
 
-    What bears a load swings as slowly as the load is heavy, so its springs may be stiffer for as much damping; what has
-    just met is none of that.
+    A loaded contact oscillates as slowly as its load is heavy, so its spring may be stiffer with the same damping. A
+    new contact may not.
     """
     if not r.loaded or r.meets:
         return 1.0
@@ -75,10 +72,13 @@ def firmness_of(r, pace):
 def pace_of(
     substeps: int, asked: bool, dt: float, span: float, drag: float, push_speed: float, slop: float, speculative: float
 ) -> Pace:
-    """What so many substeps of a step of dt [s] have in common; asked: they follow from the loads; span [s]: no less
-    than dt, the length that springs are made for: in a short step they push no faster than in those before."""
+    """Return the constants of so many substeps of a step of dt [s].
+
+    asked: whether the substeps follow from the loads. span [s]: at least dt, the step that springs are tuned for: in a
+    shorter step they push no faster.
+    """
     h = dt / substeps
-    # Where the substeps follow from the loads, springs are as stiff as they allow.
+    # With substeps by load, springs are as stiff as the substeps allow.
     hertz = HERTZ_SHARE / (span / substeps)
     hertz = hertz if asked else min(CONTACT_HERTZ, hertz)
     spring = softness(hertz, CONTACT_DAMPING, h)
@@ -89,7 +89,7 @@ def pace_of(
         inverse_h=1.0 / h,
         drag=drag,
         push_speed=push_speed,
-        # More substeps let nothing out faster.
+        # More substeps do not separate faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
         slop=slop,
         deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
@@ -103,15 +103,15 @@ def pace_of(
 
 
 # ---- overlaps --------------------------------------------------------------------------------------------------------
-# How fast overlaps that bear nothing are let out: by speeds of their own, which are none of a body's velocity.
+# Separation speed of unloaded contacts, which is a pseudo-velocity.
 
 
 @inlined
 def wanted_apart(separation, inverse_h, slop, rate, push_speed):
-    """Speed [px/s] that a point has to let an overlap out with, or, negative, may still close a gap with.
+    """Return the separation speed [px/s] of an overlapping point; negative: the speed at which a gap may still close.
 
-    rate [1/s]: of the overlap beyond half a slop. By a slop things may stay in each other (Jolt's penetration slop),
-    and they do, or what nothing presses would creep; what is in further comes to rest within it.
+    rate [1/s]: share of the overlap beyond half a slop. Shapes may overlap by a slop (Jolt's penetration slop): without
+    it, unloaded contacts would creep. Deeper ones come to rest within it.
     """
     beyond = rate * (-separation - 0.5 * slop)
     beyond = beyond if beyond < push_speed else push_speed

@@ -1,4 +1,4 @@
-"""How many substeps an island needs, and forces that are forgotten when a load is removed."""
+"""Substeps by load: how many substeps an island needs, and the release of cached forces when a load is removed."""
 
 import math
 from collections.abc import Sequence
@@ -16,24 +16,24 @@ from physics.tables.step_state import CAP_HITS, StepState, WorldTables
 from physics.tables.table import rows_of
 
 # ---- unloading -------------------------------------------------------------------------------------------------------
-# What bore a heavy load that is gone starts from nothing: or the forces that held the load throw what lay under it.
+# Release of cached forces under a heavy load that is removed; otherwise those forces would throw the bodies below.
 #
-# A contact starts from the force that it ended the step before with. Where a body of a thousand times its mass has
-# gone, that is a thousand times what is needed now; a pass takes back what the order of contacts lets it, the rest is
-# speed.
+# A contact starts from the force at the end of the step before. After a body of a thousand times its mass is removed,
+# that is a thousand times the force that is needed. A pass removes as much of it as the order of the contacts allows;
+# the rest becomes velocity.
 
 FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_2", "rolling_force")
 
 
 def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
-    """Of bodies that are taken away, or put elsewhere: where one lay on something with many times its weight, the
-    contacts of all that this is piled with, through whatever can be pushed, forget their forces.
+    """Clear the cached forces under a load that is removed or moved.
 
-    O(contacts · depth of the pile), in worlds that stack.
+    Where a removed body lay on a body of a small fraction of its weight, all contacts of the stack below, through
+    dynamic bodies, lose their cached forces. O(contacts · depth of the stack), in worlds that stack.
     """
     manifolds, anchors, bodies = tables.manifolds, tables.anchors, tables.bodies
     if not len(manifolds) or len(anchors) != len(manifolds):
-        return  # nothing is remembered
+        return  # contacts are not cached
     ids_a, ids_b = manifolds["body_a"], manifolds["body_b"]
     going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
     lost = going_a != going_b
@@ -58,14 +58,14 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
 
 
 # ---- demand ----------------------------------------------------------------------------------------------------------
-# How many substeps an island asks for: as many as keep its contacts from sinking further than the accuracy.
+# Substep estimate of an island: as many as keep the sag of its contacts within the accuracy.
 #
-# A contact is a spring whose frequency is a share of the substeps per second: under a force F it sinks by F / (m ω²), a
-# quarter of that with twice the substeps. What the last step bore tells what the next one needs. Up at once; down, by
-# half, when that has been enough for all of an island for a while: its contacts would still sink by no more than half
-# of the accuracy, or islands would go up and down. A load alone may ask for no more than LOAD_SUBSTEPS, and so may a
-# heap; a column that leans for more: what begins to lean shifts its load further out, and has no second try. Source of
-# the spring: Catto, Soft Constraints, GDC 2011.
+# A contact is a spring whose frequency is a share of the substeps per second: under a force F it sags by F / (m ω²), a
+# quarter of that with twice the substeps. The loads of the last step give the number for the next one. It rises at
+# once; it falls by half after half has been enough for a whole island for a while: the sag then stays within half of
+# the accuracy, so that islands do not alternate. A load alone takes no more than LOAD_SUBSTEPS, and so does a heap. A
+# leaning column takes more: its load shifts further out, and it does not recover. Source of the spring: Catto, Soft
+# Constraints, GDC 2011.
 
 
 @subkernel
@@ -81,16 +81,16 @@ def add_demands(
     # write
     motions_inout,
 ):
-    """Write to both motions of each constraint the square of the substeps that it asks for, where it is greater, and
-    whether its load would need more than these `substeps` and than a load may ask for.
+    """Write to both motions of each constraint the square of the substeps that it needs, if it is greater.
 
-    blocks: so many blocks of lanes, see lanes.py; rate, rate_still: that square per speed that the impulses of the step
-    give [s/px], between bodies and with what cannot be pushed, where nothing grips firmer (see Pace); most_by_load,
-    most: the most substeps that a load may ask for, and what leans. O(constraints).
+    Also write whether its load would need more than these `substeps` and than a load may take. blocks: so many blocks
+    of lanes, see lanes.py. rate, rate_still: that square per speed that the impulses of the step give [s/px], between
+    bodies and against static ones, without firmness (see Pace). most_by_load, most: the most substeps of a load, and of
+    a leaning stack. O(constraints).
     """
     reach = max(substeps, most_by_load)
     reach_squared = float(reach * reach)
-    # Half of their square asks for as many, and lets what took twice as many, because it leant, come down to them.
+    # Half of the square keeps the present number, and lets a lean that took twice as many come down to it.
     by_load = 0.5 * float(most_by_load * most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
@@ -106,7 +106,8 @@ def add_demands(
                 least = min(demand, other)
                 demand = max(demand, other)
                 if c[at.FIRMNESS + lane] < 0.0 and least > 0.0:
-                    # What stands alone on an edge leans by the difference, and has but the rest of the face to lean.
+                    # A body on one sole support leans by the difference of its points, and the rest of the face is its
+                    # margin.
                     lean = min(demand / least, LEAN)
             overloaded = demand > reach_squared
             demand = min(lean * min(demand, by_load), float(most * most))
@@ -132,8 +133,9 @@ def choose_substeps(
     # write
     motions_inout,
 ):
-    """Write how many substeps each of the members would take after a step of so many. Returns whether all of them are
-    content with these. See ask_by_load. O(members)."""
+    """Write the substeps that each island body needs after a step of so many. Return whether all need the present
+    number. See ask_by_load. O(members).
+    """
     content = True
     for k in range(len(members)):
         i = members[k]
@@ -171,9 +173,11 @@ def share_substeps(
     # write
     motions_inout,
 ):
-    """Give each member the most that one of its island would take, after a step of so many; in a heap no more than a
-    load may ask for, since something leans there all the time. Returns how many islands are told to have asked for too
-    many. parents (motions) int32: the root of each one's island, its lowest row. O(members)."""
+    """Give each body the most substeps that a body of its island needs, after a step of so many.
+
+    In a heap it is no more than a load may take, since some body leans there all the time. Return the number of islands
+    that are reported as capped. parents (motions) int32: the root of each island, its lowest row. O(members).
+    """
     for k in range(len(members)):
         m = motions_inout[members[k]]
         root = motions_inout[parents[members[k]]]
@@ -215,12 +219,11 @@ def ask_by_load(
     joined_inout,
     motions_inout,
 ):
-    """Write the substeps that the islands of the members are to take after a step of so many. Returns how many islands
-    have asked for more than they may for as long as `patience` [s], which is none of an impact. See add_demands.
-    O(members + constraints).
+    """Write the substeps of the islands after a step of so many.
 
-    members: rows of MOTION, ascending; degrees, joins, edges, constraints, parents_inout, joined_inout: see find_roots,
-    Plan: who is of which island is asked only where they differ.
+    Return the number of islands that needed more than they may take for `patience` [s], which leaves out impacts.
+    members: rows of MOTION, ascending. degrees, joins, edges, constraints, parents_inout, joined_inout: see find_roots
+    and Plan. Islands are found only if the bodies differ. See add_demands. O(members + constraints).
     """
     add_demands(blocks, count, rate, rate_still, substeps, most_by_load, most, motions_inout)
     if choose_substeps(members, degrees, substeps, least, most_by_load, most, dt, patience, motions_inout):
@@ -234,7 +237,7 @@ def ask_by_load(
 def ask_for_substeps(
     state: StepState, motions: Motions, selection: Selection, group: Group, blocks: Blocks, count: int
 ) -> None:
-    """Have the bodies of a group ask for what their contacts, so many blocks of them, need in the next step."""
+    """Estimate the substeps of the next step from the contacts of a group, so many blocks."""
     plan = selection.plan
     rate = demand_rate(state)
     state.work[CAP_HITS] += ask_by_load(
